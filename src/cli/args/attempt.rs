@@ -2,27 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::{JobLimits, MeshUnit, PatternUnit, Sex};
-
-/// Simulator of a trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TrySimulator {
-    /// Physics alone.
-    Fem,
-    /// The pattern's size first.
-    Hybrid,
-}
-
-impl From<TrySimulator> for study::Simulator {
-    fn from(simulator: TrySimulator) -> Self {
-        match simulator {
-            TrySimulator::Fem => Self::Fem,
-            TrySimulator::Hybrid => Self::Hybrid,
-        }
-    }
-}
+use super::{JobLimits, MeshUnit, PatternUnit, Sex, TrySimulator};
 
 /// Arguments of `try`.
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::attempt::TrySimulator;
+use super::TrySimulator;
 
 /// Arguments of `fit`.
 #[derive(Debug, Args)]

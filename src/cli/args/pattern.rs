@@ -2,36 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::{MeshUnit, SeamCommand, Sex};
 use clap::{Args, Subcommand, ValueEnum};
-use geom::units::from_mm;
-use study::patterns::Unit;
-use study::seams::Asking;
+
+use super::{CutFiles, PatternUnit, SeamCommand, SewFiles};
 use study::seams::pattern_files::Standard;
-
-/// Unit of a pattern whose file names none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PatternUnit {
-    /// Millimetre.
-    Mm,
-    /// Centimetre.
-    Cm,
-    /// Inch.
-    In,
-    /// Metre.
-    M,
-}
-
-impl From<PatternUnit> for Unit {
-    fn from(unit: PatternUnit) -> Self {
-        match unit {
-            PatternUnit::Mm => Self::Mm,
-            PatternUnit::Cm => Self::Cm,
-            PatternUnit::In => Self::In,
-            PatternUnit::M => Self::M,
-        }
-    }
-}
 
 /// Standard by which a DXF file is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -197,55 +171,6 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
-}
-
-/// A pattern, its seam file and the body that it is sewn on.
-#[derive(Debug, Args)]
-pub struct SewFiles {
-    /// DXF file, folder of them, or GarmentCode JSON with its seams.
-    pub file: PathBuf,
-    /// Seam file; where there is none yet it is written as `propose` says. By default beside the pattern: X.seams.toml.
-    #[arg(long, value_name = "FILE")]
-    pub seams: Option<PathBuf>,
-    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML, .smis, .vit, GarmentCode .yaml).
-    #[arg(long, value_name = "FILE")]
-    pub body: PathBuf,
-    /// Unit of the mesh; by default told from its height.
-    #[arg(long, value_enum)]
-    pub body_unit: Option<MeshUnit>,
-    /// Sex of the body; by default told from its girths.
-    #[arg(long, value_enum)]
-    pub sex: Option<Sex>,
-    #[command(flatten)]
-    pub cut: CutFiles,
-    /// Sew again whenever the seam file has changed, until Ctrl-C.
-    #[arg(long)]
-    pub watch: bool,
-    /// Picture to write.
-    #[arg(long, short, value_name = "FILE", default_value = "sewn.png")]
-    pub output: PathBuf,
-}
-
-/// What is said about a pattern that is to be sewn as proposed.
-#[derive(Debug, Args)]
-pub struct CutFiles {
-    /// Size, where a file holds several.
-    #[arg(long, value_name = "NAME")]
-    pub size: Option<String>,
-    /// Unit of the files, where they name none.
-    #[arg(long, value_enum)]
-    pub unit: Option<PatternUnit>,
-    /// Seam allowance of pieces that have no sew line.
-    #[arg(long, value_name = "MM", default_value_t = 0.0)]
-    pub allowance_mm: f64,
-}
-
-impl CutFiles {
-    /// What a proposal is asked for, with these answers to its questions.
-    pub fn asking<'a>(&'a self, answers: &'a [(usize, char)]) -> Asking<'a> {
-        let (size, unit) = (self.size.as_deref(), self.unit.map(Unit::from));
-        Asking { size, unit, allowance_m: from_mm(self.allowance_mm), answers }
-    }
 }
 
 /// What is said about a pattern beside its file.

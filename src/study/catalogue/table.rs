@@ -10,6 +10,7 @@ use crate::catalogue::{Part, check_name};
 use crate::error::{Problem, nearest};
 use crate::spec::fields::{Entry, Given, filled, keys};
 use crate::spec::file::Placed;
+use geom::units::significant;
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
@@ -34,7 +35,9 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Ve
         let line = error.position().map(|position| position.line() as usize);
         vec![Problem { line, ..Problem::of(path, error.to_string()) }]
     };
-    let header = reader.headers().map_err(unreadable)?.clone();
+    let columns: Vec<Column> =
+        reader.headers().map_err(unreadable)?.iter().map(|text| Column::read::<T>(part, text)).collect();
+    let header = StringRecord::from_iter(columns.iter().map(|column| column.key.as_str()));
     let mut problems = header_problems::<T>(path, part, &header);
     if !problems.is_empty() {
         return Err(problems);
@@ -44,7 +47,7 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Ve
     for record in reader.records() {
         let record = record.map_err(unreadable)?;
         let line = record.position().map_or(0, |position| position.line() as usize);
-        match row(part, &header, &record) {
+        match row(part, &columns, &header, &record) {
             Ok((name, _)) if !names.insert(name.clone()) => {
                 problems.push(Problem::at(path, line, format!("{part} `{name}` is there twice; names must differ")));
             }
@@ -53,6 +56,56 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Ve
         }
     }
     if problems.is_empty() { Ok(entries) } else { Err(problems) }
+}
+
+/// A column: the key that its heading stands for, and what its numbers are multiplied by to be in the key's unit.
+struct Column {
+    key: String,
+    factor: f64,
+}
+
+/// Units of headings: their names, the unit of keys that they stand for, and what a number in them is of it.
+const UNITS: [(&str, &str, f64); 9] = [
+    ("mm", "mm", 1.0),
+    ("cm", "mm", 10.0),
+    ("m", "mm", 1e3),
+    ("in", "mm", 25.4),
+    ("inch", "mm", 25.4),
+    ("inches", "mm", 25.4),
+    ("kg", "kg", 1.0),
+    ("lb", "kg", 0.453_592_37),
+    ("lbs", "kg", 0.453_592_37),
+];
+
+impl Column {
+    /// Of a heading: a key, or one in words and another unit, such as `Chest girth (cm)` or `chest_girth_cm`.
+    fn read<T: Entry>(part: Part, heading: &str) -> Self {
+        let accepted = keys::<T>();
+        let as_it_is = |key: &str| Self { key: key.to_owned(), factor: 1.0 };
+        if accepted.contains(&heading) || is_name(part, heading) {
+            return as_it_is(heading);
+        }
+        let words: String = heading.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
+        let words: Vec<&str> = words.split_whitespace().collect();
+        let plain = words.join("_");
+        if accepted.contains(&plain.as_str()) || is_name(part, &plain) || IGNORED.contains(&plain.as_str()) {
+            return as_it_is(&plain);
+        }
+        let found = words.split_last().and_then(|(last, rest)| {
+            let (_, unit, factor) = UNITS.iter().find(|(name, ..)| name == last)?;
+            let key = format!("{}_{unit}", rest.join("_"));
+            accepted.contains(&key.as_str()).then_some(Self { key, factor: *factor })
+        });
+        found.unwrap_or_else(|| as_it_is(heading))
+    }
+
+    /// A cell in the key's unit; what is no number is left as it is.
+    fn value(&self, cell: &str) -> String {
+        match cell.parse::<f64>() {
+            Ok(number) if self.factor != 1.0 => significant(number * self.factor, 9),
+            _ => cell.to_owned(),
+        }
+    }
 }
 
 /// Whether a column holds the name.
@@ -82,15 +135,21 @@ fn header_problems<T: Entry>(path: &Path, part: Part, header: &StringRecord) -> 
 }
 
 /// Name and entry of a row.
-fn row<T: Entry>(part: Part, header: &StringRecord, record: &StringRecord) -> Result<(String, T), Vec<String>> {
+fn row<T: Entry>(
+    part: Part,
+    columns: &[Column],
+    header: &StringRecord,
+    record: &StringRecord,
+) -> Result<(String, T), Vec<String>> {
     if record.len() != header.len() {
         return Err(vec![format!("{} cells; accepted: {}, as in the first line", record.len(), header.len())]);
     }
     let cells = || header.iter().zip(record.iter());
     let name = cells().find(|(column, _)| is_name(part, column)).map_or("", |(_, cell)| cell);
     let given: Vec<Given> = cells()
-        .filter(|(column, cell)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
-        .map(|(column, cell)| (column.to_owned(), cell.to_owned()))
+        .zip(columns)
+        .filter(|((column, cell), _)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
+        .map(|((column, cell), of)| (column.to_owned(), of.value(cell)))
         .collect();
     let placed = |(key, problem): Given| match header.iter().position(|column| column == key) {
         Some(k) => format!("column {}: {problem}", k + 1),

@@ -5,6 +5,8 @@ use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
 use crate::overlays::action_list::List;
 use crate::overlays::commands::CommandLog;
+use crate::overlays::things::Thing;
+use crate::overlays::tour::Tour;
 use crate::screens;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
@@ -48,13 +50,40 @@ impl State {
             }
             Action::Mouse => return self.take_mouse(),
             Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
-            Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings))),
+            Action::Palette => {
+                let things = Thing::all(self.data.as_deref());
+                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings).and(things)));
+            }
             Action::Write => return self.write(),
+            Action::Tour => self.tour(0),
             Action::Commands => self.overlay = Some(Overlay::Commands(CommandLog::of(&self.told.commands))),
             Action::Redraw => return vec![Effect::Clear],
             _ => {}
         }
         vec![]
+    }
+
+    /// Shows a step of the tour; after the last it ends.
+    pub fn tour(&mut self, step: usize) {
+        if self.is_first_start() {
+            return self.say("the tour needs results: Enter runs the quickstart");
+        }
+        let Some(tour) = Tour::at(step) else { return self.say("that was the tour; ? lists all keys") };
+        self.show(tour.screen());
+        self.overlay = Some(Overlay::Tour(tour));
+    }
+
+    /// Goes to something by its name.
+    pub fn look_at(&mut self, thing: Thing) {
+        self.show(thing.screen());
+        self.nav.filters[thing.screen() as usize].clear();
+        self.nav.second_pane[thing.screen() as usize] = false;
+        match thing {
+            Thing::Study(name) => self.open_study(name),
+            Thing::Subject(name) => self.subjects.chosen = Some(name),
+            Thing::Size(style, size) => self.styles.selected = Some((style, size)),
+            Thing::Fabric(name) => self.fabrics.chosen = Some(name),
+        }
     }
 
     /// The movement of an action, if it is one.

@@ -89,6 +89,14 @@ impl State {
             Outcome::Closed => vec![],
             Outcome::Action(action) => self.act(action),
             Outcome::Effects(effects) => effects,
+            Outcome::Thing(thing) => {
+                self.look_at(thing);
+                vec![]
+            }
+            Outcome::Tour(step) => {
+                self.tour(step);
+                vec![]
+            }
             Outcome::Query(text) => {
                 self.take_query(&text);
                 vec![]

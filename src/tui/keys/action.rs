@@ -160,6 +160,8 @@ pub enum Action {
     Palette,
     /// Opens the query, seams or study in an editor.
     Write,
+    /// Shows the screens in turn, with a few words on each.
+    Tour,
     /// Lists what was done here, as commands.
     Commands,
     /// Draws everything anew.

@@ -344,6 +344,7 @@ pub const BINDINGS: &[Binding] = &[
         "",
         "Edit query, seams or study file in $EDITOR",
     ),
+    bind(Action::Tour, "tour", &[ch('T')], &[], "", "Six screens on the results, a few words on each"),
     bind(Action::Commands, "commands", &[ch('L')], &[], "", "What was done here, as commands to copy"),
     bind(Action::Redraw, "redraw", &[ctrl('l')], &[], "", "Draw everything anew"),
     bind(Action::Ascii, "ascii", &[key(KeyCode::F(2))], &[], "", "Plain ASCII instead of lines and signs, or back"),

@@ -8,17 +8,29 @@ use ratatui::widgets::{Clear, Paragraph};
 
 use crate::keys::binding::{Binding, search};
 use crate::keys::screen::Screen;
+use crate::overlays::things::Thing;
 use crate::widgets::layout::middle;
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, left};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 
+/// A row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Row<'a> {
+    /// An action.
+    Action(&'static Binding),
+    /// Something to go to.
+    Thing(&'a Thing),
+}
+
 /// A list that what is typed narrows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
-    /// All that can be in it.
+    /// The actions.
     pub bindings: &'static [Binding],
+    /// What can be gone to.
+    pub things: Vec<Thing>,
     /// What is typed.
     pub text: String,
     /// Row selected.
@@ -29,13 +41,30 @@ impl List {
     /// All of a table of keys.
     #[must_use]
     pub fn of(bindings: &'static [Binding]) -> Self {
-        Self { bindings, text: String::new(), row: 0 }
+        Self { bindings, things: vec![], text: String::new(), row: 0 }
     }
 
-    /// Its rows: the keys of the table order where nothing is typed, the best match first otherwise.
+    /// The same with what can be gone to.
     #[must_use]
-    pub fn rows(&self) -> Vec<&'static Binding> {
-        if self.text.is_empty() { self.bindings.iter().collect() } else { search(self.bindings, &self.text) }
+    pub fn and(self, things: Vec<Thing>) -> Self {
+        Self { things, ..self }
+    }
+
+    /// Its rows: the keys in the order of the table where nothing is typed; otherwise actions whose names begin with it, what has such a
+    /// name, and actions that have it anywhere.
+    #[must_use]
+    pub fn rows(&self) -> Vec<Row<'_>> {
+        let text = self.text.trim();
+        if text.is_empty() {
+            return self.bindings.iter().map(Row::Action).collect();
+        }
+        let begins = |binding: &&Binding| binding.name.starts_with(&text.to_lowercase());
+        let (named, others): (Vec<_>, Vec<_>) = search(self.bindings, text).into_iter().partition(begins);
+        let mut things: Vec<(usize, &Thing)> =
+            self.things.iter().filter_map(|thing| Some((thing.distance(text)?, thing))).collect();
+        things.sort_by_key(|(distance, _)| *distance);
+        let things = things.into_iter().map(|(_, thing)| Row::Thing(thing));
+        named.into_iter().map(Row::Action).chain(things).chain(others.into_iter().map(Row::Action)).collect()
     }
 
     /// Edits what is typed, or goes through the rows.
@@ -64,24 +93,32 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: 
     let block = pane(theme, title, true).title_bottom(Line::styled(place_of_keys, theme.legend()));
     let inner = block.inner(place);
     let first = first_shown(list.row, rows.len(), usize::from(inner.height));
-    let line = |(k, binding): (usize, &&Binding)| {
-        let line = line(list, theme, screen, binding, usize::from(inner.width));
+    let line = |(k, row): (usize, &Row<'_>)| {
+        let line = line(list, theme, screen, *row, usize::from(inner.width));
         if k == list.row { line.patch_style(theme.selected()) } else { line }
     };
     let mut lines: Vec<Line<'_>> =
         rows.iter().enumerate().skip(first).take(usize::from(inner.height)).map(line).collect();
     if lines.is_empty() {
-        lines.push(Line::raw("no action of that name or key"));
+        lines.push(Line::raw("nothing of that name or key"));
     }
     frame.render_widget(Clear, place);
     frame.render_widget(Paragraph::new(lines).block(block), place);
 }
 
-/// Keys, name and help of an action; dim where it does nothing on this screen.
-fn line(list: &List, theme: Theme, screen: Screen, binding: &Binding, columns: usize) -> Line<'static> {
+/// Keys, name and help of an action, dim where it does nothing on this screen; or what something is, and its name.
+fn line(list: &List, theme: Theme, screen: Screen, row: Row<'_>, columns: usize) -> Line<'static> {
     let longest = |field: fn(&Binding) -> usize| list.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| text::width(&b.keys_text())) + 1;
     let name = longest(|b| b.name.len()) + 1;
+    let binding = match row {
+        Row::Action(binding) => binding,
+        Row::Thing(thing) => {
+            let (what, name) = thing.words();
+            let name = text::shortened(&name, columns.saturating_sub(keys));
+            return Line::from(vec![Span::styled(left(what, keys), theme.good()), Span::raw(name)]);
+        }
+    };
     let help = text::shortened(binding.help, columns.saturating_sub(keys + name));
     let line = Line::from(vec![
         Span::styled(left(&binding.keys_text(), keys), theme.bold()),

@@ -9,6 +9,8 @@ pub mod path_prompt;
 pub mod saved_queries;
 pub mod study_form;
 pub mod style_form;
+pub mod things;
+pub mod tour;
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -18,7 +20,7 @@ use ratatui::widgets::{Clear, Paragraph, Wrap};
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::overlays::action_list::List;
+use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
 use crate::overlays::entry_form::Form;
 use crate::overlays::outcome::Outcome;
@@ -26,6 +28,7 @@ use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
 use crate::overlays::study_form::StudyForm;
 use crate::overlays::style_form::StyleForm;
+use crate::overlays::tour::Tour;
 use crate::widgets::layout::middle;
 use crate::widgets::lists::pane;
 use crate::widgets::theme::Theme;
@@ -52,6 +55,8 @@ pub enum Overlay {
     Queries(QueryList),
     /// The log of commands.
     Commands(CommandLog),
+    /// The tour.
+    Tour(Tour),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -79,6 +84,7 @@ impl Overlay {
             Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
             Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
             Self::Commands(log) => commands::draw(frame, area, log, theme),
+            Self::Tour(tour) => tour::draw(frame, area, *tour, theme),
             Self::Question { text, .. } => draw_question(frame, area, text, theme),
             Self::Filter(_) => {}
         }
@@ -89,9 +95,11 @@ impl Overlay {
         let leaves = event.code == KeyCode::Esc || is_ctrl_c(event);
         match self {
             Self::Help(_) | Self::Palette(_) if leaves => Outcome::Closed,
-            Self::Help(list) | Self::Palette(list) if event.code == KeyCode::Enter => {
-                list.rows().get(list.row).map_or(Outcome::Open, |binding| Outcome::Action(binding.action))
-            }
+            Self::Help(list) | Self::Palette(list) if event.code == KeyCode::Enter => match list.rows().get(list.row) {
+                Some(Row::Action(binding)) => Outcome::Action(binding.action),
+                Some(Row::Thing(thing)) => Outcome::Thing((*thing).clone()),
+                None => Outcome::Open,
+            },
             Self::Help(list) | Self::Palette(list) => {
                 list.edit(event);
                 Outcome::Open
@@ -99,7 +107,8 @@ impl Overlay {
             Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
                 Outcome::Closed
             }
-            Self::Commands(_) if leaves => Outcome::Closed,
+            Self::Commands(_) | Self::Tour(_) if leaves => Outcome::Closed,
+            Self::Tour(tour) => tour.key(event),
             Self::Commands(log) => log.key(event),
             Self::StudyForm(form) => form.key(event),
             Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),

@@ -2,6 +2,7 @@
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::things::Thing;
 
 /// What a key did to an overlay.
 #[derive(Debug, PartialEq)]
@@ -12,6 +13,10 @@ pub enum Outcome {
     Closed,
     /// It closes and an action follows.
     Action(Action),
+    /// It closes and something is gone to.
+    Thing(Thing),
+    /// A step of the tour follows.
+    Tour(usize),
     /// It closes and a query goes into the editor.
     Query(String),
     /// It closes and effects follow.

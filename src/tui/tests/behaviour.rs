@@ -247,3 +247,33 @@ fn data_that_shrinks_leaves_nothing_selected_that_is_gone() {
     assert!(bench.state.job().is_none());
     assert!(bench.press("jkGg145q").screen().contains("no study yet"));
 }
+
+#[test]
+fn the_palette_goes_to_what_has_a_name() {
+    let mut bench = Bench::example(80, 24);
+    let name = bench.state.data.as_ref().expect("read").subjects[1].name.clone();
+    bench.press(&format!(":subject {name}"));
+    assert!(bench.screen().contains(&name), "{}", bench.screen());
+    bench.press("<Enter>");
+    assert!(bench.state.nav.screen == Screen::Subjects && bench.state.subject().is_some_and(|row| row.name == name));
+    bench.press(":tshirtM<Enter>");
+    assert!(bench.state.nav.screen == Screen::Styles && bench.state.size_row().is_some_and(|row| row.size == "M"));
+}
+
+#[test]
+fn the_tour_shows_six_screens_and_ends() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("T");
+    let mut seen = vec![];
+    for step in 1..=6 {
+        assert!(bench.screen().contains(&format!("tour, {step} of 6")), "{}", bench.screen());
+        seen.push(bench.state.nav.screen);
+        bench.press("<Enter>");
+    }
+    assert!(bench.state.overlay.is_none() && bench.status().contains("that was the tour"));
+    assert_eq!(seen, [Screen::Study, Screen::Fit, Screen::Results, Screen::Compare, Screen::Sql, Screen::Reports]);
+    assert!(bench.press("T<Enter><Left>").screen().contains("tour, 1 of 6"));
+    assert!(bench.press("<Esc>").state.overlay.is_none());
+    let mut first = Bench::new(80, 24, fixture::empty());
+    assert!(first.press("T").status().contains("needs results"));
+}

@@ -22,6 +22,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         (None, true) => vec![
             Line::styled("Enter  run the quickstart", bold),
             Line::raw("       A small study with all it needs; results appear here as they come."),
+            Line::raw("       T then shows round: six screens, a few words on each."),
             Line::raw(""),
             Line::styled("a      make a study of your own", bold),
             Line::raw("       Choose subjects, styles, fabric, simulators; it writes a study.toml."),

@@ -151,7 +151,13 @@ impl State {
             self.say("there is one study only");
             return;
         }
-        self.focus.study = Some(data.studies[next].name.clone());
+        let name = data.studies[next].name.clone();
+        self.open_study(name);
+    }
+
+    /// Looks at a study.
+    pub fn open_study(&mut self, name: String) {
+        self.focus.study = Some(name);
         (self.focus.garment, self.focus.job, self.study.place) = (None, None, Place::default());
     }
 

@@ -59,13 +59,6 @@ impl State {
         }
     }
 
-    /// Asks what is to be decided, from a place of the list on.
-    pub fn ask_from(&mut self, at: usize) {
-        if self.may_sew() {
-            self.ask_about(Asking { at, own: None, goes_on: true });
-        }
-    }
-
     /// Asks about the selected edge, or its piece.
     pub fn ask_own(&mut self, own: fn(EdgeAt) -> Own) {
         if self.may_sew() {
@@ -93,7 +86,7 @@ impl State {
             self.ask_about(Asking { at: asking.at.min(left - 1), own: None, goes_on: true });
         } else {
             self.styles.asking = None;
-            if left == 0 {
+            if left == 0 && !self.unsaved().is_empty() {
                 self.say("all is decided: w saves the seams, t tries the garment on");
             }
         }

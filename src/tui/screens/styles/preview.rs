@@ -70,6 +70,12 @@ impl State {
 
     /// Takes in a garment that was sewn coarsely.
     pub fn take_preview(&mut self, request: PreviewRequest, outcome: Result<Previewed, String>) {
+        if request.care == Care::Trial {
+            match &outcome {
+                Ok(seen) => self.say(format!("tried on by {} in {:.1} s", seen.subject, seen.took_ms as f64 / 1e3)),
+                Err(error) => self.complain(error.clone()),
+            }
+        }
         self.styles.preview.seen = Some((request, outcome));
     }
 

@@ -6,7 +6,7 @@ use crate::messages::requests::Command;
 use crate::messages::seams::{LayoutRequest, SeamTask};
 use crate::messages::taught;
 use crate::screens::state::State;
-use crate::screens::styles::state::{EdgeAt, Edited};
+use crate::screens::styles::state::{Asking, EdgeAt, Edited};
 use study::files::SourceFile;
 use study::seams::{DeskSeam, SeamEdit, SeamStep};
 use study::{Part, SizeRow};
@@ -111,11 +111,15 @@ impl State {
         let had_focus = self.in_second_pane();
         self.show(Screen::Styles);
         self.nav.second_pane[Screen::Styles as usize] = true;
-        let is_decided = self.layout().and_then(Result::ok).is_none_or(|layout| layout.out.undecided.is_empty());
+        let is_decided = self.layout().is_some_and(|layout| layout.is_ok_and(|layout| layout.out.undecided.is_empty()));
         if had_focus {
             self.begin_asking();
         } else if !is_decided {
-            self.ask_from(0);
+            // What is not laid out yet is asked once it is.
+            self.styles.asking = Some(Asking { at: 0, own: None, goes_on: true });
+            if self.layout().is_some() {
+                self.go_on_asking();
+            }
         }
     }
 

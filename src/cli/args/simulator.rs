@@ -1,0 +1,21 @@
+//! Simulators by name.
+
+use clap::ValueEnum;
+
+/// Simulator of a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TrySimulator {
+    /// Physics alone.
+    Fem,
+    /// The pattern's size first.
+    Hybrid,
+}
+
+impl From<TrySimulator> for study::Simulator {
+    fn from(simulator: TrySimulator) -> Self {
+        match simulator {
+            TrySimulator::Fem => Self::Fem,
+            TrySimulator::Hybrid => Self::Hybrid,
+        }
+    }
+}

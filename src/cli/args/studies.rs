@@ -1,0 +1,79 @@
+//! Arguments of `toile study`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::{DraftStyle, Sex, SubjectValues, TrySimulator};
+
+/// A study by its folder, file or name.
+#[derive(Debug, Args)]
+pub struct StudyPath {
+    /// Folder of the study, or its study.toml.
+    pub study: PathBuf,
+}
+
+/// Commands on study files.
+#[derive(Debug, Subcommand)]
+pub enum StudyCommand {
+    /// Start a study: a folder with a study.toml that says what may be in it and drafted patterns, or what the catalogue has.
+    New {
+        /// Folder to make.
+        folder: PathBuf,
+        /// Style to draft.
+        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt, conflicts_with_all = ["wear", "subject"])]
+        style: DraftStyle,
+        /// Sizes of the catalogue, or of drafted styles, that it wears; its jobs are queued. May be given several times.
+        #[arg(long, value_name = "STYLE/SIZE", requires = "subject")]
+        wear: Vec<String>,
+        /// Who of the catalogue wears them; may be given several times.
+        #[arg(long, value_name = "NAME", requires = "wear")]
+        subject: Vec<String>,
+        /// Fabric of the catalogue.
+        #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+        fabric: String,
+        /// Simulators; may be given twice.
+        #[arg(long, value_enum, default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
+        sim: Vec<TrySimulator>,
+    },
+    /// Check a study file and everything it names: every problem at once, with its line.
+    Check(StudyPath),
+    /// Print [[subject]] tables of people who stand for a population, drawn from a published survey [Gordon 2014].
+    Population {
+        /// How many of each sex; more than 500 are people as they are drawn.
+        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        bodies: u32,
+        /// Only of this sex.
+        #[arg(long, value_enum)]
+        sex: Option<Sex>,
+        /// People drawn of each sex, of whom up to 500 are chosen.
+        #[arg(long, default_value_t = 5000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
+        people: u32,
+        /// Seed of the draw.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Draw which size fits whom: an SVG picture of all subjects of a study.
+    Sizes {
+        /// Name of the study, its folder, or its study.toml.
+        study: PathBuf,
+        /// SVG file to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// Who of a study is most like somebody, and the results there are of them already.
+    Nearest {
+        /// Name of the study, its folder, or its study.toml.
+        study: PathBuf,
+        #[command(flatten)]
+        subject: SubjectValues,
+    },
+    /// Write a folder that reproduces a study elsewhere: what it takes from the catalogue is in it.
+    Export {
+        /// Folder of the study, or its study.toml.
+        study: PathBuf,
+        /// Folder to write to.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+    },
+}

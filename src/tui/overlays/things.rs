@@ -1,0 +1,88 @@
+//! What there is by name, for the palette to go to: studies, subjects, styles, fabrics.
+
+use crate::keys::screen::Screen;
+use crate::messages::snapshot::Snapshot;
+
+/// Something with a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Thing {
+    /// A study.
+    Study(String),
+    /// A subject of the catalogue.
+    Subject(String),
+    /// A size of a style.
+    Size(String, String),
+    /// A fabric.
+    Fabric(String),
+}
+
+impl Thing {
+    /// All that were read.
+    #[must_use]
+    pub fn all(data: Option<&Snapshot>) -> Vec<Self> {
+        let Some(data) = data else { return vec![] };
+        let studies = data.studies.iter().map(|row| Self::Study(row.name.clone()));
+        let subjects = data.subjects.iter().map(|row| Self::Subject(row.name.clone()));
+        let sizes = data.sizes.iter().map(|row| Self::Size(row.style.clone(), row.size.clone()));
+        let fabrics = data.fabrics.iter().map(|row| Self::Fabric(row.fabric.name.clone()));
+        studies.chain(subjects).chain(sizes).chain(fabrics).collect()
+    }
+
+    /// What it is, and its name.
+    #[must_use]
+    pub fn words(&self) -> (&'static str, String) {
+        match self {
+            Self::Study(name) => ("study", name.clone()),
+            Self::Subject(name) => ("subject", name.clone()),
+            Self::Size(style, size) => ("style", format!("{style} {size}")),
+            Self::Fabric(name) => ("fabric", name.clone()),
+        }
+    }
+
+    /// The screen that shows it.
+    #[must_use]
+    pub fn screen(&self) -> Screen {
+        match self {
+            Self::Study(_) => Screen::Study,
+            Self::Subject(_) => Screen::Subjects,
+            Self::Size(..) => Screen::Styles,
+            Self::Fabric(_) => Screen::Fabrics,
+        }
+    }
+
+    /// How far its words are from a text that has letters of them in order, fewer letters between being nearer; `None` where it has not.
+    #[must_use]
+    pub fn distance(&self, text: &str) -> Option<usize> {
+        let (what, name) = self.words();
+        let words: Vec<char> = format!("{what} {name}").to_lowercase().chars().collect();
+        let wanted: Vec<char> = text.to_lowercase().chars().filter(|letter| !letter.is_whitespace()).collect();
+        let first = *wanted.first()?;
+        let starts = (0..words.len()).filter(|start| words[*start] == first);
+        let from = |start: usize| {
+            let mut at = start;
+            for letter in &wanted[1..] {
+                at = at + 1 + words[at + 1..].iter().position(|other| other == letter)?;
+            }
+            Some(at - start + 1 - wanted.len())
+        };
+        starts.filter_map(from).min()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn things_are_found_by_letters_in_order() {
+        let check =
+            |thing: Thing, text: &str, expect: Option<usize>| assert_eq!(thing.distance(text), expect, "{text}");
+        check(Thing::Study("quickstart".into()), "quick", Some(0));
+        check(Thing::Study("quickstart".into()), "qst", Some(4));
+        check(Thing::Subject("male-ii".into()), "male ii", Some(1));
+        check(Thing::Subject("male-ii".into()), "subject m", Some(0));
+        check(Thing::Size("polo".into(), "50".into()), "polo50", Some(1));
+        check(Thing::Fabric("denim_raw".into()), "xyz", None);
+        check(Thing::Fabric("denim_raw".into()), "", None);
+    }
+}
