@@ -269,7 +269,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.wait_for("✓1");
     seat.press("L");
     let told = commands(&seat.wait_for("toile run "));
-    seat.press("<Esc>:quit<Enter>");
+    seat.press("q:quit<Enter>");
     assert_eq!(seat.end().code(), Some(0));
 
     let again = Place::new();

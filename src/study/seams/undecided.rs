@@ -17,7 +17,8 @@ const OFFERED: usize = 4;
 const FAR: f64 = 0.25;
 const UNNOTCHED: f64 = 0.15;
 const OF_TWO: f64 = 0.05;
-/// What an edge of the same piece is as unlikely by, where the piece does not go round by itself as a sleeve does.
+/// What an edge is as unlikely by whose piece does not meet the other: the same piece, where it does not go round by itself as a sleeve
+/// does, and the other sleeve.
 const OWN: f64 = 0.3;
 /// Difference of lengths from which two edges are no partners, share of the longer, and of places of notches that match.
 const UNLIKE: f64 = 0.4;
@@ -204,7 +205,7 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
             _ => 0.0,
         };
         let two = if side.len() > 1 { OF_TWO } else { 0.0 };
-        let own = if side.iter().any(|at| at.0 == edge.0) && !goes_round(desk.pieces[edge.0].role) { OWN } else { 0.0 };
+        let own = if side.iter().all(|at| may_meet(desk, edge.0, at.0)) { 0.0 } else { OWN };
         (unlike <= UNLIKE).then_some(unlike + FAR * away + notched + two + own)
     };
     let pairs = free.iter().flat_map(|one| {
@@ -218,12 +219,14 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
 }
 
-/// Whether a piece may be sewn to itself: what goes round a limb or the waist in one piece.
-fn goes_round(role: Role) -> bool {
-    matches!(
-        role,
-        Role::SleeveRight | Role::SleeveLeft | Role::LegRight | Role::LegLeft | Role::Waistband | Role::Other
-    )
+/// Whether two pieces may be sewn to each other: one piece to itself where it goes round a limb or the waist, sleeves not to the other arm's.
+fn may_meet(desk: &Desk, one: usize, other: usize) -> bool {
+    use Role::{LegLeft, LegRight, Other, SleeveLeft, SleeveRight, Waistband};
+    let [role, partner] = [one, other].map(|piece| desk.pieces[piece].role);
+    if one == other {
+        return matches!(role, SleeveRight | SleeveLeft | LegRight | LegLeft | Waistband | Other);
+    }
+    !matches!((role, partner), (SleeveRight, SleeveLeft) | (SleeveLeft, SleeveRight))
 }
 
 /// Size of all pieces as they lie, mm.
@@ -238,9 +241,23 @@ fn extent_mm(desk: &Desk) -> f64 {
 
 /// Distance of the middles of two edges as they lie, mm.
 fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
-    let middle = |edge: &DeskEdge| edge.line_mm.get(edge.line_mm.len() / 2).copied().unwrap_or_default();
-    let ([a, b], [c, d]) = (middle(one), middle(other));
+    let ([a, b], [c, d]) = (middle_mm(one), middle_mm(other));
     (a - c).hypot(b - d)
+}
+
+/// The middle of an edge as it lies, mm.
+fn middle_mm(edge: &DeskEdge) -> [f64; 2] {
+    let mut left_mm = edge.length_mm / 2.0;
+    for pair in edge.line_mm.windows(2) {
+        let [[a, b], [c, d]] = [pair[0], pair[1]];
+        let side_mm = (c - a).hypot(d - b);
+        if side_mm > 0.0 && side_mm >= left_mm {
+            let share = left_mm / side_mm;
+            return [a + share * (c - a), b + share * (d - b)];
+        }
+        left_mm -= side_mm;
+    }
+    edge.line_mm.last().copied().unwrap_or_default()
 }
 
 /// Whether two edges have as many notches, at the same shares of their lengths either way round.

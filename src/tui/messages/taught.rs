@@ -1,5 +1,7 @@
 //! The command line that does what an action does: what is done here teaches what to type, and a log of it can be replayed.
 
+use std::path::Path;
+
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
 use crate::widgets::text::quoted;
@@ -11,13 +13,20 @@ use study::{Mode, NewStudy, Part, StyleGiven};
 pub fn command(effect: &Effect) -> Option<String> {
     match effect {
         Effect::Do(command) => of_command(command),
-        Effect::Run(Target::Study(path)) => Some(format!("toile run {}", quoted(&path.to_string_lossy()))),
+        Effect::Run(Target::Study(path)) => Some(format!("toile run {}", shown(path))),
         Effect::Run(Target::Quickstart) => Some("toile run quickstart".to_owned()),
         Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", quoted(study))),
         Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
         Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", quoted(sql))),
         _ => None,
     }
+}
+
+/// A path as a word of a command line, from the current folder where it lies in it.
+fn shown(path: &Path) -> String {
+    let here = std::env::current_dir().ok();
+    let inside = here.as_deref().and_then(|here| path.strip_prefix(here).ok());
+    quoted(&inside.unwrap_or(path).to_string_lossy())
 }
 
 fn of_command(command: &Command) -> Option<String> {
@@ -29,7 +38,7 @@ fn of_command(command: &Command) -> Option<String> {
             format!("toile {} {deed} {}{}", part_of(part), quoted(name), flags.collect::<String>())
         }
         Command::Import(part, path) => {
-            format!("toile {} import {}", part_of(part), quoted(&path.to_string_lossy()))
+            format!("toile {} import {}", part_of(part), shown(path))
         }
         Command::Remove(part, name) => format!("toile {} rm {}", part_of(part), quoted(name)),
         Command::ImportStyle(name, given) => style(name, given),
@@ -45,11 +54,11 @@ fn of_command(command: &Command) -> Option<String> {
 }
 
 fn style(name: &str, given: &StyleGiven) -> String {
-    let is_study = |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "toml");
+    let is_study = |path: &Path| path.extension().is_some_and(|ending| ending == "toml");
     if let [(None, path)] = given.patterns.as_slice()
         && is_study(path)
     {
-        return format!("toile style import {}", quoted(&path.to_string_lossy()));
+        return format!("toile style import {}", shown(path));
     }
     let mut text = format!("toile style add {}", quoted(name));
     for (size, path) in &given.patterns {
@@ -58,7 +67,7 @@ fn style(name: &str, given: &StyleGiven) -> String {
         text += &format!(" --pattern {}", quoted(&pattern));
     }
     if let Some(seams) = &given.seams {
-        text += &format!(" --seams {}", quoted(&seams.to_string_lossy()));
+        text += &format!(" --seams {}", shown(seams));
     } else if given.is_proposed {
         text += " --propose";
     }
@@ -67,7 +76,7 @@ fn style(name: &str, given: &StyleGiven) -> String {
 }
 
 fn new_study(new: &NewStudy) -> String {
-    let mut text = format!("toile study new {}", quoted(&new.folder.join(&new.name).to_string_lossy()));
+    let mut text = format!("toile study new {}", shown(&new.folder.join(&new.name)));
     new.subjects.iter().for_each(|subject| text += &format!(" --subject {}", quoted(subject)));
     for size in &new.sizes {
         text += &format!(" --wear {}", quoted(&format!("{}/{}", size.style, size.size)));

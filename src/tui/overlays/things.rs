@@ -80,7 +80,7 @@ mod tests {
         check(Thing::Study("quickstart".into()), "quick", Some(0));
         check(Thing::Study("quickstart".into()), "qst", Some(4));
         check(Thing::Subject("male-ii".into()), "male ii", Some(1));
-        check(Thing::Subject("male-ii".into()), "subject m", Some(0));
+        check(Thing::Subject("male-ii".into()), "subject m", Some(1));
         check(Thing::Size("polo".into(), "50".into()), "polo50", Some(1));
         check(Thing::Fabric("denim_raw".into()), "xyz", None);
         check(Thing::Fabric("denim_raw".into()), "", None);
