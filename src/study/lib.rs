@@ -77,7 +77,7 @@ pub use store::evidence::PUBLISHED;
 pub use store::live::{Live, LiveFrame};
 pub use store::now_ms;
 pub use store::read::JobFilter;
-pub use store::sql::{Interrupter, SavedQuery, saved_queries, saved_query};
+pub use store::sql::{Interrupter, SavedQuery, save_query, saved_queries, saved_query};
 pub use workspace::Workspace;
 
 pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, Without};

@@ -9,6 +9,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Error};
 
 use crate::error::{Result, StudyError};
+use crate::files::write_files;
 use crate::rows::{Table, Value};
 use crate::store::{Store, browse};
 
@@ -51,6 +52,19 @@ pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
     }
     let about = |sql: &str| sql.lines().next().and_then(|line| line.strip_prefix("-- ")).unwrap_or_default().to_owned();
     Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
+}
+
+/// Saves a query under a name in a folder, over one of that name.
+///
+/// # Errors
+/// When the name is none of a file, or it cannot be written.
+pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
+    if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
+        let problem = format!("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks");
+        return Err(StudyError::stage("sql")(problem));
+    }
+    write_files(folder, &[(format!("{name}.sql"), format!("{}\n", sql.trim_end()).into_bytes())]).map(drop)
 }
 
 /// The text of a saved query.

@@ -90,6 +90,8 @@ pub enum Action {
     NewStudy,
     /// Types in the query.
     EditQuery,
+    /// Saves the query under a name.
+    SaveQuery,
     /// Offers the saved queries.
     SavedQueries,
     /// Puts the query before into the editor.

@@ -56,6 +56,8 @@ pub enum QueryRequest {
     Names,
     /// The rows of a query.
     Rows(String),
+    /// A query under a name, for good.
+    Save(String, String),
     /// The rows of a query in a file.
     Export(String, PathBuf),
 }

@@ -17,6 +17,7 @@ pub fn command(effect: &Effect) -> Option<String> {
         Effect::Run(Target::Quickstart) => Some("toile run quickstart".to_owned()),
         Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", quoted(study))),
         Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
+        Effect::Query(QueryRequest::Save(_, name)) => Some(format!("# saved the query {name}")),
         Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", quoted(sql))),
         _ => None,
     }

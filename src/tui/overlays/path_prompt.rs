@@ -24,6 +24,8 @@ pub enum Purpose {
     Export(String),
     /// The files of a changed pattern to write, by their names.
     Write(Vec<(String, Vec<u8>)>),
+    /// The name under which a query is saved.
+    SaveQuery(String),
 }
 
 impl Purpose {
@@ -35,6 +37,7 @@ impl Purpose {
             Self::Import(_) => "import subjects from",
             Self::Export(_) => "write all rows of the query into",
             Self::Write(_) => "write the changed pattern, its seam file and a sheet into",
+            Self::SaveQuery(_) => "save the query as",
         }
     }
 
@@ -46,6 +49,9 @@ impl Purpose {
             Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
             Self::Export(_) => "a new file: NAME.csv or NAME.json",
             Self::Write(_) => "a folder, which is made where it is missing",
+            Self::SaveQuery(_) => {
+                "a name: NAME.sql in the folder queries beside the database; one of that name is replaced"
+            }
         }
     }
 
@@ -55,7 +61,7 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "reading…",
             Self::Import(_) => "reading, and building each body…",
-            Self::Export(_) | Self::Write(_) => "writing…",
+            Self::Export(_) | Self::Write(_) | Self::SaveQuery(_) => "writing…",
         }
     }
 
@@ -63,8 +69,9 @@ impl Purpose {
     #[must_use]
     pub fn keys(&self) -> &'static str {
         match self {
-            Self::Import(_) => " ↵ import all or none  Esc cancel ",
-            Self::Export(_) | Self::Write(_) => " ↵ write  Esc cancel ",
+            Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
+            Self::Export(_) | Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
+            Self::SaveQuery(_) => " ↵ save  Esc cancel ",
         }
     }
 }
@@ -101,9 +108,19 @@ impl PathPrompt {
         Self { purpose: Purpose::Write(files), text: folder, is_busy: false, problem: None }
     }
 
+    /// Asks for the name under which a query is saved.
+    #[must_use]
+    pub fn save_query(query: String, name: String) -> Self {
+        Self { purpose: Purpose::SaveQuery(query), text: name, is_busy: false, problem: None }
+    }
+
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.is_busy {
+            return Outcome::Open;
+        }
+        if event.code == KeyCode::Tab && !matches!(self.purpose, Purpose::SaveQuery(_)) {
+            self.text = completed(&self.text).unwrap_or_else(|| self.text.clone());
             return Outcome::Open;
         }
         if event.code != KeyCode::Enter {
@@ -119,6 +136,7 @@ impl PathPrompt {
         Outcome::Sent(vec![match &self.purpose {
             Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
             Purpose::Export(query) => Effect::Query(QueryRequest::Export(query.clone(), path)),
+            Purpose::SaveQuery(query) => Effect::Query(QueryRequest::Save(query.clone(), self.text.trim().to_owned())),
             Purpose::Write(files) => Effect::Files(FileTask::Write(path, files.clone())),
         }])
     }
@@ -128,6 +146,25 @@ impl PathPrompt {
 pub fn path_of(text: &str) -> PathBuf {
     let home = text.strip_prefix("~/").zip(std::env::home_dir());
     home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
+}
+
+/// What is typed of a path, with all that its beginning leaves no choice about; `None` where that is nothing more.
+#[must_use]
+pub fn completed(text: &str) -> Option<String> {
+    let (folder, start) =
+        text.rsplit_once('/').map_or(("", text), |(_, start)| (&text[..text.len() - start.len()], start));
+    let place = if folder.is_empty() { PathBuf::from(".") } else { path_of(folder) };
+    let name = |entry: std::fs::DirEntry| {
+        let end = if entry.path().is_dir() { "/" } else { "" };
+        Some(entry.file_name().to_str()?.to_owned() + end)
+    };
+    let is_meant = |name: &String| name.starts_with(start) && (start.starts_with('.') || !name.starts_with('.'));
+    let names: Vec<String> = std::fs::read_dir(place).ok()?.flatten().filter_map(name).filter(is_meant).collect();
+    let first = names.first()?;
+    let shared =
+        |count: &usize| first.is_char_boundary(*count) && names.iter().all(|name| name.starts_with(&first[..*count]));
+    let count = (start.len() + 1..=first.len()).rev().find(shared)?;
+    Some(format!("{folder}{}", &first[..count]))
 }
 
 /// Draws the prompt for a file.
@@ -141,4 +178,30 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
         lines.push(Line::styled(format!(" {}; ~/ is home", prompt.purpose.hint()), theme.dim()));
     }
     draw_frame(frame, area, width, prompt.purpose.title().to_owned(), prompt.purpose.keys(), lines, theme);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_completed_as_far_as_there_is_no_choice() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().display().to_string();
+        for name in ["shirt-front.dxf", "shirt-back.dxf", ".hidden"] {
+            std::fs::write(folder.path().join(name), "").expect("writable");
+        }
+        std::fs::create_dir(folder.path().join("trousers")).expect("writable");
+        let check = |typed: &str, expect: Option<&str>| {
+            let found = completed(&format!("{place}/{typed}"));
+            assert_eq!(found, expect.map(|expect| format!("{place}/{expect}")), "{typed}");
+        };
+        check("s", Some("shirt-"));
+        check("shirt-b", Some("shirt-back.dxf"));
+        check("shirt-", None);
+        check("t", Some("trousers/"));
+        check("x", None);
+        check(".", Some(".hidden"));
+        check("trousers/", None);
+    }
 }

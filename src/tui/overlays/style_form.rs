@@ -9,7 +9,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
-use crate::overlays::path_prompt::path_of;
+use crate::overlays::path_prompt::{completed, path_of};
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
@@ -20,6 +20,7 @@ const PATTERN: usize = 0;
 const STYLE: usize = 1;
 const SIZE: usize = 2;
 const UNIT: usize = 3;
+const SEAMS: usize = 4;
 
 /// Letters of what is said of many sizes: the first tells enough.
 const LONGEST: usize = 400;
@@ -81,6 +82,7 @@ impl StyleForm {
         let lines = self.texts.len();
         match event.code {
             KeyCode::Enter => return self.save(),
+            KeyCode::Tab if self.complete() => {}
             KeyCode::Tab | KeyCode::Down => self.at = (self.at + 1) % lines,
             KeyCode::BackTab | KeyCode::Up => self.at = (self.at + lines - 1) % lines,
             _ => {
@@ -88,6 +90,15 @@ impl StyleForm {
             }
         }
         Outcome::Open
+    }
+
+    /// Completes the path of the line; whether there was more to it.
+    fn complete(&mut self) -> bool {
+        let text = &mut self.texts[self.at];
+        let more = if [PATTERN, SEAMS].contains(&self.at) && !text.is_empty() { completed(text) } else { None };
+        let has_more = more.is_some();
+        *text = more.unwrap_or_else(|| std::mem::take(text));
+        has_more
     }
 
     /// Sends what was typed off, or says what cannot be right.
@@ -144,6 +155,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
     let busy = form.is_busy.then_some("reading, and sewing each size…");
     lines.extend(end(busy, form.problem.as_deref(), columns, theme));
-    let keys = " Tab ↑↓ line  ↵ import all or none  Esc cancel  ~/ is home ";
+    let keys = " Tab completes, next line  ↵ import all or none  Esc cancel  ~/ is home ";
     draw_frame(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);
 }

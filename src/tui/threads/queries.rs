@@ -10,7 +10,7 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
-use study::{Interrupter, StudyError, Workspace, saved_queries};
+use study::{Interrupter, StudyError, Workspace, save_query, saved_queries};
 
 /// Rows that are shown of an answer; a file gets all.
 const MOST_ROWS: usize = 20_000;
@@ -45,17 +45,19 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
         // The thread is started once, and so is its interrupter set.
         let _ = canceller.interrupter.set(workspace.interrupter());
     }
+    let folder = database.parent().unwrap_or(Path::new("")).join("queries");
     while let Ok(request) = wanted.recv() {
         let workspace = workspace.as_ref().map_err(Clone::clone);
         let start = Instant::now();
         let message = match request {
-            QueryRequest::Names => {
-                let folder = database.parent().map(|folder| folder.join("queries"));
-                let names = workspace.and_then(|it| {
-                    let names = it.relations().and_then(|known| Ok((known, saved_queries(folder.as_deref())?)));
-                    names.map_err(|error| error.to_string())
-                });
-                names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
+            QueryRequest::Names => names(workspace, &folder),
+            QueryRequest::Save(sql, name) => {
+                let saved = save_query(&folder, &name, &sql).map_err(|error| error.to_string());
+                let told = saved.map(|()| format!("saved: o offers {name}, `toile sql {name}` asks it"));
+                if sender.send(Message::Saved(told)).is_err() {
+                    return;
+                }
+                names(workspace, &folder)
             }
             QueryRequest::Rows(text) => {
                 let answer = workspace
@@ -73,6 +75,15 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
             return;
         }
     }
+}
+
+/// What a query may name, and the saved ones.
+fn names(workspace: Result<&Workspace, String>, folder: &Path) -> Message {
+    let names = workspace.and_then(|it| {
+        let names = it.relations().and_then(|known| Ok((known, saved_queries(Some(folder))?)));
+        names.map_err(|error| error.to_string())
+    });
+    names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
 }
 
 /// An error of a query; one that was stopped says so.

@@ -112,6 +112,17 @@ impl State {
         self.sql.editor.set(text.trim_end());
     }
 
+    /// Asks for the name under which the query is saved: at first that of the saved one it was made from.
+    pub fn save_query(&mut self) {
+        let text = self.sql.editor.text().trim().to_owned();
+        if text.is_empty() {
+            self.say("no query is typed yet; o offers saved ones");
+            return;
+        }
+        let name = self.sql.saved.iter().find(|saved| saved.sql.trim() == text).map(|saved| saved.name.clone());
+        self.overlay = Some(Overlay::Path(PathPrompt::save_query(text, name.unwrap_or_default())));
+    }
+
     /// Asks for the file that the rows go into.
     pub fn export_query(&mut self) {
         if self.sql.table.is_none() {

@@ -59,6 +59,7 @@ impl Page for SqlPage {
         match action {
             Action::Run if state.nav.screen == Screen::Sql => return Some(state.run_query()),
             Action::Quit if state.sql.running.is_some() => return Some(vec![Effect::StopQuery]),
+            Action::SaveQuery => state.save_query(),
             Action::EditQuery => state.nav.second_pane[Screen::Sql as usize] = false,
             Action::SavedQueries => state.offer_queries(),
             Action::OlderQuery => state.recall(-1),
