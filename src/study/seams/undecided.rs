@@ -102,6 +102,30 @@ impl Undecided {
         })
     }
 
+    /// What may be done with a seam that is sewn.
+    #[must_use]
+    pub fn seam(desk: &Desk, seam: usize) -> Self {
+        let DeskSeam { name, a, b, a_mm, b_mm, .. } = &desk.seams[seam];
+        let [one, other] = [a, b].map(|chain| names(desk, chain));
+        let ends = a.first().zip(b.first()).map(|(a, b)| (desk.edge_name(*a), desk.edge_name(*b)));
+        let choices = ends.map_or_else(Vec::new, |(a, b)| {
+            let flip = SeamStep::Edit(Edit::Flip { a: a.clone(), b: b.clone() });
+            let open = SeamStep::Edit(Edit::Remove { a, b });
+            [("it runs the other way round", flip), ("it is opened", open)]
+                .map(|(label, step)| Choice { label: label.to_owned(), step, edges: vec![] })
+                .to_vec()
+        });
+        let text = format!("What of seam {name}? {one} is sewn to {other}, {a_mm:.1} to {b_mm:.1} mm");
+        Self {
+            text,
+            edges: a.iter().chain(b).copied().collect(),
+            choices,
+            stands: None,
+            seam: Some(seam),
+            is_sure: false,
+        }
+    }
+
     /// What a check finds.
     pub(crate) fn found(desk: &Desk, finding: &Finding) -> Self {
         let free = if finding.kind == FindingKind::FreeEdge { desk.edge_of(&finding.place) } else { None };
@@ -149,7 +173,7 @@ impl Undecided {
             step: SeamStep::Edit(Edit::LeaveOut { piece: drawn.id.clone() }),
             edges: vec![],
         };
-        let others = Role::ALL.into_iter().filter(|role| *role != drawn.role);
+        let others = roles(desk).into_iter().filter(|role| *role != drawn.role);
         Self {
             text: format!("What is {} worn as? It is {} now", drawn.id, drawn.role.as_str().replace('_', " ")),
             edges: (0..drawn.edges.len()).map(|edge| (piece, edge)).collect(),
@@ -217,6 +241,20 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     let mut found: Vec<(f64, Vec<EdgeAt>)> = sides.filter_map(|side| Some((unlikely(&side)?, side))).collect();
     found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
+}
+
+/// Roles that pieces of a style may have: those of trousers, of what has a skirt, or of a top.
+fn roles(desk: &Desk) -> [Role; 8] {
+    use Role::{Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight, LegLeft};
+    use Role::{LegRight, Other, SkirtBack, SkirtFront, SleeveLeft, SleeveRight, Waistband};
+    let has = |kind: &str| desk.pieces.iter().any(|piece| piece.role.as_str().starts_with(kind));
+    if has("leg") {
+        return [LegFrontRight, LegFrontLeft, LegBackRight, LegBackLeft, LegRight, LegLeft, Waistband, Other];
+    }
+    if has("skirt") || has("bodice") {
+        return [BodiceFront, BodiceBack, SkirtFront, SkirtBack, SleeveRight, SleeveLeft, Waistband, Other];
+    }
+    [Front, Back, SleeveRight, SleeveLeft, SkirtFront, SkirtBack, Waistband, Other]
 }
 
 /// Whether two pieces may be sewn to each other: one piece to itself where it goes round a limb or the waist, sleeves not to the other arm's.

@@ -18,6 +18,8 @@ use pattern::{Piece, propose};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
+/// Begins one that asks no more, since somebody has said that the file is as it should be.
+const SETTLED: &str = "# SETTLED: ";
 /// Begins one that somebody has answered.
 const ANSWERED: &str = "# ANSWERED: ";
 
@@ -134,9 +136,7 @@ impl Workpiece {
                 .ok_or_else(|| refused(format!("{}: no proposed seam is {:.0} % sure", file.name, 100.0 * SURE)))?,
             SeamStep::Answer { question, choice } => self.answered(&text, question, *choice)?,
             SeamStep::Decide(question) => {
-                let lines = text.split_inclusive('\n');
-                let kept: String =
-                    lines.filter(|line| line.trim_end().strip_prefix(QUESTION) != Some(question)).collect();
+                let kept = settled(&text, question);
                 if kept == text {
                     let accepted = "sew the edge, or name it in `open` of the seam file";
                     return Err(refused(format!("{question}: the check finds it, nobody asks it; {accepted}")));
@@ -184,7 +184,9 @@ impl Workpiece {
         let sure = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
         let kept: Vec<&str> =
             sure.filter(|(seam, _)| new.seam.contains(seam)).map(|(seam, _)| seam.name.as_str()).collect();
-        Ok(confirmed(&again, |name, _| kept.contains(&name)).unwrap_or(again))
+        let again = confirmed(&again, |name, _| kept.contains(&name)).unwrap_or(again);
+        let before: Vec<String> = marked(text, SETTLED).map(|question| question.to_string()).collect();
+        Ok(before.iter().fold(again, |again, question| settled(&again, question)))
     }
 
     fn proposed_told(
@@ -226,6 +228,15 @@ impl Workpiece {
     fn text(&self) -> Option<String> {
         Some(String::from_utf8_lossy(&self.seams.as_ref()?.bytes).into_owned())
     }
+}
+
+/// The text of a seam file with a question of it settled.
+fn settled(text: &str, question: &str) -> String {
+    let line = |line: &str| match line.strip_prefix(QUESTION) {
+        Some(asked) if asked.trim_end() == question => format!("{SETTLED}{asked}"),
+        _ => line.to_owned(),
+    };
+    text.split_inclusive('\n').map(line).collect()
 }
 
 /// Questions on lines of a seam file that begin with a mark.
@@ -322,6 +333,16 @@ mod tests {
         piece.seams = Some(piece.after(&SeamStep::ConfirmSure).expect("most are"));
         let left = piece.laid_out().expect("it fits").desk.seams;
         assert!(left.iter().all(|seam| seam.confidence.is_none_or(|sure| sure < SURE)), "{left:?}");
+    }
+
+    #[test]
+    fn what_is_settled_stays_so_when_a_question_is_answered() {
+        let asked = "which is it? a: the right one; b: the left one (a is taken)";
+        let text = format!("{QUESTION}{asked}\n{QUESTION}is it whole?\nname = \"a\"\n");
+        let once = settled(&text, "is it whole?");
+        assert_eq!(once, format!("{QUESTION}{asked}\n{SETTLED}is it whole?\nname = \"a\"\n"));
+        assert_eq!(settled(&once, "is it whole?"), once, "nobody asks it any more");
+        assert_eq!(marked(&once, QUESTION).count(), 1);
     }
 
     #[test]

@@ -88,7 +88,12 @@ impl State {
             }
             Outcome::Closed => vec![],
             Outcome::Action(action) => self.act(action),
-            Outcome::Effects(effects) => effects,
+            Outcome::Effects(effects) => {
+                if effects.iter().any(|effect| matches!(effect, Effect::Copy(_))) {
+                    self.say("copied");
+                }
+                effects
+            }
             Outcome::Thing(thing) => {
                 self.look_at(thing);
                 vec![]

@@ -162,8 +162,8 @@ fn import_style(workspace: &mut Workspace, name: &str, given: &StyleGiven) -> Re
     let is_known = workspace.sizes()?.iter().any(|row| row.style == name);
     let saved = workspace.save_style(if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
     let unsure = workspace.sizes()?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
-    let proposed = if unsure > 0 { format!("; {unsure} seams are proposed: confirm them") } else { String::new() };
-    Ok(said(&saved) + &proposed)
+    let proposed = if unsure > 0 { format!("{unsure} seams are proposed, Enter asks; ") } else { String::new() };
+    Ok(proposed + &said(&saved))
 }
 
 /// What was saved, in a line.

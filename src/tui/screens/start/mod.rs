@@ -26,6 +26,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
             Line::raw(""),
             Line::styled("a      make a study of your own", bold),
             Line::raw("       Choose subjects, styles, fabric, simulators; it writes a study.toml."),
+            Line::raw(""),
+            Line::styled("3 i    import a pattern of your own", bold),
+            Line::raw("       DXF or GarmentCode; sewn and draped while you decide its seams."),
         ],
         (None, false) => vec![Line::raw("It is open read-only: start without --readonly to run a study.")],
     });

@@ -30,7 +30,10 @@ impl State {
         let out = &self.layout()?.ok()?.out;
         let knows = |(piece, edge): EdgeAt| out.desk.pieces.get(piece).is_some_and(|drawn| edge < drawn.edges.len());
         match asking.own {
-            Some(Own::Edge(edge)) if knows(edge) => Some(Undecided::free(&out.desk, edge)),
+            Some(Own::Edge(edge)) if knows(edge) => Some(match self.layout()?.ok()?.seam_at(edge) {
+                Some(seam) => Undecided::seam(&out.desk, seam),
+                None => Undecided::free(&out.desk, edge),
+            }),
             Some(Own::Piece(piece)) if knows((piece, 0)) => Some(Undecided::piece(&out.desk, piece)),
             Some(_) => None,
             None => out.undecided.get(asking.at).or(out.undecided.last()).cloned(),
@@ -120,7 +123,7 @@ impl State {
             Some(step) if self.may_sew() => self.step_of_work(step),
             Some(_) => vec![],
             None => {
-                self.say("there is no such answer");
+                self.say("there is no such answer; the digits before the answers choose");
                 vec![]
             }
         }

@@ -51,7 +51,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
     let sizes = state.sizes();
     let [list_area, table_area, pieces_area] = panes(area, sizes.len());
-    if state.styles.enlarged {
+    if is_enlarged(state) {
         draw_pieces(frame, area, state, true);
         return;
     }
@@ -71,9 +71,14 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     draw_pieces(frame, pieces_area, state, on_desk && state.styles.asking.is_none());
 }
 
+/// Whether the pieces have all the room: not while something is asked, which has to be seen.
+fn is_enlarged(state: &State) -> bool {
+    state.styles.enlarged && state.styles.asking.is_none()
+}
+
 /// Where pieces and the garment sewn of them are drawn; `None` where there is only room for lists.
 pub fn pieces_area(state: &State, area: Rect) -> Option<Rect> {
-    let all = || if state.styles.enlarged { area } else { panes(area, state.sizes().len())[2] };
+    let all = || if is_enlarged(state) { area } else { panes(area, state.sizes().len())[2] };
     (!is_narrow(area)).then(all)
 }
 

@@ -72,7 +72,11 @@ impl State {
     pub fn take_preview(&mut self, request: PreviewRequest, outcome: Result<Previewed, String>) {
         if request.care == Care::Trial {
             match &outcome {
-                Ok(seen) => self.say(format!("tried on by {} in {:.1} s", seen.subject, seen.took_ms as f64 / 1e3)),
+                Ok(seen) => {
+                    let told =
+                        if seen.remarks.is_empty() { String::new() } else { format!(": {}", seen.remarks.join("; ")) };
+                    self.say(format!("tried on by {} in {:.1} s{told}", seen.subject, seen.took_ms as f64 / 1e3));
+                }
                 Err(error) => self.complain(error.clone()),
             }
         }
@@ -134,7 +138,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Some((_, Ok(seen))) => format!("on {} · {view}", seen.subject),
         _ => "on the body".to_owned(),
     };
-    let block = pane(state.theme, on, false).title_bottom(Line::styled(" v turns it ", state.theme.legend()));
+    let block =
+        pane(state.theme, on, false).title_bottom(Line::styled(" v turns it  2 another body ", state.theme.legend()));
     let [picture, told] = split(area, block.inner(area));
     frame.render_widget(block, area);
     let is_current = seen.is_some_and(|(request, _)| Some(request) == state.styles.preview.asked.as_ref());

@@ -178,7 +178,12 @@ impl State {
         if left == 0 {
             self.styles.edits.remove(&style);
         }
-        self.say(format!("taken back; {left} edits of {style} are left, U does it again"));
+        let left = match left {
+            0 => "none is left".to_owned(),
+            1 => "one is left".to_owned(),
+            left => format!("{left} are left"),
+        };
+        self.say(format!("the last edit of {style} is taken back, {left}; U does it again"));
     }
 
     /// Does the edit of the selected style again that was taken back last.
