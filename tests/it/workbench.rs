@@ -266,7 +266,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.press("<Enter>");
     seat.wait_for("…1");
     seat.press("R");
-    seat.wait_for("✓1");
+    seat.wait_for("the run of study-1 has ended");
     seat.press("L");
     let told = commands(&seat.wait_for("toile run "));
     seat.press("q:quit<Enter>");
