@@ -1,21 +1,18 @@
 //! `toile try`: one garment on one body.
 
-use super::args::{Sex, Try};
+use super::args::Try;
 use super::context::Context;
-use super::{CliError, End, Outcome, output};
+use super::{CliError, End, Outcome, body, output};
 use geom::units::from_mm;
 use study::patterns::Unit;
-use study::{self, Attempt, Table, Tried, Value, bodies, files};
+use study::{self, Attempt, Table, Tried, Value, files};
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
     let asked = Attempt {
-        body: arguments.body.clone(),
-        body_unit: arguments.body_unit.map(Into::into),
-        sex: arguments.sex.map(|sex| match sex {
-            Sex::M => bodies::Sex::Male,
-            Sex::F => bodies::Sex::Female,
-        }),
+        body: arguments.body.body.clone(),
+        body_unit: arguments.body.body_unit.map(Into::into),
+        sex: arguments.body.sex.map(body::of),
         pattern: arguments.pattern.clone(),
         seams: arguments.seams.clone(),
         size: arguments.size.clone(),

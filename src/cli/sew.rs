@@ -7,12 +7,14 @@ use std::time::{Duration, Instant};
 
 use signal_hook::consts::SIGINT;
 
-use super::args::{SewFiles, Sex};
+use super::args::{BodyFile, SewFiles};
+use super::body::of as body_of;
 use super::context::Context;
+use super::pictures::write;
 use super::{CliError, End, Outcome, output};
+use study::StudyError;
 use study::patterns::Unit;
 use study::seams::{self, Care, Hung, Mannequin, Workpiece};
-use study::{StudyError, bodies, files};
 
 /// Time between two looks at the seam file.
 const LOOK: Duration = Duration::from_millis(100);
@@ -24,11 +26,8 @@ pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
         signal_hook::flag::register(SIGINT, is_left.clone())?;
     }
     let seams = seam_file(context, arguments)?;
-    let sex = arguments.sex.map(|sex| match sex {
-        Sex::M => bodies::Sex::Male,
-        Sex::F => bodies::Sex::Female,
-    });
-    let (mannequin, notes) = Mannequin::read(&arguments.body, arguments.body_unit.map(Into::into), sex)?;
+    let BodyFile { body, body_unit, sex } = &arguments.body;
+    let (mannequin, notes) = Mannequin::read(body, body_unit.map(Into::into), sex.map(body_of))?;
     notes.iter().for_each(|note| context.say(note));
     loop {
         let before = stamp(seams.as_deref());
@@ -71,9 +70,7 @@ fn seam_file(context: &Context, arguments: &SewFiles) -> Result<Option<PathBuf>,
         }
         let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
         let text = proposed.proposal.toml(&name).into_bytes();
-        let folder = path.parent().unwrap_or(Path::new(""));
-        files::write_files(folder, &[(path.file_name().unwrap_or_default().to_string_lossy().into_owned(), text)])?;
-        context.say(format_args!("wrote {}, as proposed", path.display()));
+        write(context, &path, text)?;
     }
     Ok(Some(path))
 }
@@ -96,9 +93,7 @@ fn sewn(
     let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
     let preview = piece.preview(mannequin, Care::Glance, is_stale)?;
     let took_ms = started.elapsed().as_millis();
-    let (folder, name) = (arguments.output.parent().unwrap_or(Path::new("")), arguments.output.file_name());
-    let name = name.unwrap_or_default().to_string_lossy().into_owned();
-    files::write_files(folder, &[(name, preview.sheet()?)])?;
+    write(context, &arguments.output, preview.sheet()?)?;
     let hung = match preview.hung {
         Hung::Draped => "sewn and draped coarsely",
         Hung::Undone => "not sewn up",

@@ -411,3 +411,17 @@ impl Garment {
         (rest, kept)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roles_are_called_as_files_call_them() {
+        for role in Role::ALL {
+            let written = toml::Value::try_from(role).expect("a word");
+            assert_eq!(written.as_str(), Some(role.as_str()));
+            assert_eq!(Role::from_name(role.as_str()), Some(role));
+        }
+    }
+}

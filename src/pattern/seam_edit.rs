@@ -8,12 +8,9 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
 use super::garment::Role;
 use super::piece::Piece;
-use super::seams::{SeamEntry, SeamFile, StyleError};
+use super::seams::{RATIO_DOUBT, SAME_EASE, SeamEntry, SeamFile, StyleError};
 use super::style::Style;
 use geom::units::mm;
-
-/// Difference of the ratio of two sides between sizes that is asked about.
-const OTHERWISE: f64 = 0.05;
 
 /// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -181,7 +178,7 @@ impl Editor<'_> {
         let own = all.first().map_or(1.0, |(_, [a_mm, b_mm])| a_mm / b_mm);
         let is_alike = |k: usize, [a_mm, b_mm]: [f64; 2]| match k {
             0 => (a_mm - b_mm).abs() <= tolerance_mm,
-            _ => (a_mm - b_mm).abs() <= tolerance_mm || (a_mm / b_mm / own - 1.0).abs() <= OTHERWISE,
+            _ => (a_mm - b_mm).abs() <= tolerance_mm || (a_mm / b_mm / own - 1.0).abs() <= RATIO_DOUBT,
         };
         let odd = all.iter().enumerate().find(|(k, (_, sides))| !is_alike(*k, *sides));
         if let Some((k, (size, [a_mm, b_mm]))) = odd.filter(|_| !is_eased) {
@@ -196,7 +193,7 @@ impl Editor<'_> {
         if eases.iter().all(|(_, ease)| ease.abs() <= tolerance_mm) {
             return Ok(None);
         }
-        if eases.iter().all(|(_, ease)| (ease - first).abs() <= 0.5 * tolerance_mm) {
+        if eases.iter().all(|(_, ease)| (ease - first).abs() <= SAME_EASE * tolerance_mm) {
             return Ok(Some(first.into()));
         }
         Ok(Some(Value::InlineTable(eases.into_iter().map(|(size, ease)| (size, Value::from(ease))).collect())))

@@ -177,6 +177,11 @@ pub struct PieceEntry {
     pub edges: BTreeMap<String, [usize; 2]>,
 }
 
+/// Difference of the ratio of two sides between sizes that is asked about.
+pub(crate) const RATIO_DOUBT: f64 = 0.05;
+/// Share of the tolerance within which the ease of all sizes counts as one.
+pub(crate) const SAME_EASE: f64 = 0.5;
+
 /// A seam between two chains of edges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

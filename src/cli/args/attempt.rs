@@ -4,20 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{JobLimits, MeshUnit, PatternUnit, Sex, TrySimulator};
+use super::{BodyFile, JobLimits, PatternUnit, TrySimulator};
 
 /// Arguments of `try`.
 #[derive(Debug, Args)]
 pub struct Try {
-    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML as of a [[subject]], .smis, .vit, GarmentCode .yaml).
-    #[arg(long, value_name = "FILE")]
-    pub body: PathBuf,
-    /// Unit of the mesh; by default told from its height.
-    #[arg(long, value_enum)]
-    pub body_unit: Option<MeshUnit>,
-    /// Sex of the body; by default told from its girths.
-    #[arg(long, value_enum)]
-    pub sex: Option<Sex>,
+    #[command(flatten)]
+    pub body: BodyFile,
     /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON).
     #[arg(long, value_name = "FILE")]
     pub pattern: PathBuf,

@@ -30,6 +30,20 @@ pub enum MeshUnit {
     In,
 }
 
+/// A body of a file.
+#[derive(Debug, Args)]
+pub struct BodyFile {
+    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML as of a [[subject]], .smis, .vit, GarmentCode .yaml).
+    #[arg(long, value_name = "FILE")]
+    pub body: PathBuf,
+    /// Unit of the mesh; by default told from its height.
+    #[arg(long, value_enum)]
+    pub body_unit: Option<MeshUnit>,
+    /// Sex of the body; by default told from its girths.
+    #[arg(long, value_enum)]
+    pub sex: Option<Sex>,
+}
+
 impl From<MeshUnit> for bodies::LengthUnit {
     fn from(unit: MeshUnit) -> Self {
         match unit {

@@ -21,7 +21,7 @@ mod studies;
 
 pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
-pub use body::{Body, BodyBuild, MeshUnit, Sex};
+pub use body::{Body, BodyBuild, BodyFile, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleCommand, StyleValues, SubjectValues};
 pub use cut::{CutFiles, PatternUnit};
 pub use fit::{Chance, Fit, Section};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CutFiles, MeshUnit, Sex};
+use super::{BodyFile, CutFiles};
 
 /// A pattern, its seam file and the body that it is sewn on.
 #[derive(Debug, Args)]
@@ -14,15 +14,8 @@ pub struct SewFiles {
     /// Seam file; where there is none yet it is written as `propose` says. By default beside the pattern: X.seams.toml.
     #[arg(long, value_name = "FILE")]
     pub seams: Option<PathBuf>,
-    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML, .smis, .vit, GarmentCode .yaml).
-    #[arg(long, value_name = "FILE")]
-    pub body: PathBuf,
-    /// Unit of the mesh; by default told from its height.
-    #[arg(long, value_enum)]
-    pub body_unit: Option<MeshUnit>,
-    /// Sex of the body; by default told from its girths.
-    #[arg(long, value_enum)]
-    pub sex: Option<Sex>,
+    #[command(flatten)]
+    pub body: BodyFile,
     #[command(flatten)]
     pub cut: CutFiles,
     /// Sew again whenever the seam file has changed, until Ctrl-C.

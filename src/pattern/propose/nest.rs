@@ -2,14 +2,9 @@
 
 use super::{Proposal, ProposedSeam, Question};
 use crate::piece::Piece;
-use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, StyleError};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, RATIO_DOUBT, SAME_EASE, StyleError};
 use crate::style::{Seam, Style};
 use geom::units::mm;
-
-/// Difference of the ratio of two sides between sizes that is asked about.
-const RATIO_DOUBT: f64 = 0.05;
-/// Share of the tolerance within which the ease of all sizes counts as one.
-const SAME_EASE: f64 = 0.5;
 
 impl Proposal {
     /// Says on which size it was made, and holds it to others. What does not hold there is a question.

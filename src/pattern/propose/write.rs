@@ -52,8 +52,7 @@ impl Proposal {
         }
         for Worn { id, entry, confidence, .. } in &self.worn {
             let _ = writeln!(text, "\n[piece.{id}]  # confidence {confidence:.2}\nblock = {}", quoted(&entry.block));
-            let role = toml::Value::try_from(entry.role).map(|role| role.to_string()).unwrap_or_default();
-            let _ = writeln!(text, "role = {role}");
+            let _ = writeln!(text, "role = {}", quoted(entry.role.as_str()));
             if entry.mirror {
                 text.push_str("mirror = true\n");
             }

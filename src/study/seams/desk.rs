@@ -36,6 +36,25 @@ pub struct DeskEdge {
     pub notches_mm: Vec<f64>,
 }
 
+impl DeskEdge {
+    /// Its middle, mm, and the unit vector from there into the piece: to the left, since edges run counter-clockwise.
+    #[must_use]
+    pub fn middle(&self) -> [[f64; 2]; 2] {
+        let mut left_mm = self.length_mm / 2.0;
+        for pair in self.line_mm.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            if length > 0.0 && length >= left_mm {
+                let t = left_mm / length;
+                let along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+                return [[a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], [-along[1], along[0]]];
+            }
+            left_mm -= length;
+        }
+        [self.line_mm.last().copied().unwrap_or_default(), [0.0, 0.0]]
+    }
+}
+
 /// A piece where it lies in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskPiece {

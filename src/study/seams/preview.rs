@@ -219,8 +219,7 @@ fn hang(
     care: Care,
     is_stale: &dyn Fn() -> bool,
 ) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
-    let library = fabric::library();
-    let Some(cloth) = library.first() else { return Ok((Hung::Not, None, vec![])) };
+    let cloth = &fabric::library()[0];
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
     if care == Care::Glance {
@@ -273,9 +272,8 @@ fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
             }
         }
     }
-    let mesh = TriMesh { positions: vec![], triangles: garment.triangles.clone() };
     let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for [a, b, c] in &mesh.triangles {
+    for [a, b, c] in &garment.triangles {
         for [p, q] in [[a, b], [b, c], [c, a]] {
             *faces.entry([*p.min(q), *p.max(q)]).or_default() += 1;
         }

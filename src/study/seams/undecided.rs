@@ -279,23 +279,8 @@ fn extent_mm(desk: &Desk) -> f64 {
 
 /// Distance of the middles of two edges as they lie, mm.
 fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
-    let ([a, b], [c, d]) = (middle_mm(one), middle_mm(other));
+    let ([[a, b], _], [[c, d], _]) = (one.middle(), other.middle());
     (a - c).hypot(b - d)
-}
-
-/// The middle of an edge as it lies, mm.
-fn middle_mm(edge: &DeskEdge) -> [f64; 2] {
-    let mut left_mm = edge.length_mm / 2.0;
-    for pair in edge.line_mm.windows(2) {
-        let [[a, b], [c, d]] = [pair[0], pair[1]];
-        let side_mm = (c - a).hypot(d - b);
-        if side_mm > 0.0 && side_mm >= left_mm {
-            let share = left_mm / side_mm;
-            return [a + share * (c - a), b + share * (d - b)];
-        }
-        left_mm -= side_mm;
-    }
-    edge.line_mm.last().copied().unwrap_or_default()
 }
 
 /// Whether two edges have as many notches, at the same shares of their lengths either way round.
@@ -339,5 +324,40 @@ mod tests {
         check(&all, "front.side_right", "sewn to back.side_right,");
         check(&all, "front.shoulder_left", "sewn to back.shoulder_left,");
         check(&all, "sleeve_left.cap", "armhole_left");
+    }
+
+    /// Of all seams between two edges of a style whose seams are all opened: for how many the other edge is offered first, for how many at all.
+    fn offered(style: &Style) -> [usize; 3] {
+        let whole = Desk::of(style);
+        let opened = Desk::of(&Style { seams: vec![], ..style.clone() });
+        let mut counts = [0; 3];
+        for DeskSeam { a, b, .. } in &whole.seams {
+            let ([one], [other]) = (a.as_slice(), b.as_slice()) else { continue };
+            let asked = Undecided::free(&opened, *one);
+            let place = asked.choices.iter().position(|choice| choice.edges == [*other]);
+            counts[0] += usize::from(place == Some(0));
+            counts[1] += usize::from(place.is_some());
+            counts[2] += 1;
+        }
+        counts
+    }
+
+    #[test]
+    fn partners_are_offered_on_foreign_patterns() {
+        let folder = std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/patterns/garmentcode");
+        let Ok(entries) = std::fs::read_dir(&folder) else {
+            return eprintln!("skipped: {} is not there", folder.display());
+        };
+        let mut sum = [0; 3];
+        for path in
+            entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "json"))
+        {
+            let bytes = std::fs::read(&path).expect("readable");
+            let Ok(read) = pattern::garmentcode::read(&bytes, "foreign") else { continue };
+            let counts = offered(&read.style());
+            sum = [0, 1, 2].map(|k| sum[k] + counts[k]);
+        }
+        eprintln!("of {} seams the other edge is offered first for {}, at all for {}", sum[2], sum[0], sum[1]);
+        assert!(sum[2] == 0 || 2 * sum[1] > sum[2], "{sum:?}");
     }
 }

@@ -174,8 +174,8 @@ impl Workpiece {
         let before = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
         let mut answers: Answers = before.collect();
         answers.insert(question.to_owned(), choice);
-        let file = format!("{}: ", self.pattern.name);
-        let entries = |text: &str| SeamFile::parse(text.as_bytes(), &file).map_err(StudyError::stage("pattern"));
+        let file = self.seams.as_ref().map_or("", |file| file.name.as_str());
+        let entries = |text: &str| SeamFile::parse(text.as_bytes(), file).map_err(StudyError::stage("pattern"));
         let old = entries(text)?;
         let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
         let proposed = self.proposed_told(&old.name, others, &answers)?;

@@ -64,7 +64,12 @@ impl State {
         effects.extend(self.ask_for_pictures(page.pictures(self, self.body())));
         effects.extend(page.wanted(self));
         effects.extend(self.ask_to_watch());
-        self.told.commands.extend(effects.iter().filter_map(taught::command));
+        for effect in &effects {
+            match taught::command(effect) {
+                command if taught::is_awaited(effect) => self.told.awaited = command,
+                command => self.told.commands.extend(command),
+            }
+        }
         effects
     }
 

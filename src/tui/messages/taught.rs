@@ -23,6 +23,17 @@ pub fn command(effect: &Effect) -> Option<String> {
     }
 }
 
+/// Whether it is told later that an effect is done, or was refused.
+#[must_use]
+pub fn is_awaited(effect: &Effect) -> bool {
+    match effect {
+        Effect::Do(command) => command.is_from_form(),
+        Effect::Files(task) => matches!(task, FileTask::CreateStudy(_) | FileTask::Write(..)),
+        Effect::Query(request) => matches!(request, QueryRequest::Save(..) | QueryRequest::Export(..)),
+        _ => false,
+    }
+}
+
 /// A path as a word of a command line, from the current folder where it lies in it.
 fn shown(path: &Path) -> String {
     let here = std::env::current_dir().ok();

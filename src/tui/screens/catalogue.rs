@@ -98,10 +98,8 @@ impl State {
 
     /// Closes what was filled in once it is saved, or says in it why it is not.
     pub fn saved(&mut self, outcome: Result<String, String>) {
-        if outcome.is_err() {
-            // What was refused was not done.
-            self.told.commands.pop();
-        }
+        let awaited = self.told.awaited.take();
+        self.told.commands.extend(awaited.filter(|_| outcome.is_ok()));
         let waits = match &mut self.overlay {
             Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
             Some(Overlay::StyleForm(form)) if form.is_busy => {

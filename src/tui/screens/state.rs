@@ -43,6 +43,8 @@ pub struct Told {
     pub notice: Option<Notice>,
     /// The commands that do what was done here, the latest last.
     pub commands: Vec<String>,
+    /// The command of what a form waits for: it counts once that is done.
+    pub awaited: Option<String>,
 }
 
 /// What this session of the workbench can do.

@@ -290,8 +290,10 @@ fn what_was_done_is_told_as_commands() {
     };
     assert!(bench.press("L").screen().contains("nothing yet"), "{}", bench.screen());
     bench.press("<Esc>").send(Message::SeamsSaved("tshirt".into(), file, Ok("saved".into())));
-    bench.press("nL");
+    bench.press("nitee.dxf<Enter>").send(Message::Saved(Err("pattern: tee.dxf: no such file".into())));
+    bench.press("<Esc>L");
     let screen = bench.screen();
+    assert!(!screen.contains("tee.dxf"), "what was refused was not done: {screen}");
     // What was taken back is not among them.
     assert_eq!(screen.matches("toile style sew tshirt/S rm").count(), 1, "{screen}");
     assert!(screen.contains("toile style sew tshirt/S add"), "{screen}");

@@ -188,6 +188,8 @@ impl State {
 
     /// Opens a study that was made, or says in the form why it was not.
     pub fn study_created(&mut self, name: &str, outcome: Result<PathBuf, String>) {
+        let awaited = self.told.awaited.take();
+        self.told.commands.extend(awaited.filter(|_| outcome.is_ok()));
         match (outcome, &mut self.overlay) {
             (Ok(path), overlay) => {
                 if matches!(overlay, Some(Overlay::StudyForm(_))) {

@@ -148,7 +148,7 @@ impl Drawing<'_> {
         }
         for (at, is_forwards) in seam.map_or(vec![], sides) {
             let edge = &self.layout.out.desk.pieces[at.0].edges[at.1];
-            let [place, inwards] = middle(edge);
+            let [place, inwards] = edge.middle();
             // Along the edge, a quarter turn back from inwards.
             let along = [inwards[1], -inwards[0]].map(|x| if is_forwards { x } else { -x });
             if let Some(cell) = self.view.cell(place) {
@@ -179,7 +179,7 @@ impl Drawing<'_> {
                 0 => Style::new().add_modifier(Modifier::REVERSED | Modifier::BOLD),
                 _ => Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD),
             };
-            let [middle, inwards] = middle(edge);
+            let [middle, inwards] = edge.middle();
             let places = OFFSETS.map(|dots| [0, 1].map(|k| middle[k] + inwards[k] * dots * self.view.scale));
             self.put(frame, &mut taken, &label, style, &places);
         }
@@ -235,22 +235,6 @@ fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
         places.extend((0..=steps).map(|k| at(k as f64 / steps as f64)));
     }
     places
-}
-
-/// The middle of an edge, and the unit vector from there into the piece: to the left, for edges run counter-clockwise.
-fn middle(edge: &DeskEdge) -> [[f64; 2]; 2] {
-    let mut left_mm = edge.length_mm / 2.0;
-    for pair in edge.line_mm.windows(2) {
-        let [a, b] = [pair[0], pair[1]];
-        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-        if length > 0.0 && length >= left_mm {
-            let t = left_mm / length;
-            let along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
-            return [[a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], [-along[1], along[0]]];
-        }
-        left_mm -= length;
-    }
-    [edge.line_mm.last().copied().unwrap_or_default(), [0.0, 0.0]]
 }
 
 /// The middle of a piece's extent.
