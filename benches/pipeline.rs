@@ -207,7 +207,15 @@ fn drape_answers(bencher: Bencher) {
     let (skin, params) = (Skin::new(&BODY.mesh).ok(), Params::default());
     let fabric: &Fabric = &CLOTH;
     let cloth = sewn(garment, fabric).expect("triangles with areas");
-    let lying = Lying { skin: skin.as_ref(), field: &FIELD, garment, fabric, params: &params, is_held: false };
+    let lying = Lying {
+        skin: skin.as_ref(),
+        field: &FIELD,
+        floor_m: fem::floor_m(&BODY),
+        garment,
+        fabric,
+        params: &params,
+        is_held: false,
+    };
     bencher.bench_local(|| {
         let response = Response::of(lying, &cloth, &positions).expect("it lies");
         let taken = |by_m: f64| STYLE.moved_mesh(garment, Handle::Hem, by_m).expect("it has a hem");

@@ -303,13 +303,6 @@ CREATE TABLE catalogue_entry (
     PRIMARY KEY (part, name)
 ) STRICT, WITHOUT ROWID;
 
-CREATE VIEW v_subjects AS
-SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
-    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
-    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
-    hash, subject.revision = entry.revision AS is_latest, is_retired
-FROM subject JOIN catalogue_entry AS entry USING (name) WHERE part = 'subject';
-
 CREATE VIEW v_styles AS
 SELECT name AS style, style.revision, seam_file, hash, style.revision = entry.revision AS is_latest,
     (SELECT count(DISTINCT size.name) FROM size WHERE size.style = style.name) AS sizes, is_retired
@@ -634,3 +627,17 @@ FROM pressure JOIN job USING (job_id) JOIN study USING (study_id)
 WHERE is_current;
 
 CREATE INDEX job_queued ON job (priority DESC, job_id) WHERE status = 'queued' AND is_current;
+
+CREATE TABLE scan (
+    subject_id INTEGER PRIMARY KEY REFERENCES subject ON DELETE CASCADE,
+    file TEXT NOT NULL,
+    unit TEXT,
+    mesh BLOB NOT NULL
+) STRICT;
+
+CREATE VIEW v_subjects AS
+SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
+    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
+    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
+    hash, subject.revision = entry.revision AS is_latest, is_retired, scan.file AS scan
+FROM subject JOIN catalogue_entry AS entry USING (name) LEFT JOIN scan USING (subject_id) WHERE part = 'subject';

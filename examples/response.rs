@@ -61,7 +61,15 @@ fn case(name: &str, style: &Style, body: &Body, edge_m: f64) -> Result<[usize; 2
     let cloth = sewn(garment, cotton)?;
     let (mut agree, mut of) = (0, 0);
     for is_held in [true, false] {
-        let lying = Lying { skin: skin.as_ref(), field: &field, garment, fabric: cotton, params: &params, is_held };
+        let lying = Lying {
+            skin: skin.as_ref(),
+            field: &field,
+            floor_m: fem::floor_m(body),
+            garment,
+            fabric: cotton,
+            params: &params,
+            is_held,
+        };
         let response = Response::of(lying, &cloth, &drape.positions)?;
         let how = if is_held { "held by friction" } else { "free to slide" };
         let stable = if response.is_stable() { "stable" } else { "not stable" };

@@ -10,7 +10,7 @@ use super::{CliError, End, Outcome, output};
 use geom::units::{from_mm, mm};
 use study::bodies::{self, Lens, Measurements};
 use study::evaluate::{self, Accuracy};
-use study::{Given, MEASUREMENTS, Table, Value, View, files};
+use study::{Given, MEASUREMENTS, Person, Table, Value, View, files};
 
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);
@@ -68,13 +68,17 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     if let Some(file) = &arguments.scan {
-        refuse_beside_scan(&arguments.measured.0)?;
+        refuse_beside_scan(arguments.measured.0.first())?;
         let source = files::SourceFile::read(file)?;
         let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
         return write(context, &bodies::scanned_body(&source, scan)?, &arguments.output);
     }
-    let measurements = measurements(context, arguments)?;
-    let body = bodies::build_body(&measurements)?;
+    let person = person(context, arguments)?;
+    let body = person.body()?;
+    if person.scan.is_some() {
+        return write(context, &body, &arguments.output);
+    }
+    let measurements = person.measurements;
     write_files(context, &body, &arguments.output)?;
     let judgement = bodies::judge_body(&measurements, &body);
     if context.json {
@@ -123,18 +127,25 @@ fn read_scan(
 }
 
 /// A scan is the body itself, so measurements beside it could not be honoured.
-fn refuse_beside_scan(given: &[Given]) -> Result<(), CliError> {
-    let Some((key, _)) = given.first() else { return Ok(()) };
+pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
+    let Some((key, _)) = given else { return Ok(()) };
     Err(CliError::Usage(format!(
-        "--{} does not go with --scan, which is the body itself; accepted with it: --sex, --unit, --output",
+        "--{} does not go with --scan, which is the body itself; accepted with it: --sex, --unit",
         key.replace('_', "-")
     )))
 }
 
-/// The measurements of a catalogue entry or a file, with those of the command line over them.
-fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements, CliError> {
+/// Who a catalogue entry or a file is, with what the command line says over it.
+fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
-        (Some(name), _) => context.workspace()?.subject(name)?,
+        (Some(name), _) => {
+            let person = context.workspace()?.subject(name)?;
+            if person.scan.is_some() {
+                refuse_beside_scan(arguments.measured.0.first())?;
+                return Ok(person);
+            }
+            person.measurements
+        }
         (None, Some(file)) => study::read_measurements(file, arguments.sex.map(of))?,
         (None, None) => {
             let missing = "say --sex and --stature-mm, or a --subject, or --measurements FILE";
@@ -152,7 +163,7 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
     };
     known.sex = arguments.sex.map_or(known.sex, of);
     lay_over(&mut known, &arguments.measured.0)?;
-    Ok(known)
+    Ok(known.into())
 }
 
 /// Lays values that were given over measurements.

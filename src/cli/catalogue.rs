@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::args::{Catalogue, FabricValues, PatternUnit, SizeValues, StyleCommand, StyleValues, SubjectValues};
+use super::args::{Catalogue, FabricValues, PatternUnit, PersonValues, SizeValues, StyleCommand, StyleValues};
 use super::context::Context;
-use super::{CliError, End, Outcome};
-use study::{Mode, Part, Saved, SizeRow, StudyError, StyleGiven, Table, Value, Workspace};
+use super::{CliError, End, Outcome, body, output};
+use study::{
+    Given, Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, StudyError, StyleGiven, Table, Value, Workspace,
+};
 
 /// The values of one part of the catalogue on the command line.
 pub trait Values: Args {
@@ -15,21 +17,27 @@ pub trait Values: Args {
     const PART: Part;
 
     /// Saves an entry with them.
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError>;
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError>;
 }
 
-impl Values for SubjectValues {
+impl Values for PersonValues {
     const PART: Part = Part::Subject;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
-        Ok(vec![workspace.save_subject(mode, name, &self.0)?])
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
+        let given = &self.values.0;
+        let Some(file) = &self.scan else { return Ok(vec![workspace.save_subject(mode, name, given)?]) };
+        let is_number = |(key, _): &&Given| key != "sex";
+        body::refuse_beside_scan(given.iter().find(is_number))?;
+        let sex = given.first().map(|(_, word)| study::sex(word)).transpose().map_err(CliError::Usage)?;
+        let scan = ScanGiven { file: file.clone(), unit: self.unit.map(Into::into), sex };
+        Ok(vec![workspace.save_scan(mode, name, &scan)?])
     }
 }
 
 impl Values for FabricValues {
     const PART: Part = Part::Fabric;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         Ok(vec![workspace.save_fabric(mode, name, self.like.as_deref(), &self.given)?])
     }
 }
@@ -37,25 +45,21 @@ impl Values for FabricValues {
 impl Values for StyleValues {
     const PART: Part = Part::Style;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
-        let pattern = |text: &String| match text.split_once('=') {
-            Some((size, file)) => (Some(size.to_owned()), PathBuf::from(file)),
-            None => (None, PathBuf::from(text)),
-        };
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         let given = StyleGiven {
             seams: self.seams.clone(),
             is_proposed: self.propose,
             unit: self.unit.and_then(unit_name),
-            patterns: self.patterns.iter().map(pattern).collect(),
+            patterns: self.patterns.iter().map(|text| pattern_of(text)).collect(),
         };
-        workspace.save_style(mode, name, &given)
+        Ok(workspace.save_style(mode, name, &given)?)
     }
 }
 
 impl Values for SizeValues {
     const PART: Part = Part::Size;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         let given = StyleGiven {
             seams: None,
             is_proposed: false,
@@ -66,8 +70,16 @@ impl Values for SizeValues {
     }
 }
 
+/// A pattern as it is given, `[SIZE=]FILE`.
+pub fn pattern_of(text: &str) -> (Option<String>, PathBuf) {
+    match text.split_once('=') {
+        Some((size, file)) => (Some(size.to_owned()), PathBuf::from(file)),
+        None => (None, PathBuf::from(text)),
+    }
+}
+
 /// A unit as study files name it.
-fn unit_name(unit: PatternUnit) -> Option<String> {
+pub fn unit_name(unit: PatternUnit) -> Option<String> {
     unit.to_possible_value().map(|value| value.get_name().to_owned())
 }
 
@@ -100,7 +112,7 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
         Catalogue::Show { name } => show(context, V::PART, &name)?,
         Catalogue::Add { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Add, &name)?),
         Catalogue::Edit { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Edit, &name)?),
-        Catalogue::Import { files } => say(context, &context.workspace()?.import(V::PART, &files)?),
+        Catalogue::Import { good_rows, files } => return import(context, V::PART, &files, good_rows),
         Catalogue::Rm { names } => {
             let mut workspace = context.workspace()?;
             for name in &names {
@@ -109,6 +121,17 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
         }
     }
     Ok(End::Done)
+}
+
+/// Imports files; tells what is wrong with the rows that are left out where only the good ones are asked for.
+fn import(context: &Context, part: Part, files: &[PathBuf], good_rows: bool) -> Outcome {
+    let strictness = if good_rows { Strictness::GoodRows } else { Strictness::AllOrNone };
+    let Imported { saved, left_out } = context.workspace()?.import(part, files, strictness)?;
+    say(context, &saved);
+    for problem in &left_out {
+        output::tell(&format!("left out: {problem}"));
+    }
+    Ok(if left_out.is_empty() { End::Done } else { End::CheckFailed })
 }
 
 /// Runs a command on styles.
@@ -131,7 +154,7 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
 }
 
 /// Says what was saved and what is doubtful about it.
-fn say(context: &Context, saved: &[Saved]) {
+pub fn say(context: &Context, saved: &[Saved]) {
     for entry in saved {
         context.say(entry);
         for doubt in &entry.doubts {

@@ -12,9 +12,9 @@ use super::body::of as body_of;
 use super::context::Context;
 use super::pictures::write;
 use super::{CliError, End, Outcome, output};
-use study::StudyError;
 use study::patterns::Unit;
 use study::seams::{self, Care, Hung, Mannequin, Workpiece};
+use study::{Fabric, StudyError};
 
 /// Time between two looks at the seam file.
 const LOOK: Duration = Duration::from_millis(100);
@@ -29,10 +29,11 @@ pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     let BodyFile { body, body_unit, sex } = &arguments.body;
     let (mannequin, notes) = Mannequin::read(body, body_unit.map(Into::into), sex.map(body_of))?;
     notes.iter().for_each(|note| context.say(note));
+    let cloth = study::fabric_named(&arguments.fabric)?;
     loop {
         let before = stamp(seams.as_deref());
         let is_stale = || is_left.load(Ordering::Relaxed) || stamp(seams.as_deref()) != before;
-        let end = match sewn(context, arguments, seams.as_deref(), &mannequin, &is_stale) {
+        let end = match sewn(context, arguments, seams.as_deref(), (&mannequin, &cloth), &is_stale) {
             Err(CliError::Study(StudyError::Interrupted)) => End::Done,
             Err(error) if !arguments.watch => return Err(error),
             Err(error) => {
@@ -85,13 +86,13 @@ fn sewn(
     context: &Context,
     arguments: &SewFiles,
     seams: Option<&Path>,
-    mannequin: &Mannequin,
+    (mannequin, cloth): (&Mannequin, &Fabric),
     is_stale: &dyn Fn() -> bool,
 ) -> Outcome {
     let started = Instant::now();
     let cut = &arguments.cut;
     let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
-    let preview = piece.preview(mannequin, Care::Glance, is_stale)?;
+    let preview = piece.preview(mannequin, cloth, Care::Glance, is_stale)?;
     let took_ms = started.elapsed().as_millis();
     write(context, &arguments.output, preview.sheet()?)?;
     let hung = match preview.hung {

@@ -1,36 +1,39 @@
 //! `toile study new|check|export`: study files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::args::{Sex, StudyCommand, SubjectValues};
+use super::args::{PatternUnit, Sex, StudyCommand, SubjectValues};
+use super::catalogue::{pattern_of, say, unit_name};
 use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
-use super::{End, Outcome, body, output};
+use super::{CliError, End, Outcome, body, output};
 use study::{
-    NewStudy, PopulationOptions, StudyError, Wearable, export_study, files, new_study, representatives, subjects_text,
-    wearables,
+    Mode, NewStudy, PopulationOptions, StudyError, StyleGiven, Wearable, Workspace, export_study, files, new_study,
+    representatives, subjects_text, wearables,
 };
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
-        StudyCommand::New { folder, wear, subject, fabric, sim, .. } if !wear.is_empty() => {
+        StudyCommand::New { folder, wear, subject, patterns, seams, unit, fabric, sim, .. } if !subject.is_empty() => {
             let mut workspace = context.workspace()?;
+            let own = own_style(context, &mut workspace, patterns, seams.as_ref(), *unit)?;
             let known = wearables(&workspace.sizes()?);
+            let named = |one: &Wearable| format!("{}/{}", one.style, one.size);
             let of = |name: &String| {
-                let is_it = |one: &&Wearable| format!("{}/{}", one.style, one.size) == *name;
-                known.iter().find(is_it).cloned().ok_or_else(|| StudyError::NotFound {
+                known.iter().find(|one| named(one) == *name).cloned().ok_or_else(|| StudyError::NotFound {
                     what: "size",
                     name: name.clone(),
-                    known: known.iter().map(|one| format!("{}/{}", one.style, one.size)).collect(),
+                    known: known.iter().map(named).collect(),
                 })
             };
+            let own = known.iter().filter(|one| own.as_ref() == Some(&one.style)).cloned().map(Ok);
             let new = NewStudy {
                 name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
                 folder: folder.parent().unwrap_or(Path::new("")).to_owned(),
                 subjects: subject.clone(),
-                sizes: wear.iter().map(of).collect::<Result<_, _>>()?,
+                sizes: wear.iter().map(of).chain(own).collect::<Result<_, _>>()?,
                 fabric: fabric.clone(),
                 simulators: sim.iter().map(|&sim| sim.into()).collect(),
             };
@@ -76,6 +79,34 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
         }
     }
     Ok(End::Done)
+}
+
+/// Adds patterns of one's own as a style that is called as the first of them; returns its name, and says what is to be decided of it.
+fn own_style(
+    context: &Context,
+    workspace: &mut Workspace,
+    patterns: &[String],
+    seams: Option<&PathBuf>,
+    unit: Option<PatternUnit>,
+) -> Result<Option<String>, CliError> {
+    let Some(first) = patterns.first() else { return Ok(None) };
+    let (_, file) = pattern_of(first);
+    let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let given = StyleGiven {
+        seams: seams.cloned(),
+        is_proposed: seams.is_none(),
+        unit: unit.and_then(unit_name),
+        patterns: patterns.iter().map(|text| pattern_of(text)).collect(),
+    };
+    say(context, &workspace.save_style(Mode::Add, &name, &given)?);
+    let sizes = workspace.sizes()?;
+    let row = sizes.iter().find(|row| row.style == name);
+    let undecided = row.map(|row| workspace.workpiece(row.key)?.laid_out()).transpose()?;
+    let open = undecided.map_or(0, |laid| laid.undecided.iter().filter(|one| !one.is_sure).count());
+    if open > 0 {
+        context.say(format_args!("{open} questions about its seams stand: the workbench asks them (screen 3, Enter)"));
+    }
+    Ok(Some(name))
 }
 
 /// The representative of a study, and its results.

@@ -72,7 +72,12 @@ impl FindingKind {
 /// Findings of a style made of `pieces` by the entries of a seam file.
 #[must_use]
 pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
-    let mut findings = unused(pieces, entries);
+    let is_left_out = |piece: &Piece| Finding {
+        kind: FindingKind::UnusedPiece,
+        place: piece.name.clone(),
+        found: "drawn, but the seam file does not name it".to_owned(),
+    };
+    let mut findings: Vec<Finding> = unused(pieces, entries).into_iter().map(is_left_out).collect();
     findings.extend(style.seams.iter().filter_map(|seam| gathered(style, seam)));
     findings.extend(style.seams.iter().filter_map(|seam| turned(style, seam)));
     let sewn: BTreeSet<EdgeRef> = style.seams.iter().flat_map(|seam| seam.a.iter().chain(&seam.b)).copied().collect();
@@ -155,18 +160,12 @@ fn welded(garment: &Garment) -> Vec<usize> {
     }
 }
 
-fn unused(pieces: &[Piece], entries: &SeamFile) -> Vec<Finding> {
+/// Drawn pieces that a seam file does not name.
+pub(super) fn unused<'p>(pieces: &'p [Piece], entries: &SeamFile) -> Vec<&'p Piece> {
     let made_on = entries.size.as_deref();
     let used: BTreeSet<usize> =
         entries.piece.values().flat_map(|entry| called(pieces, &entry.block, made_on)).collect();
-    let unused = pieces.iter().enumerate().filter(|(index, _)| !used.contains(index));
-    unused
-        .map(|(_, piece)| Finding {
-            kind: FindingKind::UnusedPiece,
-            place: piece.name.clone(),
-            found: "drawn, but the seam file does not name it".to_owned(),
-        })
-        .collect()
+    pieces.iter().enumerate().filter(|(index, _)| !used.contains(index)).map(|(_, piece)| piece).collect()
 }
 
 fn length(style: &Style, chain: &[EdgeRef]) -> f64 {

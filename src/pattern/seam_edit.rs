@@ -4,8 +4,9 @@
 //! corners (`front.3-5`, counter-clockwise as drawn); an edge that has no name yet gets one. A side of several edges is
 //! written with `+`, in order along the seam.
 
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
+use super::check;
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{RATIO_DOUBT, SAME_EASE, SeamEntry, SeamFile, StyleError};
@@ -49,6 +50,13 @@ pub enum Edit {
     LeaveOut {
         /// The piece.
         piece: String,
+    },
+    /// Takes a drawn piece in that the file leaves out; what it is worn as is to be said.
+    TakeIn {
+        /// The piece, by its name or its block.
+        drawn: String,
+        /// Whether it is worn twice, the second time mirrored: right and left.
+        is_pair: bool,
     },
     /// Says what a piece is worn as.
     Role {
@@ -100,6 +108,7 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
         }
         Edit::Open { edge } => editor.open(edge)?,
         Edit::LeaveOut { piece } => editor.leave_out(piece)?,
+        Edit::TakeIn { drawn, is_pair } => editor.take_in(drawn, *is_pair, pieces)?,
         Edit::Role { piece, role } => editor.wear(piece, role)?,
     }
     let text = editor.document.to_string();
@@ -229,6 +238,41 @@ impl Editor<'_> {
             open.retain(|edge| !edge.as_str().is_some_and(is_of));
         }
         Ok(())
+    }
+
+    fn take_in(&mut self, drawn: &str, is_pair: bool, pieces: &[Piece]) -> Result<(), StyleError> {
+        let left_out = check::unused(pieces, &self.entries);
+        let Some(piece) =
+            left_out.iter().find(|piece| [&piece.name, &piece.block].into_iter().any(|name| name == drawn))
+        else {
+            let names: Vec<&str> = left_out.iter().map(|piece| piece.name.as_str()).collect();
+            return Err(self.unknown("piece that is left out", drawn, &names.join(", ")));
+        };
+        let hands: &[(&str, bool)] = if is_pair { &[("_right", false), ("_left", true)] } else { &[("", false)] };
+        for (hand, is_mirrored) in hands {
+            let mut entry = Table::new();
+            entry["block"] = value(&piece.block);
+            entry["role"] = value(Role::Other.as_str());
+            if *is_mirrored {
+                entry["mirror"] = value(true);
+            }
+            entry["edges"] = value(InlineTable::new());
+            let id = self.free_id(&piece.name, hand);
+            self.document["piece"][&id] = Item::Table(entry);
+        }
+        Ok(())
+    }
+
+    /// A name in the file for a drawn piece: letters, digits and `_`.
+    fn free_id(&self, drawn: &str, hand: &str) -> String {
+        let words = drawn.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+        let base = match words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("_") {
+            empty if empty.is_empty() => "piece".to_owned(),
+            base => base,
+        };
+        let numbered = (2..).map(|number| format!("{base}_{number}{hand}"));
+        let is_free = |id: &String| !self.entries.piece.contains_key(id);
+        std::iter::once(format!("{base}{hand}")).chain(numbered).find(is_free).unwrap_or(base)
     }
 
     fn wear(&mut self, piece: &str, role: &str) -> Result<(), StyleError> {
@@ -460,6 +504,33 @@ mod tests {
         check(Edit::Open { edge: "front.side_right".to_owned() }, "it is in seam `side_right`");
         check(Edit::LeaveOut { piece: "collar".to_owned() }, "there is: back, front");
         check(Edit::Role { piece: "front".to_owned(), role: "collar".to_owned() }, "sleeve_left");
+        let drawn = "front".to_owned();
+        check(Edit::TakeIn { drawn, is_pair: false }, "no piece that is left out `front`");
+    }
+
+    #[test]
+    fn pieces_that_were_left_out_are_taken_in() {
+        let measured = text().find("[[measurement]]").expect("measurements");
+        let without =
+            |piece: &str, text: &str| edit(text, &Edit::LeaveOut { piece: piece.to_owned() }).expect("a piece");
+        let text = without("sleeve_left", &without("sleeve_right", &text()[..measured]));
+        let check = |is_pair: bool, expect: &[(&str, bool)]| {
+            let taken = edit(&text, &Edit::TakeIn { drawn: "SLEEVE".to_owned(), is_pair }).expect("it is drawn");
+            let read = SeamFile::parse(taken.as_bytes(), "a.toml").expect("it reads").piece;
+            let found: Vec<(&str, bool)> = read
+                .iter()
+                .filter(|(id, _)| id.starts_with("sleeve"))
+                .map(|(id, entry)| (id.as_str(), entry.mirror))
+                .collect();
+            assert_eq!(found, expect);
+            // And is sewn from there by the numbers of its edges.
+            let first = expect[0].0;
+            let worn =
+                edit(&taken, &Edit::Role { piece: first.to_owned(), role: "sleeve_right".to_owned() }).expect("a role");
+            edit(&worn, &add(&format!("{first}.2"), &format!("{first}.4"))).expect("its underarm");
+        };
+        check(false, &[("sleeve", false)]);
+        check(true, &[("sleeve_left", true), ("sleeve_right", false)]);
     }
 
     #[test]

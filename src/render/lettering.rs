@@ -1,7 +1,7 @@
 //! Labels and legends on pictures, and several pictures on one sheet.
 
 use super::colour::Scale;
-use super::{RenderError, rasterise_svg};
+use super::{Camera, RenderError, Scene, View, png, rasterise_svg, render};
 use image::{Rgba, RgbaImage, imageops};
 use std::fmt::Write;
 
@@ -45,6 +45,22 @@ pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<Rgba
     labels.push_str("</svg>");
     imageops::overlay(&mut sheet, &rasterise_svg(&labels, 1.0)?, 0, 0);
     Ok(sheet)
+}
+
+/// A scene from its four named sides in one row, each `width` by `height` pixels, as a PNG file; `camera` is that of a view.
+///
+/// # Errors
+/// [`RenderError::Size`] where the sheet would be too large.
+pub fn from_all_sides(
+    scene: &Scene,
+    camera: impl Fn(View) -> Camera,
+    [width, height]: [u32; 2],
+) -> Result<Vec<u8>, RenderError> {
+    let shot = |view: View| {
+        Ok(Cell { picture: render(scene, &camera(view), width, height)?, label: view.as_str().to_owned() })
+    };
+    let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>, RenderError>>()?;
+    png(&contact_sheet("", &cells, cells.len())?)
 }
 
 fn svg_head(width: u32, height: u32) -> String {

@@ -20,7 +20,7 @@ mod weave;
 
 pub use camera::{Camera, Frame, View};
 pub use colour::{ColourMap, Rgb, Scale};
-pub use lettering::{Cell, contact_sheet, draw_legend};
+pub use lettering::{Cell, contact_sheet, draw_legend, from_all_sides};
 pub use scene::{Layer, Material, Paint, Print, Scene, Values};
 pub use shade::{cutout, render};
 pub use svg::rasterise_svg;

@@ -21,6 +21,9 @@ pub struct Stretched {
     pub membrane_weft_n_m: f64,
 }
 
+/// The fabric of what is tried on where nobody names one.
+pub const USUAL: &str = "cotton_shirting_light";
+
 /// A fabric as the simulators need it; SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]

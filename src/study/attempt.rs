@@ -23,7 +23,7 @@ use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, MeasurementKind, Spot, Style};
 use render::export::{MeshFormat, Part};
-use render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
+use render::{self, Camera, Frame, Layer, Material, Rgb, Scene};
 use sim::hybrid::Closure;
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
@@ -311,7 +311,11 @@ impl Monitor for Told<'_> {
     }
 }
 
-fn fabric(name: &str) -> Result<Fabric> {
+/// A fabric of the library by its name, or of a TOML file.
+///
+/// # Errors
+/// When there is none of that name, or the file is wrong.
+pub fn fabric(name: &str) -> Result<Fabric> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         return read_fabric(path);
@@ -393,11 +397,6 @@ fn four_views(body: &Body, cloth: &TriMesh, material: Material) -> Result<Vec<u8
     let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let [width, height] = PICTURE;
     let frame = Frame::enclosing([&body.mesh, cloth], f64::from(width) / f64::from(height));
-    let shot = |view: View| {
-        let picture = render::render(&scene, &Camera::new(view, frame), width, height);
-        Ok(Cell { picture: picture.map_err(StudyError::stage("render"))?, label: view.as_str().to_owned() })
-    };
-    let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>>>()?;
-    let sheet = render::contact_sheet("", &cells, cells.len()).map_err(StudyError::stage("render"))?;
-    render::png(&sheet).map_err(StudyError::stage("render"))
+    let camera = |view| Camera::new(view, frame);
+    render::from_all_sides(&scene, camera, PICTURE).map_err(StudyError::stage("render"))
 }

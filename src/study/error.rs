@@ -85,6 +85,14 @@ pub enum StudyError {
         /// What there is.
         known: Vec<String>,
     },
+    /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
+    #[error("no {what} `{name}`; {}", hidden_hint(.what))]
+    Hidden {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+    },
     /// A stage refused its input.
     #[error("{stage}: {source}")]
     Stage {
@@ -203,6 +211,11 @@ fn suggestion(known: &[String], name: &str) -> String {
         None if known.is_empty() => String::new(),
         None => format!("; there are: {}", known.join(", ")),
     }
+}
+
+/// What to do about a hidden entry of a part of the catalogue.
+pub(crate) fn hidden_hint(part: &str) -> String {
+    format!("it is hidden: it was removed, and stays for its results; `toile {part} add` or `import` brings it back")
 }
 
 /// The candidate most like a misspelt name, if one is near: at most a third of its letters differ.

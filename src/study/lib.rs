@@ -39,10 +39,12 @@ pub use answers::record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
 pub use answers::reports::{ReportRow, reports};
 pub use answers::section::{CrossSection, CutAt, CutCloth, CutLine};
 pub use answers::worn::{Balance, FoldLine, GarmentWorn, LevelGap, RegionPressure, SizeWorn, WornPoint};
-pub use attempt::{Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt};
+pub use attempt::{
+    Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt, fabric as fabric_named,
+};
 pub use catalogue::{
-    Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
-    percentile_text, with_bending,
+    Deed, FabricRow, Imported, Mode, Part, Removed, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, SubjectRow,
+    doubts, is_doubtful, percentile, percentile_text, with_bending,
 };
 pub use chance::{
     Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,
@@ -66,7 +68,7 @@ pub use run::worn::{Level, Pressing, WornOn};
 pub use run::{Run, RunOptions};
 pub use spec::export::export_study;
 pub use spec::fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
-pub use spec::file::{Study, read_measurements, study_file};
+pub use spec::file::{Person, Study, read_measurements, study_file};
 pub use spec::inputs::{Change, Inputs};
 pub use spec::new_study::{QUICKSTART, new_study, write_quickstart};
 pub use spec::parameters::Parameters;
@@ -85,6 +87,6 @@ pub use pattern::Handle;
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
 pub use report::{Chart, Purpose};
-pub use sim::fabric::Stretched;
+pub use sim::fabric::{Stretched, USUAL as USUAL_FABRIC};
 pub use sim::laboratory::bench as lab;
 pub use sim::{Fabric, Monitor, Stage, Step};

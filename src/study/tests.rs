@@ -59,8 +59,7 @@ fn source(name: &str, text: &str) -> SourceFile {
 fn study(density_kg_m2: f64) -> Study {
     let subject = |id: &str, stature_m: f64| Subject {
         id: id.to_owned(),
-        measurements: Measurements::of(Sex::Male, stature_m).with(Dimension::ChestGirth, 0.9),
-        scan: None,
+        person: Measurements::of(Sex::Male, stature_m).with(Dimension::ChestGirth, 0.9).into(),
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
     let fabric = Fabric {
@@ -104,7 +103,7 @@ fn study(density_kg_m2: f64) -> Study {
 
 /// A result that depends on the inputs alone.
 fn outcome(spec: &JobSpec) -> Outcome {
-    let stretch = 1.0 + spec.measurements.stature_m() / 100.0;
+    let stretch = 1.0 + spec.person.measurements.stature_m() / 100.0;
     let chis = vec![Chi { no: 1, l2d_m: 1.0, l3d_m: stretch }, Chi { no: 2, l2d_m: 0.5, l3d_m: 0.5 }];
     let measured = |chi: &Chi| Measured {
         stage: Stage::Drape,

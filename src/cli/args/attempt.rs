@@ -33,7 +33,7 @@ pub struct Try {
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
     /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]].
-    #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
     pub fabric: String,
     /// Edge length of the mesh, mm.
     #[arg(long, value_name = "MM", default_value_t = 15.0)]
@@ -62,7 +62,7 @@ pub struct AuditGarments {
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
     pub sim: Vec<TrySimulator>,
     /// Fabric of the catalogue.
-    #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
     pub fabric: String,
     /// Unit of the patterns, where their files name none.
     #[arg(long, value_enum)]

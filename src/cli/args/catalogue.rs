@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
-use super::{PatternUnit, SewStep};
+use super::{MeshUnit, PatternUnit, SewStep};
 use study::bodies::Dimension;
 use study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
@@ -38,6 +38,9 @@ pub enum Catalogue<V: Args> {
     },
     /// Add or change all entries of files, or none if anything is wrong with one.
     Import {
+        /// Take the rows of CSV files that are right, and tell what is wrong with the others; exit code 3 where any is left out.
+        #[arg(long)]
+        good_rows: bool,
         /// TOML files with the tables of a study.toml; of subjects and fabrics also CSV, a column a key.
         #[arg(required = true)]
         files: Vec<PathBuf>,
@@ -69,6 +72,19 @@ pub enum StyleCommand {
 /// Values of a subject, by key.
 #[derive(Debug)]
 pub struct SubjectValues(pub Vec<Given>);
+
+/// Who a subject is: values, or a scan.
+#[derive(Debug, Args)]
+pub struct PersonValues {
+    #[command(flatten)]
+    pub values: SubjectValues,
+    /// Scan (OBJ, PLY, STL, GLB) that is the body; it is measured, and kept in the database.
+    #[arg(long, value_name = "FILE")]
+    pub scan: Option<PathBuf>,
+    /// Unit of the scan; by default told from its height.
+    #[arg(long, value_enum, requires = "scan")]
+    pub unit: Option<MeshUnit>,
+}
 
 /// Measurements of a body, by key.
 #[derive(Debug)]

@@ -22,7 +22,7 @@ mod studies;
 pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, BodyFile, MeshUnit, Sex};
-pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleCommand, StyleValues, SubjectValues};
+pub use catalogue::{Catalogue, FabricValues, PersonValues, SizeValues, StyleCommand, StyleValues, SubjectValues};
 pub use cut::{CutFiles, PatternUnit};
 pub use fit::{Chance, Fit, Section};
 pub use grade::Grade;
@@ -120,7 +120,7 @@ pub enum Command {
     Job(Job),
     /// Subjects of the catalogue.
     #[command(subcommand)]
-    Subject(Catalogue<SubjectValues>),
+    Subject(Catalogue<PersonValues>),
     /// Styles of the catalogue.
     #[command(subcommand)]
     Style(StyleCommand),

@@ -62,6 +62,16 @@ pub struct OnePiece {
     piece: String,
 }
 
+/// A drawn piece that the seams leave out.
+#[derive(Clone, Debug, Args)]
+pub struct DrawnPiece {
+    /// The piece, by its name or its block in the pattern.
+    drawn: String,
+    /// It is worn twice, right and left, the second mirrored.
+    #[arg(long)]
+    pair: bool,
+}
+
 /// What a piece is.
 #[derive(Clone, Debug, Args)]
 pub struct Worn {
@@ -113,6 +123,8 @@ pub enum SewStep {
     Open(Edge),
     /// Leave a piece out, with its seams.
     LeaveOut(OnePiece),
+    /// Take a drawn piece in that the seams leave out.
+    TakeIn(DrawnPiece),
     /// Say what a piece is worn as.
     Role(Worn),
     /// Take a proposed seam for right, or all that are sure.
@@ -136,6 +148,7 @@ impl SewStep {
             Self::Flip(Sides { a, b }) => SeamStep::Edit(SeamEdit::Flip { a, b }),
             Self::Open(Edge { edge }) => SeamStep::Edit(SeamEdit::Open { edge }),
             Self::LeaveOut(OnePiece { piece }) => SeamStep::Edit(SeamEdit::LeaveOut { piece }),
+            Self::TakeIn(DrawnPiece { drawn, pair }) => SeamStep::Edit(SeamEdit::TakeIn { drawn, is_pair: pair }),
             Self::Role(Worn { piece, role }) => SeamStep::Edit(SeamEdit::Role { piece, role }),
             Self::Confirm(Proposed { seam: Some(seam) }) => SeamStep::Confirm(seam),
             Self::Confirm(Proposed { seam: None }) => SeamStep::ConfirmSure,
@@ -184,6 +197,13 @@ pub enum SeamCommand {
         #[command(flatten)]
         of: OnePiece,
     },
+    /// Take a drawn piece in that the seams leave out.
+    TakeIn {
+        #[command(flatten)]
+        home: SeamHome,
+        #[command(flatten)]
+        of: DrawnPiece,
+    },
     /// Say what a piece is worn as.
     Role {
         #[command(flatten)]
@@ -223,6 +243,7 @@ impl SeamCommand {
             Self::Flip { home, of } => (home, SewStep::Flip(of)),
             Self::Open { home, of } => (home, SewStep::Open(of)),
             Self::LeaveOut { home, of } => (home, SewStep::LeaveOut(of)),
+            Self::TakeIn { home, of } => (home, SewStep::TakeIn(of)),
             Self::Role { home, of } => (home, SewStep::Role(of)),
             Self::Confirm { home, of } => (home, SewStep::Confirm(of)),
             Self::Answer { home, of } => (home, SewStep::Answer(of)),

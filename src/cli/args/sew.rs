@@ -18,6 +18,9 @@ pub struct SewFiles {
     pub body: BodyFile,
     #[command(flatten)]
     pub cut: CutFiles,
+    /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]].
+    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
+    pub fabric: String,
     /// Sew again whenever the seam file has changed, until Ctrl-C.
     #[arg(long)]
     pub watch: bool,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::{DraftStyle, Sex, SubjectValues, TrySimulator};
+use super::{DraftStyle, PatternUnit, Sex, SubjectValues, TrySimulator};
 
 /// A study by its folder, file or name.
 #[derive(Debug, Args)]
@@ -16,21 +16,32 @@ pub struct StudyPath {
 /// Commands on study files.
 #[derive(Debug, Subcommand)]
 pub enum StudyCommand {
-    /// Start a study: a folder with a study.toml that says what may be in it and drafted patterns, or what the catalogue has.
+    /// Start a study: a folder with a study.toml that says what may be in it, and drafted patterns, what the catalogue has, or
+    /// patterns of your own.
     New {
         /// Folder to make.
         folder: PathBuf,
         /// Style to draft.
-        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt, conflicts_with_all = ["wear", "subject"])]
+        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt, conflicts_with_all = ["wear", "subject", "patterns"])]
         style: DraftStyle,
         /// Sizes of the catalogue, or of drafted styles, that it wears; its jobs are queued. May be given several times.
         #[arg(long, value_name = "STYLE/SIZE", requires = "subject")]
         wear: Vec<String>,
         /// Who of the catalogue wears them; may be given several times.
-        #[arg(long, value_name = "NAME", requires = "wear")]
+        #[arg(long, value_name = "NAME")]
         subject: Vec<String>,
+        /// Patterns of your own (DXF, GarmentCode JSON), all sizes of which are worn: they become a style of the catalogue, called as the
+        /// first file. Its seams are proposed where there is no --seams.
+        #[arg(long = "pattern", value_name = "[SIZE=]FILE", num_args = 1.., requires = "subject")]
+        patterns: Vec<String>,
+        /// Seam file of those patterns.
+        #[arg(long, value_name = "FILE", requires = "patterns")]
+        seams: Option<PathBuf>,
+        /// Unit of those patterns, where they name none.
+        #[arg(long, value_enum, requires = "patterns")]
+        unit: Option<PatternUnit>,
         /// Fabric of the catalogue.
-        #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+        #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
         fabric: String,
         /// Simulators; may be given twice.
         #[arg(long, value_enum, default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]

@@ -114,6 +114,11 @@ impl<'a> Asker<'a> {
         Self::new(self.answers)
     }
 
+    /// Whether a person has answered a question.
+    pub fn is_answered(&self, text: &str) -> bool {
+        self.answers.contains_key(text)
+    }
+
     /// What was asked.
     pub fn into_questions(self) -> Vec<Question> {
         self.asked

@@ -73,6 +73,11 @@ pub(super) struct Tailor<'w, 'q, 'a> {
     pub asker: &'q mut Asker<'a>,
 }
 
+/// What is asked of a seam between two halves.
+fn centre_question(kind: &SeamKind) -> String {
+    format!("{kind}: a seam, a fold, or an opening?")
+}
+
 impl<'w> Tailor<'w, '_, '_> {
     /// The piece of a kind for a side; a whole piece is for both.
     pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
@@ -89,8 +94,9 @@ impl<'w> Tailor<'w, '_, '_> {
         }
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
-        // Half pieces say nothing of how they are joined in the middle.
-        let known = if kind.is_centre() { CENTRE_CONFIDENCE } else { 1.0 };
+        // Half pieces say nothing of how they are joined in the middle; a person may.
+        let is_known = !kind.is_centre() || self.asker.is_answered(&centre_question(&kind));
+        let known = if is_known { 1.0 } else { CENTRE_CONFIDENCE };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
         let mut is_turned = false;
         match notched::evidence(&a, &b) {
@@ -319,8 +325,7 @@ impl<'w> Tailor<'w, '_, '_> {
             let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(one, _)| *one).collect();
             let kind = kind(face);
             let choices = ["a seam or a fold", "an opening"];
-            let is_open = kind.is_centre()
-                && self.asker.ask(format!("{kind}: a seam, a fold, or an opening?"), choices, Some(0)) == Some(1);
+            let is_open = kind.is_centre() && self.asker.ask(centre_question(&kind), choices, Some(0)) == Some(1);
             if !is_open {
                 self.add(kind, a, b, &pieces, PLAIN_DOUBT);
             }

@@ -1,4 +1,4 @@
-//! Contact of cloth with the body: a penalty in the distance field, and Coulomb friction by anchors.
+//! Contact of cloth with the body and the floor: a penalty in the distance field, and Coulomb friction by anchors.
 //!
 //! A sample of the cloth nearer than the offset `d0` is pushed out by a pressure that grows with its depth `d = d0 - phi` as
 //! `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with slope `k` from there on; its force is that times its rest
@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
+use super::friction::{Friction, Hold, across};
 use super::intersections::edges_of;
 use super::penalty::{ContactParams, Push};
 use super::point::Point;
@@ -25,8 +26,6 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.body",
-    /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
-    const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
     /// Stiffness that the field's curvature takes, as a share of that along its gradient, which is left out.
     const NEARLY_FLAT: f64 = 0.02;
     /// Most that an offset grows at once, m.
@@ -79,6 +78,8 @@ struct Touch {
 /// Contact of one cloth with one body.
 pub struct BodyContact<'a> {
     field: &'a DistanceField,
+    /// Height of the floor, m; `None` where there is none.
+    floor_m: Option<f64>,
     params: ContactParams,
     /// The vertices in their order, then points between them.
     samples: Vec<Sample>,
@@ -102,6 +103,7 @@ impl<'a> BodyContact<'a> {
             |(v, area): (usize, &f64)| Sample { point: Point::vertex(v), offset_m: params.offset_m, area_m2: *area };
         Self {
             field,
+            floor_m: None,
             params,
             samples: areas.iter().enumerate().map(sample).collect(),
             vertices: areas.len(),
@@ -122,6 +124,7 @@ impl<'a> BodyContact<'a> {
         let of_whole = || part.vertices.iter().chain(&between);
         Self {
             field: self.field,
+            floor_m: self.floor_m,
             params: self.params,
             samples: vertices.chain(renamed).collect(),
             vertices: part.vertices.len(),
@@ -146,6 +149,28 @@ impl<'a> BodyContact<'a> {
         for (&k, anchor) in part.vertices.iter().chain(&between).zip(&contact.anchors) {
             self.anchors[k] = *anchor;
         }
+    }
+
+    /// Has a floor hold the cloth up from now on, as the body does: its height, m.
+    pub fn set_floor(&mut self, height_m: f64) {
+        self.floor_m = Some(height_m);
+        self.seen.fill(Seen::NEVER);
+    }
+
+    /// Distance from body and floor, and its gradient.
+    #[inline(always)]
+    fn distance(&self, p: &V3) -> (f64, V3) {
+        let (distance, gradient) = self.field.value_and_gradient(p);
+        match self.floor_m {
+            Some(floor_m) if p.z - floor_m < distance => (p.z - floor_m, V3::z()),
+            _ => (distance, gradient),
+        }
+    }
+
+    /// Second derivative of that distance.
+    fn curvature(&self, p: &V3) -> Matrix3<f64> {
+        let is_on_floor = |floor_m| p.z - floor_m < self.field.value_and_gradient(p).0;
+        if self.floor_m.is_some_and(is_on_floor) { Matrix3::zeros() } else { self.field.hessian(p) }
     }
 
     /// Takes another penalty from now on.
@@ -255,7 +280,7 @@ impl<'a> BodyContact<'a> {
         if self.seen[k].is_clear(&p) {
             return None;
         }
-        let (distance, gradient) = self.field.value_and_gradient(&p);
+        let (distance, gradient) = self.distance(&p);
         Some((self.samples[k].offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
     }
 
@@ -268,7 +293,7 @@ impl<'a> BodyContact<'a> {
                 energy += self.samples[k].area_m2 * self.params.push(depth).energy_n_m;
             }
         }
-        energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy).sum::<f64>()
+        energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy_j).sum::<f64>()
     }
 
     /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
@@ -304,9 +329,9 @@ impl<'a> BodyContact<'a> {
             pushed += sample.area_m2 * touch.push.energy_n_m;
             if let Some(f) = &friction {
                 sample.point.add_force(&f.force, forces);
-                rubbed += f.energy;
+                rubbed += f.energy_j;
             }
-            let stiffness = self.stiffness_at(touch, &sample.point.at(x), friction.map_or(0.0, |f| f.stiffness));
+            let stiffness = self.stiffness_at(touch, &sample.point.at(x), friction.map_or(0.0, |f| f.stiffness_n_m));
             if touch.sample < self.vertices {
                 diagonal[touch.sample] += stiffness;
             } else {
@@ -319,13 +344,13 @@ impl<'a> BodyContact<'a> {
     }
 
     /// Stiffness of a touching sample at `p`: the second derivative of its energy without what would pull it in, and
-    /// `across` the normal that of friction.
+    /// `sideways` that of friction.
     ///
     /// The field's own curvature matters where skin faces skin: in an armpit the gradient is small and turns over a few
     /// millimetres, and cloth between the two is held by that turning alone.
-    fn stiffness_at(&self, touch: &Touch, p: &V3, across: f64) -> Matrix3<f64> {
+    fn stiffness_at(&self, touch: &Touch, p: &V3, sideways: f64) -> Matrix3<f64> {
         let upright = touch.gradient * touch.gradient.transpose() * touch.push.stiffness_n_m3;
-        let bent = self.field.hessian(p) * touch.push.pressure_n_m2;
+        let bent = self.curvature(p) * touch.push.pressure_n_m2;
         let stiffness = if bent.norm() > NEARLY_FLAT * upright.norm() {
             let mut eigen = (upright - bent).symmetric_eigen();
             eigen.eigenvalues.apply(|value| *value = value.max(0.0));
@@ -334,7 +359,7 @@ impl<'a> BodyContact<'a> {
             upright
         };
         let normal = touch.gradient.try_normalize(0.0).unwrap_or_default();
-        let friction = (Matrix3::identity() - normal * normal.transpose()) * across;
+        let friction = (Matrix3::identity() - normal * normal.transpose()) * sideways;
         stiffness * self.samples[touch.sample].area_m2 + friction
     }
 
@@ -371,7 +396,7 @@ impl<'a> BodyContact<'a> {
                 self.anchors[k] = None;
                 continue;
             }
-            let (distance, gradient) = self.field.value_and_gradient(&p);
+            let (distance, gradient) = self.distance(&p);
             let depth = self.samples[k].offset_m - distance;
             self.seen[k] = Seen { place: p, slack_m: -depth / STEEPEST };
             if depth <= 0.0 {
@@ -390,22 +415,10 @@ impl<'a> BodyContact<'a> {
         let limit = self.friction? * sample.area_m2 * touch.push.pressure_n_m2 * touch.gradient.norm();
         let anchor = self.anchors[touch.sample]?;
         let normal = touch.gradient.try_normalize(0.0)?;
-        let offset = sample.point.at(x) - anchor;
-        let slip = offset - normal * normal.dot(&offset);
+        let slip = across(&(sample.point.at(x) - anchor), &normal);
         let stiffest = sample.area_m2 * self.params.stiffness_n_m3 * self.params.tangential_share;
-        let k = stiffest.min(limit / self.params.slip_m);
-        let length = slip.norm();
-        Some(if self.holds_fast || k * length <= limit {
-            Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, held: slip }
-        } else {
-            let direction = slip / length;
-            Friction {
-                energy: limit * (length - 0.5 * limit / k),
-                force: direction * -limit,
-                stiffness: k * SLIDING_STIFFNESS_SHARE,
-                held: direction * (limit / k),
-            }
-        })
+        let stiffness_n_m = stiffest.min(limit / self.params.slip_m);
+        Some(Hold { limit_n: limit, stiffness_n_m, is_fast: self.holds_fast }.at(slip))
     }
 
     /// Sets the anchors after a step has been taken to `x`: those of sliding samples are dragged along, and all come to lie level with their
@@ -421,13 +434,4 @@ impl<'a> BodyContact<'a> {
             }
         }
     }
-}
-
-struct Friction {
-    energy: f64,
-    force: V3,
-    /// Across the normal, N/m.
-    stiffness: f64,
-    /// How far the sample may be from its anchor: as far as it is across the normal, or the Coulomb limit allows.
-    held: V3,
 }

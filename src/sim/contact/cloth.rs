@@ -8,7 +8,7 @@
 //! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther where
 //! clusters of cloth close in on each other faster, and steps go no farther than pairs beyond it need to meet, so none is met unseen;
 //! what many vertices do together brings none nearer ([`super::normal_cones`]). Cloth that already crosses when it is first seen passes through itself there,
-//! while the line along which it crosses is drawn out of it ([`super::untangle`]). There is no friction between layers.
+//! while the line along which it crosses is drawn out of it ([`super::untangle`]). Layers rub on each other ([`super::rub`]).
 
 use std::borrow::Cow;
 
@@ -18,6 +18,7 @@ use super::ccd;
 use super::distance::{ClosestPoints, Primitives, cross_squared};
 use super::intersections::{Intersection, intersections};
 use super::normal_cones::{Motion, longest_m};
+use super::rub::{Pressed, Rub};
 use super::untangle::Untangling;
 use crate::cloth::part::Part;
 use geom::V3;
@@ -77,6 +78,7 @@ geom::constants! {
 
 /// How deep a pair is in contact at some positions.
 struct Press {
+    primitives: Primitives,
     vertices: [usize; 4],
     weights: [f64; 4],
     /// Direction away from the second primitive.
@@ -90,6 +92,15 @@ struct Press {
     mollifier: f64,
     /// Gradient of the mollifier by the first edge and by the second.
     mollifier_gradient: Option<[V3; 2]>,
+}
+
+impl Press {
+    /// What friction has to know of it.
+    fn pressed(self) -> Pressed {
+        let Self { primitives, weights, normal, push, stiffness_n_m, mollifier, .. } = self;
+        let force_n = mollifier * stiffness_n_m * push.force;
+        Pressed { primitives, weights, normal, force_n, stiffness_n_m: mollifier * stiffness_n_m }
+    }
 }
 
 /// Self-contact of one cloth.
@@ -108,6 +119,8 @@ pub struct ClothContact<'a> {
     /// How much nearer than there unknown pairs may come before they could meet, m.
     room_m: f64,
     untangling: Untangling,
+    /// `None` while friction is off.
+    rub: Option<Rub>,
 }
 
 impl<'a> ClothContact<'a> {
@@ -127,6 +140,29 @@ impl<'a> ClothContact<'a> {
             made: None,
             room_m: 0.0,
             untangling: Untangling::new(params.release_n, params.release_steps),
+            rub: None,
+        }
+    }
+
+    /// Switches friction of layers on each other on, with a Coulomb coefficient, or off. They are held where they now lie.
+    pub fn set_friction(&mut self, coefficient: Option<f64>) {
+        self.rub = coefficient.map(Rub::new);
+    }
+
+    /// From now on friction holds layers on each other, whatever that takes.
+    pub fn hold_fast(&mut self) {
+        self.rub.iter_mut().for_each(Rub::hold_fast);
+    }
+
+    /// Sets where layers are held after a step has been taken to `x`: what has slid is held from there.
+    pub fn drag_anchors(&mut self, x: &[V3]) {
+        self.rub.iter_mut().for_each(|rub| rub.end(x));
+    }
+
+    /// Takes over where friction has come to hold the layers of a part of the cloth.
+    pub fn take_anchors(&mut self, part: &Part, contact: &ClothContact) {
+        if let (Some(rub), Some(of_part)) = (&mut self.rub, &contact.rub) {
+            rub.take(of_part, |primitives| primitives.renamed(|vertices| Some(vertices.map(|v| part.vertices[v]))));
         }
     }
 
@@ -173,12 +209,21 @@ impl<'a> ClothContact<'a> {
             made: None,
             room_m: self.room_m,
             untangling: Untangling::new(0.0, 0),
+            rub: self.rub.as_ref().map(|rub| rub.part(|p| p.renamed(|vertices| part.names(vertices)))),
         }
     }
 
     /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
     /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
+        self.look(x);
+        if let Some(mut rub) = self.rub.take() {
+            rub.begin(x, self.presses(x).map(Press::pressed));
+            self.rub = Some(rub);
+        }
+    }
+
+    fn look(&mut self, x: &[V3]) {
         self.untangling.grow();
         let Some(mut broad_phase) = self.broad_phase.take() else {
             self.room_m -= 2.0 * farthest(x, &self.last);
@@ -400,6 +445,7 @@ impl<'a> ClothContact<'a> {
         let push = push(nearest.gap.norm(), thickness_m)?;
         let stiffness_n_m = self.params.stiffness_n_m3 * area;
         let mut press = Press {
+            primitives,
             vertices,
             weights: nearest.weights,
             normal,
@@ -439,7 +485,8 @@ impl<'a> ClothContact<'a> {
     #[must_use]
     pub fn pressed_energy(&self, x: &[V3]) -> f64 {
         let pressed = |press: Press| press.stiffness_n_m * press.mollifier * press.push.energy;
-        self.presses(x).map(pressed).sum::<f64>() + self.untangling.energy(x)
+        let rubbed_j = self.rub.as_ref().map_or(0.0, |rub| rub.energy(x));
+        self.presses(x).map(pressed).sum::<f64>() + self.untangling.energy(x) + rubbed_j
     }
 
     /// Adds the contact forces and returns the stiffness.
@@ -460,6 +507,9 @@ impl<'a> ClothContact<'a> {
             contacts.push(Contact4 { vertices, weights, normal, stiffness: mollifier * k * push.stiffness });
         }
         self.untangling.assemble(forces, &mut contacts);
+        if let Some(rub) = &self.rub {
+            rub.assemble(x, forces, &mut contacts);
+        }
         contacts
     }
 }

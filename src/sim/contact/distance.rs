@@ -3,7 +3,7 @@
 use geom::{V3, triangle};
 
 /// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Primitives {
     /// A vertex, then the corners of a triangle.
     VertexTriangle([usize; 4]),

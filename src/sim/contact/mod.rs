@@ -8,11 +8,13 @@ pub mod broad_phase;
 mod ccd;
 pub mod cloth;
 pub mod distance;
+pub mod friction;
 pub mod grid;
 pub mod intersections;
 mod normal_cones;
 mod penalty;
 mod point;
+mod rub;
 pub mod skin;
 mod untangle;
 
@@ -32,9 +34,11 @@ pub(crate) fn constants() -> Vec<Constant> {
         broad_phase::CONSTANTS,
         ccd::CONSTANTS,
         cloth::CONSTANTS,
+        friction::CONSTANTS,
         grid::CONSTANTS,
         intersections::CONSTANTS,
         normal_cones::CONSTANTS,
+        rub::CONSTANTS,
         skin::CONSTANTS,
         untangle::CONSTANTS,
     ]

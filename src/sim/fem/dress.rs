@@ -67,7 +67,8 @@ impl Dressing<'_> {
     pub fn dress(&self, grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
         let Params { contact, self_contact, .. } = *run.params();
-        let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact, self_contact };
+        let floor_m = floor_m(self.body);
+        let soft = Around { skin: self.skin, field: self.field, floor_m, hands: self.hands, contact, self_contact };
         if grip != Grip::AtTheEnd {
             run.keep_up(coarsest, self.placed);
         }
@@ -227,6 +228,11 @@ impl Dressing<'_> {
         }
         last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
     }
+}
+
+/// Height of the floor that a body stands on, m: its lowest point.
+pub fn floor_m(body: &Body) -> f64 {
+    body.mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min)
 }
 
 /// Length of the longest piece along its grain, m.

@@ -7,6 +7,7 @@ mod run;
 mod settle;
 mod start;
 
+pub use dress::floor_m;
 pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;

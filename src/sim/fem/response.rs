@@ -47,6 +47,8 @@ pub struct Lying<'a> {
     pub skin: Option<&'a Skin<'a>>,
     /// Distance from the body.
     pub field: &'a DistanceField,
+    /// Height of the floor ([`floor_m`](super::floor_m)), m.
+    pub floor_m: f64,
     /// The mesh that is draped.
     pub garment: &'a Garment,
     /// What it is made of.
@@ -72,9 +74,9 @@ impl<'a> Response<'a> {
     /// # Errors
     /// When it diverges or slides off the body.
     pub fn of(lying: Lying<'a>, cloth: &'a Cloth, positions: &[V3]) -> Result<Self, SimError> {
-        let Lying { skin, field, garment, fabric, params, is_held } = lying;
+        let Lying { skin, field, floor_m, garment, fabric, params, is_held } = lying;
         let Params { contact, self_contact, .. } = *params;
-        let around = Around { skin, field, hands: None, contact, self_contact };
+        let around = Around { skin, field, floor_m, hands: None, contact, self_contact };
         let taken_up = |around| {
             let settling = Settling { around, garment, cloth, fabric, level: 0, grip: Grip::AtTheEnd };
             let mut x = cloth.weld(positions);
@@ -86,7 +88,7 @@ impl<'a> Response<'a> {
             (system, x) = taken_up(around.hardened())?;
         }
         system.assemble(&x, None);
-        system.contact.hold_fast();
+        system.hold_fast();
         let (tangent, residual) = rest(&system, &mut x);
         Ok(Self { fabric, system, tangent, x, residual })
     }
@@ -296,7 +298,15 @@ mod tests {
         let cloth = sewn(garment, cotton).expect("sound");
         let skin = Skin::new(&body.mesh).ok();
         for is_held in [true, false] {
-            let lying = Lying { skin: skin.as_ref(), field: &field, garment, fabric: cotton, params: &params, is_held };
+            let lying = Lying {
+                skin: skin.as_ref(),
+                field: &field,
+                floor_m: 0.0,
+                garment,
+                fabric: cotton,
+                params: &params,
+                is_held,
+            };
             let response = Response::of(lying, &cloth, &drape.positions).expect("it lies");
             assert!(response.is_stable() && response.residual() < 1e-7, "{is_held}: {}", response.residual());
             for handle in [Handle::Hem, Handle::FrontLength, Handle::ShoulderSlope] {

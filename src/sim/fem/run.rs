@@ -58,6 +58,11 @@ impl Phase {
         Self { tolerance, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
     }
 
+    /// A few steps of coming to rest, while what the cloth lies on moves.
+    pub fn passing(params: &Params, level: usize, last: usize, steps: u32) -> Self {
+        Self { max_steps: steps, ..Self::frictionless(params, level, last) }
+    }
+
     /// The end of the drape, with friction.
     pub fn final_drape(params: &Params, level: usize, tolerance: f64) -> Self {
         Self {

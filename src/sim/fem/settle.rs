@@ -25,6 +25,9 @@ geom::constants! {
     /// Residual from which a drape that is let go of is brought wholly to rest, and how often points inside the body are held out first.
     const FREE: f64 = 0.05;
     const FREE_ROUNDS: usize = 4;
+    /// How far the floor rises at a time, m, and steps that the cloth takes then.
+    const RISE_M: f64 = 5e-3;
+    const STEPS_A_RISE: u32 = 3;
     /// Steps on each shape that a hand passes through.
     const PASSING_STEPS: u32 = 12;
 }
@@ -47,6 +50,8 @@ pub struct Around<'a> {
     pub skin: Option<&'a Skin<'a>>,
     /// Distance from the body.
     pub field: &'a DistanceField,
+    /// Height of the floor that the body stands on, m.
+    pub floor_m: f64,
     /// Hands that the cloth comes near.
     pub hands: Option<&'a Hands<'a>>,
     /// How the body pushes.
@@ -109,9 +114,11 @@ impl<'a> Settling<'a> {
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
         let mut system = self.system(self.contact(begin, &x, run), &x);
+        self.stand(&mut system, &mut x, run)?;
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);
+            system.contact.set_floor(self.around.floor_m);
             residual = self.frictionless(&mut system, &mut x, shape.is_passing, run)?;
         }
         if shapes.is_empty() {
@@ -123,6 +130,7 @@ impl<'a> Settling<'a> {
                 self.hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
             } else {
                 system.contact = self.contact(around.field, &x, run);
+                system.contact.set_floor(self.around.floor_m);
             }
             residual = self.hold(&mut system, &mut x, run)?;
         }
@@ -141,8 +149,23 @@ impl<'a> Settling<'a> {
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
         let mut system = self.system(self.contact(field, x, run), x);
+        self.stand(&mut system, x, run)?;
         let phase = Phase::easing(run.params(), level, run.levels(), tolerance);
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
+    }
+
+    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it.
+    fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
+        let floor_m = self.around.floor_m;
+        let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;
+        let rises = ((floor_m - lowest_m) / RISE_M).ceil().max(0.0);
+        let phase = Phase::passing(run.params(), self.level, run.levels(), STEPS_A_RISE);
+        for rise in (0..rises as usize).rev() {
+            system.contact.set_floor(floor_m - RISE_M * rise as f64);
+            run.drape(self.garment, system, x, phase)?;
+        }
+        system.contact.set_floor(floor_m);
+        Ok(())
     }
 
     /// Areas of the sewn vertices as the cloth's contact with itself takes them, m2.
@@ -170,6 +193,7 @@ impl<'a> Settling<'a> {
     /// When it diverges or slides off the body, or the monitor cancels.
     pub fn taken_up(&self, x: &mut Vec<V3>, is_held: bool, run: &mut Simulation) -> Result<System<'a>, SimError> {
         let mut system = self.system(self.contact(self.around.field, x, run), x);
+        system.contact.set_floor(self.around.floor_m);
         if is_held {
             self.hold(&mut system, x, run)?;
         } else {
@@ -228,7 +252,7 @@ impl<'a> Settling<'a> {
     /// further than what presses points in is out of balance: the next round moves it again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
-        system.contact.set_friction(Some(self.fabric.friction_body));
+        system.set_friction(self.fabric);
         let (mut residual, mut tolerance) = (f64::MAX, params.tolerance.max(HELD));
         for round in 0..HOLDING_ROUNDS {
             residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level, tolerance))?;
@@ -262,7 +286,8 @@ mod tests {
         let check = |asked: [f64; 2], expect: [f64; 2]| {
             let contact = ContactParams { stiffness_n_m3: asked[0], ..params.contact };
             let self_contact = ClothContactParams { stiffness_n_m3: asked[1], ..params.self_contact };
-            let around = Around { skin: None, field: &field, hands: None, contact, self_contact }.hardened();
+            let around =
+                Around { skin: None, field: &field, floor_m: 0.0, hands: None, contact, self_contact }.hardened();
             assert_eq!([around.contact.stiffness_n_m3, around.self_contact.stiffness_n_m3], expect);
         };
         check([params.contact.stiffness_n_m3, params.self_contact.stiffness_n_m3], [HARD_N_M3, HARD_LAYERS_N_M3]);

@@ -6,12 +6,15 @@ use super::sheets::hexagonal_sheet;
 use super::{garment, settle};
 use crate::cloth::Cloth;
 use crate::cloth::law::Tensor;
-use crate::contact::{BodyContact, ContactParams};
+use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
 use crate::sewing::{unsewn, welded};
 use crate::solver::System;
 use crate::{Fabric, SimError};
 use geom::{DistanceField, TriMesh, V2, V3, shapes};
 use pattern::SeamMesh;
+
+/// Friction coefficient that holds cloth on any incline.
+const HELD_FAST: f64 = 5.0;
 
 /// What became of a sheet laid on an incline: the residual after so many steps, and how far a point of it has moved, m.
 ///
@@ -31,6 +34,39 @@ pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64
     let mut x = start.clone();
     let residual = settle(&mut system, &mut x, 1e-3, 60);
     let moved = x.iter().zip(&start).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+    Ok((residual, moved))
+}
+
+/// What became of a sheet laid on another, larger one, which an incline holds fast: the residual after so many steps, and how far a point
+/// of the upper sheet has moved, m.
+///
+/// # Errors
+/// When the mesh is degenerate.
+pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64, f64), SimError> {
+    let (edge, contact, between) = (0.02, ContactParams::default(), ClothContactParams::default());
+    let ((mut rest, mut triangles), (upper, others)) = (hexagonal_sheet(8, 8, edge), hexagonal_sheet(4, 4, edge));
+    let lower = rest.len();
+    triangles.extend(others.iter().map(|t| t.map(|v| v + lower)));
+    // Apart in the pattern; worn, no vertex lies above another.
+    rest.extend(upper.iter().map(|p| p + V2::new(0.5, 0.0)));
+    let sheets = garment((rest, triangles));
+    let cloth = Cloth::new(&sheets, fabric, unsewn(&sheets))?;
+    let field = incline(angle_rad);
+    let mut system = System::new(&cloth, BodyContact::new(&field, contact, &cloth.areas), None);
+    system.self_contact = Some(ClothContact::new(between, &cloth.triangles, &cloth.areas));
+    system.set_friction(&Fabric { friction_body: HELD_FAST, friction_self: friction, ..fabric.clone() });
+    let turn = Rotation3::from_axis_angle(&V3::x_axis(), angle_rad);
+    let laid = |(v, p): (usize, &V2)| {
+        let height = 0.9 * contact.offset_m;
+        match v < lower {
+            true => turn * V3::new(p.x - 4.0 * edge, p.y - 4.0 * edge, height),
+            false => turn * V3::new(p.x - 0.5 - 2.13 * edge, p.y - 2.37 * edge, height + between.thickness_m),
+        }
+    };
+    let mut x: Vec<V3> = sheets.rest.iter().enumerate().map(laid).collect();
+    let start = x.clone();
+    let residual = settle(&mut system, &mut x, 1e-3, 60);
+    let moved = x.iter().zip(&start).skip(lower).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
     Ok((residual, moved))
 }
 
@@ -120,6 +156,23 @@ mod tests {
         // A degree above, 0.018 of the weight stays unbalanced: the solver may creep, but must not call that equilibrium.
         let (residual, _) = laid(1.0);
         assert!(residual > 1e-2, "above: residual {residual}");
+    }
+
+    #[test]
+    fn layers_hold_each_other_to_a_degree_below_coulombs_angle_and_slip_a_degree_above() {
+        let check = |friction: f64| {
+            let laid = |degrees: f64| {
+                layer_on_incline(&fabric(), friction, friction.atan() + degrees.to_radians()).expect("a sound mesh")
+            };
+            let (residual, moved) = laid(-1.0);
+            assert!(residual <= 1e-3 && moved < 2e-3, "{friction}, below: residual {residual}, moved {moved}");
+            // A degree above, 0.018 of the upper sheet's weight stays unbalanced, a quarter of the vertices.
+            let (residual, moved) = laid(1.0);
+            assert!(residual > 5e-3 && moved > 2e-3, "{friction}, above: residual {residual}, moved {moved}");
+        };
+        check(0.2);
+        check(0.3);
+        check(0.5);
     }
 
     #[test]

@@ -91,7 +91,7 @@ pub fn relax(
         x[v] = *p;
     }
     elements.iter().zip(stepper.predicted()).for_each(|(&t, stress)| predicted[t] = *stress);
-    system.contact.take_anchors(&part, &alone.contact);
+    system.take_anchors(&part, &alone);
 }
 
 /// A part of a system as one of its own: `cloth` is the part's, and lies at `own`.

@@ -163,7 +163,7 @@ impl Stepper {
         self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
-        system.contact.drag_anchors(x);
+        system.drag_anchors(x);
         self.h_s = if alpha >= 1.0 {
             (self.h_s * self.params.growth).min(self.params.h_max_s)
         } else if alpha < 0.25 {

@@ -4,10 +4,12 @@ use nalgebra::Matrix3;
 use wide::f32x4;
 
 use super::braces::Braces;
+use crate::Fabric;
 use crate::cloth::Cloth;
 use crate::cloth::bending::Bending;
 use crate::cloth::law::Tensor;
 use crate::cloth::membrane::{Bowed, Foreseen, Membrane};
+use crate::cloth::part::Part;
 use crate::contact::{BodyContact, ClothContact};
 use crate::sewing::Springs;
 use crate::walls::Walls;
@@ -86,6 +88,35 @@ impl<'a> System<'a> {
             braces: None,
             held: Vec::new(),
             linear: LinearSolver::default(),
+        }
+    }
+
+    /// Switches friction on with the coefficients of a fabric. Anchors are set where the cloth now lies.
+    pub fn set_friction(&mut self, fabric: &Fabric) {
+        self.contact.set_friction(Some(fabric.friction_body));
+        if let Some(contact) = &mut self.self_contact {
+            contact.set_friction(Some(fabric.friction_self));
+        }
+    }
+
+    /// From now on friction holds everything, whatever that takes. What has slid lies just at its limit: a small move the one way would be
+    /// held there, and the other way not.
+    pub fn hold_fast(&mut self) {
+        self.contact.hold_fast();
+        self.self_contact.iter_mut().for_each(ClothContact::hold_fast);
+    }
+
+    /// Sets where friction holds the cloth after a step has been taken to `x`: what has slid is held from there.
+    pub fn drag_anchors(&mut self, x: &[V3]) {
+        self.contact.drag_anchors(x);
+        self.self_contact.iter_mut().for_each(|contact| contact.drag_anchors(x));
+    }
+
+    /// Takes over where friction has come to hold a part of the cloth.
+    pub fn take_anchors(&mut self, part: &Part, alone: &System) {
+        self.contact.take_anchors(part, &alone.contact);
+        if let (Some(contact), Some(of_part)) = (&mut self.self_contact, &alone.self_contact) {
+            contact.take_anchors(part, of_part);
         }
     }
 

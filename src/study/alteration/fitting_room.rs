@@ -128,7 +128,16 @@ impl<'a> FittingRoom<'a> {
         let (garment, fabric) = (meshes.finest()?, &self.spec.fabric);
         let skin = Skin::new(&self.body.mesh).ok();
         let params = self.spec.parameters.fem()?;
-        let lying = Lying { skin: skin.as_ref(), field: &self.field, garment, fabric, params: &params, is_held: false };
+        let floor_m = fem::floor_m(self.body);
+        let lying = Lying {
+            skin: skin.as_ref(),
+            field: &self.field,
+            floor_m,
+            garment,
+            fabric,
+            params: &params,
+            is_held: false,
+        };
         let stage = StudyError::stage("alter");
         let cloth = sewn(garment, fabric).map_err(StudyError::stage("alter"))?;
         let response = Response::of(lying, &cloth, &drape.positions).map_err(stage)?;

@@ -247,7 +247,7 @@ impl Alteration {
 /// body, pattern or simulator refuse; a handle that cannot move so far.
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
-    let body = pipeline::body(&spec)?;
+    let body = spec.person.body()?;
     let style = pipeline::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
     let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
@@ -295,7 +295,7 @@ pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Out
 /// As [`alter`].
 pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     let Asked { spec, target, .. } = asked(study, wish)?;
-    let body = pipeline::body(&spec)?;
+    let body = spec.person.body()?;
     let style = pipeline::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
     let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;

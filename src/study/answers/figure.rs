@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use image::{GenericImage, RgbaImage};
 
-use crate::bodies;
-use crate::catalogue::{SubjectRow, known};
+use crate::catalogue::known;
 use crate::error::{Result, StudyError};
 use crate::rows::{StageKind, SubjectId};
 use crate::run::pipeline::{self, Model};
@@ -39,9 +38,9 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
 /// # Errors
 /// When there is none of that number, or no body can be built from its measurements.
 pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
-    let SubjectRow { name, measurements, .. } = known::subject_revision(store, id)?;
-    let hash = pipeline::body_inputs(&name, &measurements).stage_hash(StageKind::Body);
-    let make = || Ok(Model { body: bodies::build_body(&measurements)? });
+    let (name, person) = (known::subject_revision(store, id)?.name, known::person(store, id)?);
+    let hash = pipeline::body_inputs(&name, &person).stage_hash(StageKind::Body);
+    let make = || Ok(Model { body: person.body()? });
     let model = if store.is_readonly() {
         Arc::new(cache::stored(&store.reader, &hash).or_else(|_| make())?)
     } else {

@@ -140,7 +140,7 @@ pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison>
 /// Makes a run again from its stored inputs, nothing of it from the cache. What is stored stays as it is.
 ///
 /// # Errors
-/// When it has no result yet, its body is a scan (which is not stored), or a stage refuses.
+/// When it has no result yet, its body is a scan that was not stored, or a stage refuses.
 pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     let metrics = read::metrics(store, id)?.ok_or_else(|| StudyError::NotFound {
         what: "result of job",
@@ -186,9 +186,6 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;
     let refuse = |message: String| StudyError::stage("rerun")(message);
-    if inputs.iter().any(|(name, _)| name.starts_with("subject.") && name.ends_with(".scan")) {
-        return Err(refuse("its body is a scan, which is not stored; run its study again".into()));
-    }
     let edge_mm: f64 = inputs
         .iter()
         .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
@@ -199,6 +196,11 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         .prepare_cached(keys)?
         .query_row([id.0], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?;
     let (style, seams, size, unit) = read_style(&store.reader, keys[1], keys[2])?;
+    let person = known::person(store, SubjectId(keys[0]))?;
+    let is_scan = |(name, _): (&str, &str)| name.starts_with("subject.") && name.ends_with(".scan");
+    if person.scan.is_none() && inputs.iter().any(is_scan) {
+        return Err(refuse("its body is a scan, of which an older program kept nothing; run its study again".into()));
+    }
     let spec = JobSpec {
         garment: job.garment,
         style,
@@ -206,8 +208,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         subject: job.subject,
         simulator: job.simulator,
         repeat: job.repeat,
-        measurements: known::subject_revision(store, SubjectId(keys[0]))?.measurements,
-        scan: None,
+        person,
         pattern: size,
         unit,
         seams,

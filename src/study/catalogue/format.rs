@@ -9,6 +9,8 @@ use crate::error::Problem;
 pub(super) enum Format {
     Csv,
     Toml,
+    /// A body scan.
+    Mesh,
 }
 
 /// The format that a file's name tells.
@@ -16,6 +18,7 @@ pub(super) fn format_of(path: &Path) -> Option<Format> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "csv" | "tsv" => Some(Format::Csv),
         "toml" => Some(Format::Toml),
+        "obj" | "ply" | "stl" | "glb" => Some(Format::Mesh),
         _ => None,
     }
 }

@@ -1,70 +1,131 @@
-//! Entries of the catalogue from files: all of them, or none where anything is wrong with one.
+//! Entries of the catalogue from files: all of them, or none where anything is wrong with one, unless the good ones are asked for.
 
 use std::path::{Path, PathBuf};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, style, table};
 use crate::error::{Problem, Result, StudyError};
-use crate::spec::file::{self, Placed};
+use crate::spec::fields::Entry;
+use crate::spec::file::{self, Person, Placed, ScanFile, SourceFile};
 use crate::store::{self, Store};
+use body::Measurements;
+use sim::Fabric;
 
-/// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
-/// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.
+/// What becomes of files in which something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strictness {
+    /// None of their entries is taken.
+    AllOrNone,
+    /// Rows of tables that are right are taken, and the others told. A table that cannot be read at all is still refused.
+    GoodRows,
+}
+
+/// What an import did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Imported {
+    /// Entries that were saved.
+    pub saved: Vec<Saved>,
+    /// What is wrong with rows that were left out.
+    pub left_out: Vec<Problem>,
+}
+
+/// Entries of a file that are right, and what is wrong with the others.
+pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
+
+/// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will do), for subjects
+/// and fabrics CSV with the same keys, and scans, each a subject of the file's name. Where anything is wrong with one of them, none is taken, or as `strictness` says.
 ///
 /// # Errors
 /// Everything that is wrong with the files, each with its line.
-pub fn import(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
+pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Strictness) -> Result<Imported> {
     match part {
         Part::Subject => {
             let known = known(Some(&store.reader))?;
-            import_entries(store, files, |path, text| {
-                let subjects = file::subjects(path, text, &known)?;
-                Ok(subjects.into_iter().map(|placed| placed.map(|subject| subject.measurements)).collect())
+            import_entries(store, files, strictness, |path, bytes| match format_of(path) {
+                Some(Format::Csv) => read_rows::<Measurements, Person>(path, part, bytes),
+                Some(Format::Toml) => {
+                    let subjects = file::subjects(path, text_of(path, bytes)?, &known)?;
+                    all_good(subjects.into_iter().map(|placed| placed.map(|subject| subject.person)).collect())
+                }
+                Some(Format::Mesh) => all_good(vec![scanned(path, bytes)?]),
+                None => Err(vec![unknown_format(path, "CSV (.csv), TOML (.toml) or a scan (.obj, .ply, .stl, .glb)")]),
             })
         }
-        Part::Fabric => import_entries(store, files, file::fabrics),
-        Part::Style | Part::Size => style::import_styles(store, part, files),
+        Part::Fabric => import_entries(store, files, strictness, |path, bytes| match format_of(path) {
+            Some(Format::Csv) => read_rows::<Fabric, Fabric>(path, part, bytes),
+            Some(Format::Toml) => all_good(file::fabrics(path, text_of(path, bytes)?)?),
+            Some(Format::Mesh) | None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
+        }),
+        Part::Style | Part::Size => {
+            Ok(Imported { saved: style::import_styles(store, part, files)?, left_out: Vec::new() })
+        }
     }
 }
 
+/// Imports the entries that are read in files; a file that cannot be read at all is refused.
 fn import_entries<T: Stored>(
     store: &mut Store,
     files: &[PathBuf],
-    of_toml: impl Fn(&Path, &str) -> std::result::Result<Vec<Placed<T>>, Vec<Problem>>,
-) -> Result<Vec<Saved>> {
-    let mut entries = Vec::new();
-    let mut problems = Vec::new();
+    strictness: Strictness,
+    read: impl Fn(&Path, &[u8]) -> std::result::Result<Read<T>, Vec<Problem>>,
+) -> Result<Imported> {
+    let (mut entries, mut wrong, mut unusable) = (Vec::new(), Vec::new(), Vec::new());
     for path in files {
         let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-        let read = match format_of(path) {
-            Some(Format::Csv) => table::read::<T>(path, T::PART, &bytes),
-            Some(Format::Toml) => text_of(path, &bytes).and_then(|text| of_toml(path, text)),
-            None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
-        };
-        match read {
-            Ok(read) if read.is_empty() => problems.push(Problem::of(path, format!("no {} in it", T::PART))),
-            Ok(read) => entries.extend(read),
-            Err(found) => problems.extend(found),
+        match read(path, &bytes) {
+            Ok((read, problems)) if read.is_empty() && problems.is_empty() => {
+                unusable.push(Problem::of(path, format!("no {} in it", T::PART)));
+            }
+            Ok((read, problems)) => {
+                entries.extend(read);
+                wrong.extend(problems);
+            }
+            Err(problems) => unusable.extend(problems),
         }
     }
     let checked = verified(&entries);
-    let wrong = entries.iter().zip(&checked).filter_map(|(placed, outcome)| {
-        let named = check_name(&placed.name);
-        let problem = outcome.as_ref().err().or(named.as_ref().err())?;
-        Some(placed.problem(format!("{} {}: {problem}", T::PART, placed.name)))
-    });
-    problems.extend(wrong);
-    if !problems.is_empty() {
-        return Err(StudyError::File(problems));
+    let mut good = Vec::new();
+    for (placed, outcome) in entries.into_iter().zip(checked) {
+        match check_name(&placed.name).and(outcome) {
+            Ok(doubts) => good.push((placed, doubts)),
+            Err(problem) => wrong.push(placed.problem(format!("{} {}: {problem}", T::PART, placed.name))),
+        }
+    }
+    if !unusable.is_empty() || !wrong.is_empty() && (strictness == Strictness::AllOrNone || good.is_empty()) {
+        unusable.extend(wrong);
+        return Err(StudyError::File(unusable));
     }
     let transaction = store::write(store.writer()?)?;
     let mut saved = Vec::new();
-    for (Placed { name, entry, .. }, doubts) in entries.iter().zip(checked) {
-        let done = save(&transaction, T::PART, name, Mode::Import, || entry.store(&transaction, name))?;
-        saved.push(Saved { doubts: doubts.unwrap_or_default(), ..done });
+    for (Placed { name, entry, .. }, doubts) in good {
+        let done = save(&transaction, T::PART, &name, Mode::Import, || entry.store(&transaction, &name))?;
+        saved.push(Saved { doubts, ..done });
     }
     transaction.commit()?;
-    Ok(saved)
+    Ok(Imported { saved, left_out: wrong })
+}
+
+/// Entries none of which is wrong so far.
+fn all_good<T>(entries: Vec<Placed<T>>) -> std::result::Result<Read<T>, Vec<Problem>> {
+    Ok((entries, Vec::new()))
+}
+
+/// Entries made of the rows of a table.
+fn read_rows<R: Entry, T: From<R>>(
+    path: &Path,
+    part: Part,
+    bytes: &[u8],
+) -> std::result::Result<Read<T>, Vec<Problem>> {
+    let (rows, problems) = table::read::<R>(path, part, bytes)?;
+    Ok((rows.into_iter().map(|placed| placed.map(T::from)).collect(), problems))
+}
+
+/// Somebody who is a scan, named after its file.
+fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<Person>, Vec<Problem>> {
+    let name = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let scan = ScanFile { file: SourceFile { name: name(path.file_name()), bytes: bytes.into() }, unit: None };
+    let person = scan.person(None).map_err(|error| vec![Problem::of(path, error.to_string())])?;
+    Ok(Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry: person })
 }
 
 /// Verifies entries on all cores: a body takes a while to build.

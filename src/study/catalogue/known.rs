@@ -1,17 +1,17 @@
 //! What is in the catalogue: the current revisions, what is built in, and what becomes of entries that are removed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use rusqlite::{Connection, Row, Transaction};
+use rusqlite::{Connection, OptionalExtension, Row, Transaction};
 
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Part, Removed};
 use crate::error::{Result, StudyError};
 use crate::rows::SubjectId;
 use crate::spec::fields::{Entry, FABRIC_NUMBERS, Field, MEASUREMENTS};
-use crate::spec::file::{Known, KnownStyle, SizeFile, SourceFile};
+use crate::spec::file::{Known, KnownStyle, Person, ScanFile, SizeFile, SourceFile};
 use crate::store::{self, Store};
-use body::{Measurements, Sex};
+use body::{LengthUnit, Measurements, Sex};
 use sim::{self, Fabric};
 
 /// The thesis's twelve subjects [T tables 6-1 to 6-4].
@@ -26,8 +26,10 @@ pub struct SubjectRow {
     pub name: String,
     /// Number of the revision.
     pub revision: i64,
-    /// What is known of the body.
+    /// What is known of the body; of a scan, what is measured on it.
     pub measurements: Measurements,
+    /// File of the scan that is the body, where there is one.
+    pub scan: Option<String>,
 }
 
 /// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet. A database that has
@@ -45,7 +47,7 @@ pub(crate) fn add_builtin(connection: &mut Connection) -> Result<()> {
     transaction.execute("DELETE FROM built_in", [])?;
     transaction.execute("INSERT INTO built_in (hash) VALUES (?)", [&hash])?;
     for (name, measurements) in thesis_subjects()? {
-        revision::subject(&transaction, &name, &measurements, By::Program)?;
+        revision::subject(&transaction, &name, &measurements.into(), By::Program)?;
     }
     for cloth in sim::fabric::library() {
         revision::fabric(&transaction, &cloth, By::Program)?;
@@ -57,16 +59,30 @@ pub(crate) fn add_builtin(connection: &mut Connection) -> Result<()> {
 pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
     let Some(connection) = connection else {
         return Ok(Known {
-            subjects: thesis_subjects()?.into_iter().collect(),
+            subjects: thesis_subjects()?.into_iter().map(|(name, known)| (name, known.into())).collect(),
             fabrics: sim::fabric::library().into_iter().map(|cloth| (cloth.name.clone(), cloth)).collect(),
-            styles: BTreeMap::new(),
+            ..Known::default()
         });
     };
-    let subjects = stored_subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
+    let subjects = stored_subjects(connection)?.into_iter().map(|row| {
+        let scan = if row.scan.is_some() { stored_scan(connection, row.id)? } else { None };
+        Ok((row.name, Person { measurements: row.measurements, scan }))
+    });
     let fabrics = crate::catalogue::fabrics::stored_fabrics(connection)?
         .into_iter()
         .map(|row| (row.fabric.name.clone(), row.fabric));
-    Ok(Known { subjects: subjects.collect(), fabrics: fabrics.collect(), styles: styles(connection)? })
+    Ok(Known {
+        subjects: subjects.collect::<Result<_>>()?,
+        fabrics: fabrics.collect(),
+        styles: styles(connection)?,
+        hidden: hidden(connection)?,
+    })
+}
+
+/// Entries that were removed and stay stored: `subject male-ii`.
+fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
+    let sql = "SELECT part || ' ' || name FROM catalogue_entry WHERE is_retired";
+    Ok(connection.prepare_cached(sql)?.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?)
 }
 
 /// The current styles with their current sizes, by name.
@@ -145,28 +161,58 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
 
 /// What [`subject_row`] reads.
 fn select_subject() -> String {
-    format!("SELECT subject_id, name, revision, sex, {} FROM subject", columns(&MEASUREMENTS))
+    let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
+    format!("SELECT subject_id, name, revision, sex, {scan}, {} FROM subject", columns(&MEASUREMENTS))
 }
 
 fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     let sex: String = row.get(3)?;
     let sex = if sex == "male" { Sex::Male } else { Sex::Female };
     let mut measurements = Measurements::of(sex, f64::NAN);
-    read_numbers(row, 4, &MEASUREMENTS, &mut measurements)?;
-    Ok(SubjectRow { id: SubjectId(row.get(0)?), name: row.get(1)?, revision: row.get(2)?, measurements })
+    read_numbers(row, 5, &MEASUREMENTS, &mut measurements)?;
+    let (id, name, revision, scan) = (SubjectId(row.get(0)?), row.get(1)?, row.get(2)?, row.get(4)?);
+    Ok(SubjectRow { id, name, revision, measurements, scan })
+}
+
+/// The scan of a revision of a subject, where it has one.
+fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile>> {
+    let sql = "SELECT file, unit, mesh FROM scan WHERE subject_id = ?";
+    let row = |row: &Row<'_>| {
+        let unit: Option<String> = row.get(1)?;
+        let unit = LengthUnit::ALL.into_iter().find(|known| Some(known.name()) == unit.as_deref());
+        let file = SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
+        Ok(ScanFile { file, unit })
+    };
+    Ok(connection.prepare_cached(sql)?.query_row([id.0], row).optional()?)
+}
+
+/// Who a revision of a subject is.
+///
+/// # Errors
+/// When there is none of that number.
+pub(crate) fn person(store: &Store, id: SubjectId) -> Result<Person> {
+    let measurements = subject_revision(store, id)?.measurements;
+    Ok(Person { measurements, scan: stored_scan(&store.reader, id)? })
 }
 
 /// The built-in subjects, by name.
 pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     let path = std::path::Path::new("db/subjects.csv");
     let read = crate::catalogue::table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
-    Ok(read.map_err(StudyError::File)?.into_iter().map(|placed| (placed.name, placed.entry)).collect())
+    let (rows, problems) = read.map_err(StudyError::File)?;
+    if !problems.is_empty() {
+        return Err(StudyError::File(problems));
+    }
+    Ok(rows.into_iter().map(|placed| (placed.name, placed.entry)).collect())
 }
 
-/// Why an entry cannot be edited or removed: there is none of that name.
-pub(super) fn missing(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<StudyError> {
+/// Why an entry cannot be had, edited or removed: it is hidden, or there is none of that name.
+pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result<StudyError> {
+    if hidden(connection)?.contains(&format!("{part} {name}")) {
+        return Ok(StudyError::Hidden { what: part.as_str(), name: name.to_owned() });
+    }
     let sql = "SELECT name FROM catalogue_entry WHERE part = ? AND NOT is_retired ORDER BY name";
-    let mut statement = transaction.prepare_cached(sql)?;
+    let mut statement = connection.prepare_cached(sql)?;
     let known = statement.query_map([part.as_str()], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;
     Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
 }
@@ -236,10 +282,9 @@ pub(crate) fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRo
 ///
 /// # Errors
 /// When there is none of that name.
-pub fn subject(store: &Store, name: &str) -> Result<Measurements> {
-    let mut subjects = known(Some(&store.reader))?.subjects;
-    subjects.remove(name).ok_or_else(|| {
-        let known = subjects.into_keys().collect();
-        StudyError::NotFound { what: "subject", name: name.to_owned(), known }
-    })
+pub fn subject(store: &Store, name: &str) -> Result<Person> {
+    match known(Some(&store.reader))?.subjects.remove(name) {
+        Some(person) => Ok(person),
+        None => Err(missing(&store.reader, Part::Subject, name)?),
+    }
 }

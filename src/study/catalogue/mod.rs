@@ -14,17 +14,19 @@ mod table;
 mod tests;
 
 use std::fmt;
+use std::path::PathBuf;
 
 use rusqlite::Transaction;
 
-use crate::bodies;
 use crate::error::{Result, StudyError};
 use crate::spec::fields::{Entry, Given, filled};
+use crate::spec::file::{Person, ScanFile, SourceFile};
 use crate::store::{self, Store};
-use body::Measurements;
+use body::{LengthUnit, Sex};
 use sim::Fabric;
 
 pub use fabrics::{FabricRow, with_bending};
+pub use import::{Imported, Strictness};
 pub use known::SubjectRow;
 pub(crate) use known::{add_builtin, known, read_fabric, read_style};
 pub use norms::{doubts, is_doubtful, percentile, percentile_text};
@@ -140,7 +142,7 @@ impl fmt::Display for Removed {
 }
 
 /// An entry that can be saved by itself.
-trait Stored: Entry + Sync {
+trait Stored: Sync {
     const PART: Part;
 
     /// Whether it can be; what is rare about it.
@@ -150,13 +152,13 @@ trait Stored: Entry + Sync {
     fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
 }
 
-impl Stored for Measurements {
+impl Stored for Person {
     const PART: Part = Part::Subject;
 
-    /// Builds the body: that alone tells whether the measurements are those of one person.
+    /// Makes the body: that alone tells whether the measurements are those of one person, and whether a scan can wear garments.
     fn verify(&self) -> std::result::Result<Vec<String>, String> {
-        bodies::build_body(self).map_err(|error| error.to_string())?;
-        Ok(doubts(self))
+        self.body().map_err(|error| error.to_string())?;
+        Ok(doubts(&self.measurements))
     }
 
     fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision> {
@@ -221,17 +223,43 @@ fn save(
     Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![] })
 }
 
+/// A scan that becomes a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanGiven {
+    /// OBJ, PLY, STL or GLB.
+    pub file: PathBuf,
+    /// Unit of the file; told from its height where it is not given.
+    pub unit: Option<LengthUnit>,
+    /// Sex; told from the shape where it is not given.
+    pub sex: Option<Sex>,
+}
+
 /// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
 ///
 /// # Errors
-/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), or the workspace is
+/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the workspace is
 /// read-only.
 pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
     let base = match mode {
         Mode::Edit => Some(known::subject(store, name)?),
         _ => None,
     };
-    save_entry(store, mode, name, base.as_ref(), given)
+    if base.as_ref().is_some_and(|person| person.scan.is_some()) {
+        let problem = "its body is a scan, on which it is measured; accepted: another scan";
+        return Err(refused(Part::Subject, name, vec![problem.to_owned()]));
+    }
+    let measurements = entry_of(Part::Subject, name, base.map(|person| person.measurements).as_ref(), given)?;
+    save_entry(store, mode, name, &Person::from(measurements))
+}
+
+/// Saves a subject whose body is a scan; what is known of it is measured there.
+///
+/// # Errors
+/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
+pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
+    let ScanGiven { file, unit, sex } = given;
+    let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };
+    save_entry(store, mode, name, &scan.person(*sex)?)
 }
 
 /// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
@@ -244,33 +272,30 @@ pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>
         (None, Mode::Edit) => Some(stored_fabric(store, name)?),
         _ => None,
     };
-    save_entry(store, mode, name, base.as_ref(), given)
+    save_entry(store, mode, name, &entry_of(Part::Fabric, name, base.as_ref(), given)?)
 }
 
 /// A fabric of the catalogue, its current revision.
 ///
 /// # Errors
 /// When there is none of that name.
-fn stored_fabric(store: &Store, name: &str) -> Result<Fabric> {
-    let mut fabrics = known(Some(&store.reader))?.fabrics;
-    fabrics.remove(name).ok_or_else(|| {
-        let known = fabrics.into_keys().collect();
-        StudyError::NotFound { what: "fabric", name: name.to_owned(), known }
-    })
+pub(crate) fn stored_fabric(store: &Store, name: &str) -> Result<Fabric> {
+    match known(Some(&store.reader))?.fabrics.remove(name) {
+        Some(fabric) => Ok(fabric),
+        None => Err(known::missing(&store.reader, Part::Fabric, name)?),
+    }
 }
 
-fn save_entry<T: Stored>(
-    store: &mut Store,
-    mode: Mode,
-    name: &str,
-    base: Option<&T>,
-    given: &[Given],
-) -> Result<Saved> {
-    let refuse = |problems| refused(T::PART, name, problems);
-    check_name(name).map_err(|problem| refuse(vec![problem]))?;
-    let entry = filled(base, name, given);
-    let entry = entry.map_err(|problems| refuse(problems.into_iter().map(|(_, problem)| problem).collect()))?;
-    let doubts = entry.verify().map_err(|problem| refuse(vec![problem]))?;
+/// An entry of given values over those that it has.
+fn entry_of<T: Entry>(part: Part, name: &str, base: Option<&T>, given: &[Given]) -> Result<T> {
+    let texts = |problems: Vec<Given>| problems.into_iter().map(|(_, problem)| problem).collect();
+    filled(base, name, given).map_err(|problems| refused(part, name, texts(problems)))
+}
+
+fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -> Result<Saved> {
+    let refuse = |problem| refused(T::PART, name, vec![problem]);
+    check_name(name).map_err(refuse)?;
+    let doubts = entry.verify().map_err(refuse)?;
     let transaction = store::write(store.writer()?)?;
     let saved = save(&transaction, T::PART, name, mode, || entry.store(&transaction, name))?;
     transaction.commit()?;

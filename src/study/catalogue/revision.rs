@@ -5,11 +5,11 @@ use rusqlite::{OptionalExtension, ToSql, Transaction, named_params, params};
 use crate::catalogue::Part;
 use crate::error::Result;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
-use crate::spec::file::SourceFile;
+use crate::spec::file::{Person, ScanFile, SourceFile};
 use crate::spec::inputs::Inputs;
 use crate::spec::{fabric_inputs, sex_name, subject_inputs};
 use crate::store::now_ms;
-use body::Measurements;
+use body::LengthUnit;
 use sim::Fabric;
 
 /// Who brings a revision.
@@ -69,17 +69,23 @@ fn added(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) ->
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row)?)
 }
 
-/// The revision of a subject with these measurements, added where it is new.
-pub(crate) fn subject(transaction: &Transaction<'_>, name: &str, m: &Measurements, by: By) -> Result<Revision> {
+/// The revision of a subject who is this person, added where it is new.
+pub(crate) fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: By) -> Result<Revision> {
     let mut inputs = Inputs::default();
-    subject_inputs(&mut inputs, name, m);
+    subject_inputs(&mut inputs, name, person);
     let hash = inputs.hash();
     let sql = "SELECT subject_id, revision FROM subject WHERE name = ? AND hash = ?";
     let revision = match found(transaction, sql, &[&name, &hash])? {
         Some(revision) => revision,
         None => {
-            let numbers = MEASUREMENTS.iter().map(|field| (field.key, field.get(m)));
-            insert(transaction, "subject", name, &hash, ("sex", sex_name(m)), numbers)?
+            let Person { measurements, scan } = person;
+            let numbers = MEASUREMENTS.iter().map(|field| (field.key, field.get(measurements)));
+            let added = insert(transaction, "subject", name, &hash, ("sex", sex_name(measurements)), numbers)?;
+            if let Some(ScanFile { file, unit }) = scan {
+                let sql = "INSERT INTO scan (subject_id, file, unit, mesh) VALUES (?, ?, ?, ?)";
+                transaction.execute(sql, params![added.id, file.name, unit.map(LengthUnit::name), &*file.bytes])?;
+            }
+            added
         }
     };
     make_current(transaction, Part::Subject, name, revision, by)?;

@@ -6,6 +6,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::catalogue::format::text_of;
+use crate::catalogue::import::Read;
 use crate::catalogue::{Part, check_name};
 use crate::error::{Problem, nearest};
 use crate::spec::fields::{Entry, Given, filled, keys};
@@ -17,11 +18,12 @@ const NAMES: [&str; 2] = ["name", "id"];
 /// Columns that views have besides the values of an entry.
 const IGNORED: [&str; 4] = ["revision", "hash", "is_latest", "is_retired"];
 
-/// Reads a table; columns may be divided by commas, semicolons or tabs, empty cells are no values.
+/// Reads a table: the rows that are right, and what is wrong with the others. Columns may be divided by commas, semicolons or tabs, empty
+/// cells are no values.
 ///
 /// # Errors
-/// Everything that is wrong with it.
-pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Vec<Placed<T>>, Vec<Problem>> {
+/// Where its heading is wrong, or it is no table.
+pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
     let text = text_of(path, bytes)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let head = text.lines().next().unwrap_or_default();
@@ -55,7 +57,7 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Ve
             Err(found) => problems.extend(found.into_iter().map(|message| Problem::at(path, line, message))),
         }
     }
-    if problems.is_empty() { Ok(entries) } else { Err(problems) }
+    Ok((entries, problems))
 }
 
 /// A column: the key that its heading stands for, and what its numbers are multiplied by to be in the key's unit.

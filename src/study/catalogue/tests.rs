@@ -1,7 +1,7 @@
 //! The catalogue as a user changes it, on a real database.
 
 use crate::{Workspace, files, patterns};
-use body::Dimension;
+use body::{Dimension, Measurements, Sex};
 use std::path::PathBuf;
 
 use crate::catalogue::*;
@@ -36,8 +36,8 @@ impl Bench {
     fn import(&mut self, part: Part, name: &str, text: &str) -> std::result::Result<Vec<(String, Deed)>, String> {
         let path = self.write(name, text);
         let prefix = format!("{}/", self.folder.path().display());
-        match self.workspace.import(part, &[path]) {
-            Ok(saved) => Ok(saved.into_iter().map(|saved| (saved.name, saved.deed)).collect()),
+        match self.workspace.import(part, &[path], Strictness::AllOrNone) {
+            Ok(done) => Ok(done.saved.into_iter().map(|saved| (saved.name, saved.deed)).collect()),
             Err(error) => Err(error.to_string().replace(&prefix, "")),
         }
     }
@@ -65,7 +65,10 @@ fn an_edit_is_a_revision_and_known_content_is_current_again() {
     assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "720")]), Ok(Deed::Unchanged));
     assert_eq!(bench.one("SELECT waist_girth_mm FROM v_subjects WHERE subject = 'anna' ORDER BY revision"), "700,720");
     assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "700")]), Ok(Deed::Restored));
-    assert_eq!(bench.workspace.subject("anna").expect("there").get(Dimension::WaistGirth), Some(from_mm(700.0)));
+    assert_eq!(
+        bench.workspace.subject("anna").expect("there").measurements.get(Dimension::WaistGirth),
+        Some(from_mm(700.0))
+    );
     assert_eq!(bench.one("SELECT revision FROM v_subjects WHERE subject = 'anna' AND is_latest"), "1");
 }
 
@@ -107,7 +110,7 @@ fn what_is_built_in_gives_way_to_edits_for_good() {
     assert_eq!(removed.to_string(), "subject male-iv is hidden; it is built in");
     drop(bench.workspace);
     let workspace = Workspace::open(&path, false).expect("there");
-    assert_eq!(workspace.subject("male-ii").expect("there").stature_m(), 1.7);
+    assert_eq!(workspace.subject("male-ii").expect("there").measurements.stature_m(), 1.7);
     let names: Vec<String> = workspace.subjects().expect("readable").into_iter().map(|row| row.name).collect();
     assert_eq!(names.len(), 11);
     assert!(!names.contains(&"male-iv".to_owned()));
@@ -274,4 +277,61 @@ fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
     let laid = bench.workspace.workpiece(row.key).and_then(|piece| piece.laid_out()).expect("it reads");
     assert!(laid.desk.pieces.len() == style.pieces.len() && laid.desk.seams.len() >= style.seams.len());
     bench.workspace.save_size(Mode::Add, "coded/two", &given("two", "tee.json")).expect("it holds its seams");
+}
+
+#[test]
+fn good_rows_are_taken_where_they_are_asked_for_and_the_others_told() {
+    let mut bench = Bench::new();
+    let text = "name,sex,stature_mm\nanna,f,1650\ndan,x,1800\nbo,m,1.8\n";
+    let path = bench.write("people.csv", text);
+    let mut import = |strictness| bench.workspace.import(Part::Subject, std::slice::from_ref(&path), strictness);
+    assert!(import(Strictness::AllOrNone).is_err());
+    let Imported { saved, left_out } = import(Strictness::GoodRows).expect("a good row");
+    assert_eq!(saved.iter().map(|saved| saved.name.as_str()).collect::<Vec<_>>(), ["anna"]);
+    assert_eq!(left_out.iter().map(|problem| problem.line).collect::<Vec<_>>(), [Some(3), Some(4)]);
+    // Where none is good, and where the heading is not, nothing can be taken.
+    let path = bench.write("bad.csv", "name,sex,stature_mm\ndan,x,1800\n");
+    assert!(bench.workspace.import(Part::Subject, &[path], Strictness::GoodRows).is_err());
+    let path = bench.write("odd.csv", "name,sex,hight\nanna,f,1650\n");
+    assert!(bench.workspace.import(Part::Subject, &[path], Strictness::GoodRows).is_err());
+}
+
+#[test]
+fn a_scan_is_a_subject_that_is_the_mesh_itself() {
+    let mut bench = Bench::new();
+    let body = crate::bodies::build_body(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+    let path = bench.write("bo.obj", &crate::bodies::write_obj(&body.mesh));
+    let done =
+        bench.workspace.import(Part::Subject, std::slice::from_ref(&path), Strictness::AllOrNone).expect("a scan");
+    assert_eq!(
+        done.saved.iter().map(|saved| (saved.name.as_str(), saved.deed)).collect::<Vec<_>>(),
+        [("bo", Deed::Added)]
+    );
+    let given = ScanGiven { file: path, unit: None, sex: Some(Sex::Male) };
+    let again = bench.workspace.save_scan(Mode::Edit, "bo", &given).expect("the same scan");
+    assert_eq!(again.deed, Deed::Unchanged);
+    assert_eq!(bench.one("SELECT scan, revision FROM v_subjects WHERE subject = 'bo'"), "bo.obj,1");
+    let person = bench.workspace.subject("bo").expect("there");
+    assert!((person.measurements.stature_m() - 1.75).abs() < 0.01 && person.scan.is_some());
+    let worn = person.body().expect("it wears garments");
+    let chest = |body: &body::Body| body.girths.measurements(Sex::Male).get(Dimension::ChestGirth);
+    assert!(chest(&worn).zip(chest(&body)).is_some_and(|(a, b)| (a - b).abs() < 2e-3));
+    let refused = bench.subject(Mode::Edit, "bo", &[("waist_girth_mm", "700")]).expect_err("it is measured");
+    assert!(refused.contains("its body is a scan"), "{refused}");
+    // A study may name it, and exports it with its mesh.
+    let text = "[[subject]]\nid = \"x\"\nlike = \"bo\"\n";
+    let done = bench.import(Part::Subject, "study.toml", text).expect("good");
+    assert_eq!(done[0].1, Deed::Added);
+    assert_eq!(bench.one("SELECT count(DISTINCT mesh) FROM scan"), "1");
+}
+
+#[test]
+fn what_is_hidden_is_said_to_be_hidden() {
+    let mut bench = Bench::new();
+    bench.workspace.remove(Part::Subject, "male-ii").expect("built in");
+    let told = bench.workspace.subject("male-ii").expect_err("hidden").to_string();
+    assert!(told.contains("it is hidden") && told.contains("toile subject add"), "{told}");
+    let text = "[[subject]]\nid = \"x\"\nlike = \"male-ii\"\n";
+    let told = bench.import(Part::Subject, "study.toml", text).expect_err("hidden");
+    assert!(told.contains("it is hidden"), "{told}");
 }

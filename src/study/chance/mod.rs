@@ -167,8 +167,8 @@ pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?)));
     let styles = styles.collect::<Result<Vec<_>>>()?;
-    let scanned = first.scan.is_some().then(|| pipeline::body(first)).transpose()?;
-    let bench = Bench::new(&styles, &target, &first.measurements, scanned.as_ref(), question)?;
+    let scanned = first.person.scan.is_some().then(|| first.person.body()).transpose()?;
+    let bench = Bench::new(&styles, &target, &first.person.measurements, scanned.as_ref(), question)?;
     let sizes = tallied(&bench, question);
     let worn = sizes.iter().reduce(|best, size| if size.wear.share > best.wear.share { size } else { best });
     let told = asked_size.or_else(|| worn.map(|size| size.size.clone())).unwrap_or_default();

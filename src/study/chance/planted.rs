@@ -81,7 +81,7 @@ struct Case {
 pub fn planted(study: &Study, question: &Question, people: usize, error_factor: f64) -> Result<PlantedTally> {
     let (jobs, target) = asked(study, question)?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?))).collect::<Result<Vec<_>>>()?;
-    let read = jobs.first().map(|job| job.measurements.known().map(|(dimension, _)| dimension).collect());
+    let read = jobs.first().map(|job| job.person.measurements.known().map(|(dimension, _)| dimension).collect());
     let read: Vec<Dimension> = read.unwrap_or_default();
     let plot = Plot { styles: &styles, target: &target, read: &read, question, error_factor };
     let workers = thread::available_parallelism().map_or(1, usize::from);

@@ -71,7 +71,7 @@ fn eases_are_nearly_linear_in_the_dimensions() {
     let (jobs, target) = asked(&study, &question).expect("there");
     let style = pipeline::style(&jobs[1]).expect("it can be read");
     let styles = [(jobs[1].size.clone(), style)];
-    let bench = Bench::new(&styles, &target, &jobs[1].measurements, None, &question).expect("a person");
+    let bench = Bench::new(&styles, &target, &jobs[1].person.measurements, None, &question).expect("a person");
     let mut draw = Draw::new(9);
     let (mut squares, mut count) = (0.0, 0);
     for _ in 0..6 {

@@ -294,7 +294,7 @@ impl<'a> Asked<'a> {
             .subjects
             .iter()
             .filter(|subject| entry.subjects.contains(&subject.id))
-            .map(|subject| subject.measurements.sex)
+            .map(|subject| subject.person.measurements.sex)
             .collect();
         let sex = *sexes.first().ok_or_else(missing)?;
         if sexes.iter().any(|other| *other != sex) {

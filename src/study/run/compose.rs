@@ -215,7 +215,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
         let quickstart = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart/study.toml");
-        workspace.import(crate::Part::Style, &[quickstart]).expect("good styles");
+        workspace.import(crate::Part::Style, &[quickstart], crate::Strictness::AllOrNone).expect("good styles");
         let sizes = wearables(&workspace.sizes().expect("readable"));
         assert!(!sizes.iter().any(|one| one.style == "tshirt" && matches!(one.source, PatternSource::Drafted(_))));
         let sizes = sizes.into_iter().filter(|wearable| wearable.style == "tshirt").collect();

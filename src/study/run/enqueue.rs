@@ -310,7 +310,7 @@ fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
 
 fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
     let (by, unit) = (By::Study, spec.unit.as_deref());
-    let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements, by)?.id;
+    let subject = catalogue::subject(transaction, &spec.subject, &spec.person, by)?.id;
     let style = catalogue::style(transaction, &spec.style, spec.seams.as_ref(), by)?.id;
     let size = catalogue::size(transaction, (&spec.style, &spec.size), &spec.pattern, unit, by)?.id;
     let fabric = catalogue::fabric(transaction, &spec.fabric, by)?.id;

@@ -4,17 +4,17 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Result, StudyError};
+use crate::patterns;
 use crate::rows::StageKind;
 use crate::run::ease;
 use crate::run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
 use crate::run::worn::WornOn;
-use crate::spec::file::{ScanFile, Subject};
+use crate::spec::file::{Person, Subject};
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
-use crate::spec::{JobSpec, scan_inputs, subject_inputs, versions};
+use crate::spec::{JobSpec, subject_inputs, versions};
 use crate::store::cache::{Artefact, Cache, Used};
-use crate::{bodies, patterns};
-use body::{Body, Measurements};
+use body::Body;
 use fit::{self, Ease, Simulator, measure};
 use geom::DistanceField;
 use pattern::pom::PointOfMeasure;
@@ -23,9 +23,9 @@ use pattern::{Garment, MaterialLine, Style};
 use sim::{self, Distortion, Drape, Fabric, Monitor, SimError};
 
 /// The inputs of a subject's body, the same as among those of any job on it.
-pub(crate) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
+pub(crate) fn body_inputs(name: &str, person: &Person) -> Inputs {
     let mut inputs = Inputs::default();
-    subject_inputs(&mut inputs, name, measurements);
+    subject_inputs(&mut inputs, name, person);
     for (name, version) in versions::VERSIONS {
         inputs.set(name, version);
     }
@@ -105,7 +105,8 @@ impl Pipeline {
     }
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
-        self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || Ok(Model { body: body(spec)? }))
+        self.cache
+            .get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || Ok(Model { body: spec.person.body()? }))
     }
 
     fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
@@ -123,27 +124,12 @@ impl Pipeline {
     /// # Errors
     /// Those of the body.
     pub(crate) fn worn_body(&self, subject: &Subject) -> Result<Arc<Model>> {
-        let Subject { id, measurements, scan } = subject;
-        let make = || Ok(Model { body: body_of(measurements, scan.as_ref())? });
-        let Some(scan) = scan else { return make().map(Arc::new) };
-        let mut inputs = body_inputs(id, measurements);
-        scan_inputs(&mut inputs, id, scan);
-        Ok(self.cache.get(StageKind::Body, &inputs.stage_hash(StageKind::Body), make)?.0)
-    }
-}
-
-/// The body of a job's subject.
-pub(crate) fn body(spec: &JobSpec) -> Result<Body> {
-    body_of(&spec.measurements, spec.scan.as_ref())
-}
-
-fn body_of(measurements: &Measurements, scan: Option<&ScanFile>) -> Result<Body> {
-    match scan {
-        None => bodies::build_body(measurements),
-        Some(scan) => {
-            let read = bodies::read_scan(&scan.file, scan.unit, Some(measurements.sex))?;
-            bodies::scanned_body(&scan.file, read)
+        let Subject { id, person } = subject;
+        let make = || Ok(Model { body: person.body()? });
+        if person.scan.is_none() {
+            return make().map(Arc::new);
         }
+        Ok(self.cache.get(StageKind::Body, &body_inputs(id, person).stage_hash(StageKind::Body), make)?.0)
     }
 }
 
@@ -365,7 +351,7 @@ mod tests {
         ] {
             assert!(inputs.contains(&input), "{input:?} in {inputs:?}");
         }
-        let body = body_inputs(&jobs[0].subject, &jobs[0].measurements).stage_hash(StageKind::Body);
+        let body = body_inputs(&jobs[0].subject, &jobs[0].person).stage_hash(StageKind::Body);
         assert_eq!(body, jobs[0].inputs.stage_hash(StageKind::Body), "the catalogue's body is the job's");
         let differ = |a: usize, b: usize, stage| jobs[a].inputs.stage_hash(stage) != jobs[b].inputs.stage_hash(stage);
         assert!(!differ(0, 2, StageKind::Body) && differ(0, 1, StageKind::Body), "the body is the subject's");
@@ -381,10 +367,9 @@ mod tests {
         let jobs = quickstart();
         let (mut girths_m, style) = (Vec::new(), style(&jobs[0]).expect("it can be read"));
         for job in &jobs[..2] {
-            let subject =
-                Subject { id: job.subject.clone(), measurements: job.measurements.clone(), scan: job.scan.clone() };
+            let subject = Subject { id: job.subject.clone(), person: job.person.clone() };
             let worn = pipeline.worn_body(&subject).expect("it can be built");
-            assert_eq!(worn.body, body(job).expect("it can be built"));
+            assert_eq!(worn.body, job.person.body().expect("it can be built"));
             girths_m.push(ease::on(&style, &worn.body).swap_remove(0));
         }
         assert_eq!(girths_m[0].level, "chest");

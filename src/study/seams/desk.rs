@@ -88,12 +88,14 @@ pub struct DeskSeam {
 }
 
 /// All that is needed to draw and edit the seams of a style.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Desk {
     /// Pieces as they lie.
     pub pieces: Vec<DeskPiece>,
     /// Seams.
     pub seams: Vec<DeskSeam>,
+    /// Names of pieces that are drawn and that the seams leave out.
+    pub left_out: Vec<String>,
 }
 
 impl Desk {
@@ -133,7 +135,7 @@ impl Desk {
             b_mm: length(&seam.b),
             confidence: None,
         });
-        Self { pieces: pieces.collect(), seams: seams.collect() }
+        Self { pieces: pieces.collect(), seams: seams.collect(), left_out: Vec::new() }
     }
 }
 
@@ -187,7 +189,7 @@ pub struct Asking<'a> {
 pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, how)?;
     if proposal.is_empty() {
-        return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
+        return Ok(Proposed { proposal, desk: Desk::default() });
     }
     let text = proposal.toml("proposed");
     let style = Style::read(&pieces, text.as_bytes(), "proposed").map_err(StudyError::stage("pattern"))?;

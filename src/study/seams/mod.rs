@@ -1,5 +1,6 @@
 //! What is sewn: patterns with their seams, checked, proposed and edited.
 
+mod again;
 pub mod check;
 pub mod desk;
 pub mod pattern_files;
@@ -17,5 +18,5 @@ pub use pattern::seam_edit::Edit as SeamEdit;
 pub use preview::{Care, Hung, Mannequin, Preview};
 pub use specification::{Specification, SpecifiedPoint, specification};
 pub use step::SeamStep;
-pub use undecided::{Choice, Undecided};
+pub use undecided::{Choice, LEFT_OUT, Undecided};
 pub use workpiece::{DeskLength, LaidOut, Workpiece, edit_seams, seam_home, write_seams};

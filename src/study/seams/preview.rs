@@ -24,10 +24,10 @@ use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::check::{Finding, FindingKind};
 use pattern::{Garment, Role};
-use render::{self, Cell, Layer, Material, Rgb, Scene, View};
+use render::{self, Layer, Material, Rgb, Scene, View};
 use sim::fem::{self, Params};
 use sim::placement::{Bend, place};
-use sim::{Drape, Monitor, Progress, SimError, fabric};
+use sim::{Drape, Fabric, Monitor, Progress, SimError};
 
 /// Edge length of the cloth that is looked at, and of cloth that is tried on, m.
 const EDGE_M: f64 = 0.030;
@@ -117,18 +117,18 @@ pub struct Preview {
 }
 
 impl Workpiece {
-    /// Sews and drapes the size on a body; `is_stale` is asked between steps whether nobody wants it any more.
+    /// Sews and drapes the size on a body in a cloth; `is_stale` is asked between steps whether nobody wants it any more.
     ///
     /// # Errors
     /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
-    pub fn preview(&self, on: &Mannequin, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Preview> {
+    pub fn preview(&self, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Preview> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let meshes = match care {
             Care::Glance => Meshes(vec![style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?]),
             Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
         };
         let garment = meshes.finest()?;
-        let (hung, positions, mut remarks) = hang(&meshes, on, care, is_stale)?;
+        let (hung, positions, mut remarks) = hang(&meshes, on, cloth, care, is_stale)?;
         let free = free_edges(garment, &self.open_edges());
         if !free.is_empty() {
             remarks.push("red edges are in no seam".to_owned());
@@ -158,16 +158,11 @@ impl Preview {
     /// # Errors
     /// When it cannot be drawn.
     pub fn sheet(&self) -> Result<Vec<u8>> {
-        let shot = |view: View| {
+        let camera = |view: View| {
             let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
-            let camera = look.camera(&self.shown, VIEW[0], VIEW[1]);
-            let picture =
-                render::render(&self.scene, &camera, VIEW[0], VIEW[1]).map_err(StudyError::stage("render"))?;
-            Ok(Cell { picture, label: view.as_str().to_owned() })
+            look.camera(&self.shown, VIEW[0], VIEW[1])
         };
-        let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>>>()?;
-        let sheet = render::contact_sheet("", &cells, cells.len()).map_err(StudyError::stage("render"))?;
-        render::png(&sheet).map_err(StudyError::stage("render"))
+        render::from_all_sides(&self.scene, camera, VIEW).map_err(StudyError::stage("render"))
     }
 
     /// The garment from any side, as large as it can be.
@@ -216,10 +211,10 @@ impl Monitor for Glance<'_> {
 fn hang(
     meshes: &Meshes,
     on: &Mannequin,
+    cloth: &Fabric,
     care: Care,
     is_stale: &dyn Fn() -> bool,
 ) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
-    let cloth = &fabric::library()[0];
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
     if care == Care::Glance {

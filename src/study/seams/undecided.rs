@@ -1,6 +1,6 @@
 //! What a person must decide about the seams of a size: one thing at a time, each with its likely answers.
 
-use crate::seams::desk::{Desk, DeskEdge, DeskSeam, SURE};
+use crate::seams::desk::{Desk, DeskEdge, DeskPiece, DeskSeam, SURE};
 use crate::seams::step::SeamStep;
 use pattern::Role;
 use pattern::check::{Finding, FindingKind};
@@ -12,6 +12,8 @@ type EdgeAt = (usize, usize);
 
 /// Partners of an edge that are offered.
 const OFFERED: usize = 4;
+/// Pieces that are left out of which is asked at a time.
+pub const LEFT_OUT: usize = 4;
 /// What a partner is as unlikely by as by a difference of the whole length: its distance over the size of all pieces, notches that do not
 /// match, and a side of two edges instead of one.
 const FAR: f64 = 0.25;
@@ -159,6 +161,31 @@ impl Undecided {
         Self { text, edges: vec![edge], choices, stands: None, seam: None, is_sure: false }
     }
 
+    /// What a piece is that nothing is sewn to.
+    pub(crate) fn unsewn(desk: &Desk, piece: usize) -> Self {
+        let asked = Self::piece(desk, piece);
+        Self {
+            text: format!("Nothing is sewn to {}. What is it worn as?", desk.pieces[piece].id),
+            stands: Some(0),
+            ..asked
+        }
+    }
+
+    /// Which of the drawn pieces that are left out, from the first of some on, is worn too; `None` where there are none from there on.
+    #[must_use]
+    pub fn left_out(desk: &Desk, first: usize) -> Option<Self> {
+        let shown = desk.left_out.get(first..)?;
+        let taken = |name: &String, is_pair: bool| Choice {
+            label: format!("{name}{}", if is_pair { ", right and left" } else { "" }),
+            step: SeamStep::Edit(Edit::TakeIn { drawn: name.clone(), is_pair }),
+            edges: vec![],
+        };
+        let choices = shown.iter().take(LEFT_OUT).flat_map(|name| [taken(name, false), taken(name, true)]).collect();
+        let text = format!("{} drawn pieces are left out. Which is worn too?", desk.left_out.len());
+        let asked = Self { text, edges: vec![], choices, stands: None, seam: None, is_sure: false };
+        (!shown.is_empty()).then_some(asked)
+    }
+
     /// What a piece may be worn as, and whether it is worn at all.
     #[must_use]
     pub fn piece(desk: &Desk, piece: usize) -> Self {
@@ -197,6 +224,12 @@ impl Desk {
     pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
         let drawn = &self.pieces[piece].edges[edge];
         format!("{}.{}", self.pieces[piece].id, drawn.name.clone().unwrap_or_else(|| drawn.number.to_string()))
+    }
+
+    /// Whether nothing is sewn to a piece that is nothing in particular.
+    pub(crate) fn is_unsewn(&self, piece: usize) -> bool {
+        let DeskPiece { role, edges, .. } = &self.pieces[piece];
+        *role == Role::Other && edges.iter().all(|edge| edge.seam.is_none())
     }
 
     /// The edge of a name.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, Result, StudyError};
 use crate::patterns::{self, Nest, Unit};
+use crate::seams::again::Reworked;
 use crate::seams::desk::{Desk, SURE, confidences, confirmed, hold_for};
 use crate::seams::step::SeamStep;
 use crate::seams::undecided::Undecided;
@@ -86,15 +87,30 @@ impl Workpiece {
             for (seam, confidence) in desk.seams.iter_mut().zip(confidences(&text)) {
                 seam.confidence = confidence;
             }
-            undecided.extend(marked(&text, QUESTION).map(Undecided::asked));
-            undecided.extend((0..desk.seams.len()).filter_map(|seam| Undecided::unsure(&desk, seam)));
+            let asked: Vec<Question> = marked(&text, QUESTION).collect();
+            // What is asked of a seam by its name is not asked again.
+            let is_new = |seam: &usize| {
+                let name = &desk.seams[*seam].name;
+                !asked.iter().any(|one| one.text.split_once(": ").is_some_and(|(of, _)| of == name))
+            };
+            undecided.extend((0..desk.seams.len()).filter(is_new).filter_map(|seam| Undecided::unsure(&desk, seam)));
+            undecided.splice(0..0, asked.into_iter().map(Undecided::asked));
             let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
             tolerance_mm = entries.length_tolerance_mm;
             let found = self.findings(&style)?;
             // A piece that the file does not name is left out on purpose; the garment tells so where it is seen.
-            let is_open = |finding: &&Finding| finding.kind.is_problem() && finding.kind != FindingKind::UnusedPiece;
-            let found = found.iter().filter(is_open);
-            undecided.extend(found.map(|finding| Undecided::found(&desk, finding)));
+            let is_left_out = |finding: &&Finding| finding.kind == FindingKind::UnusedPiece;
+            desk.left_out = found.iter().filter(is_left_out).map(|finding| finding.place.clone()).collect();
+            let unsewn: Vec<usize> = (0..desk.pieces.len()).filter(|piece| desk.is_unsewn(*piece)).collect();
+            undecided.extend(unsewn.iter().map(|piece| Undecided::unsewn(&desk, *piece)));
+            // What a piece is sewn to is asked once it is known what it is.
+            let is_of_unsewn = |finding: &&Finding| {
+                let of = |piece: &usize| finding.place.starts_with(&format!("{}.", desk.pieces[*piece].id));
+                finding.kind == FindingKind::FreeEdge && unsewn.iter().any(of)
+            };
+            let is_open =
+                |finding: &&Finding| finding.kind.is_problem() && !is_left_out(finding) && !is_of_unsewn(finding);
+            undecided.extend(found.iter().filter(is_open).map(|finding| Undecided::found(&desk, finding)));
         }
         let length =
             |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
@@ -123,12 +139,7 @@ impl Workpiece {
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
             SeamStep::Edit(edit) => {
-                let nest = Nest::read(&self.pattern, self.unit)?;
-                let (pieces, others) = (nest.pieces(&self.size)?, nest.others(&self.size));
-                let sound = |(size, pieces): (String, Result<Vec<Piece>>)| Some((size, pieces.ok()?));
-                let others: Vec<_> = others.into_iter().filter_map(sound).collect();
-                let sizes = Sizes { name: &self.size, pieces: &pieces, others: &others };
-                edited(&text, &file.name, &sizes, edit).map_err(StudyError::stage("pattern"))?
+                self.with_sizes(|sizes| edited(&text, &file.name, sizes, edit).map_err(StudyError::stage("pattern")))?
             }
             SeamStep::Confirm(seam) => confirmed(&text, |name, _| name == seam)
                 .ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?,
@@ -146,6 +157,15 @@ impl Workpiece {
             SeamStep::Propose(_) | SeamStep::Written(_) => text,
         };
         Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
+    }
+
+    /// Does something with the pieces of all sizes that are sound.
+    fn with_sizes<T>(&self, act: impl FnOnce(&Sizes<'_>) -> Result<T>) -> Result<T> {
+        let nest = Nest::read(&self.pattern, self.unit)?;
+        let (pieces, others) = (nest.pieces(&self.size)?, nest.others(&self.size));
+        let sound = |(size, pieces): (String, Result<Vec<Piece>>)| Some((size, pieces.ok()?));
+        let others: Vec<_> = others.into_iter().filter_map(sound).collect();
+        act(&Sizes { name: &self.size, pieces: &pieces, others: &others })
     }
 
     /// A seam file proposed for the pieces, which holds for all sizes of the pattern.
@@ -171,15 +191,20 @@ impl Workpiece {
                 format!("{question}: answer {}: accepted: {}", Question::letter(choice), accepted.join("; or "));
             return Err(StudyError::stage("pattern")(message));
         }
-        let before = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
-        let mut answers: Answers = before.collect();
+        let given = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
+        let before: Answers = given.collect();
+        let mut answers = before.clone();
         answers.insert(question.to_owned(), choice);
         let file = self.seams.as_ref().map_or("", |file| file.name.as_str());
         let entries = |text: &str| SeamFile::parse(text.as_bytes(), file).map_err(StudyError::stage("pattern"));
         let old = entries(text)?;
-        let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
-        let proposed = self.proposed_told(&old.name, others, &answers)?;
-        let again = String::from_utf8_lossy(&proposed.bytes).into_owned();
+        let proposed = |answers| {
+            let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
+            let proposed = self.proposed_told(&old.name, others, answers)?;
+            Ok::<_, StudyError>(String::from_utf8_lossy(&proposed.bytes).into_owned())
+        };
+        let rework = Reworked { proposed: &proposed(&before)?, own: text, file };
+        let again = self.with_sizes(|sizes| rework.done_again(proposed(&answers)?, sizes))?;
         let new = entries(&again)?;
         let sure = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
         let kept: Vec<&str> =

@@ -59,9 +59,13 @@ pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
 pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 
 fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
-    let _ =
-        writeln!(text, "\n[[subject]]\nid = {}\nsex = \"{}\"", quoted(&subject.id), sex_name(&subject.measurements));
-    if let Some(ScanFile { file, unit }) = &subject.scan {
+    let _ = writeln!(
+        text,
+        "\n[[subject]]\nid = {}\nsex = \"{}\"",
+        quoted(&subject.id),
+        sex_name(&subject.person.measurements)
+    );
+    if let Some(ScanFile { file, unit }) = &subject.person.scan {
         let _ = writeln!(text, "scan = {}", quoted(&place(files, "scans", file)));
         if let Some(unit) = unit {
             let _ = writeln!(text, "unit = \"{}\"", unit.name());
@@ -69,7 +73,7 @@ fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
         return;
     }
     for field in MEASUREMENTS.iter() {
-        if let Some(value) = field.get(&subject.measurements) {
+        if let Some(value) = field.get(&subject.person.measurements) {
             let _ = writeln!(text, "{} = {value:?}", field.key);
         }
     }

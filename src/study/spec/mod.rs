@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use crate::rows::JobRow;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
-use crate::spec::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
+use crate::spec::file::{GarmentEntry, Person, SizeFile, SourceFile, Study, Subject};
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
 use body::Measurements;
@@ -70,10 +70,9 @@ pub struct JobSpec {
     pub simulator: Simulator,
     /// Which repeat, from 1.
     pub repeat: u32,
-    /// What is known of the subject's body.
-    pub measurements: Measurements,
-    /// The scan that is the body, where there is one.
-    pub scan: Option<ScanFile>,
+    /// Who that is.
+    #[serde(flatten)]
+    pub person: Person,
     /// Pattern of the size.
     pub pattern: SourceFile,
     /// Unit of the pattern where its file names none.
@@ -165,8 +164,7 @@ fn job(garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Si
         subject: subject.id.clone(),
         simulator,
         repeat,
-        measurements: subject.measurements.clone(),
-        scan: subject.scan.clone(),
+        person: subject.person.clone(),
         pattern: size.pattern.clone(),
         unit: garment.unit.clone(),
         seams: garment.seams.clone(),
@@ -194,10 +192,7 @@ impl JobSpec {
         if let Some(unit) = &self.unit {
             inputs.set("pattern.unit", unit);
         }
-        subject_inputs(&mut inputs, &self.subject, &self.measurements);
-        if let Some(scan) = &self.scan {
-            scan_inputs(&mut inputs, &self.subject, scan);
-        }
+        subject_inputs(&mut inputs, &self.subject, &self.person);
         fabric_inputs(&mut inputs, &self.fabric);
         for (name, version) in versions::versions(self.simulator) {
             inputs.set(name, version);
@@ -206,21 +201,19 @@ impl JobSpec {
     }
 }
 
-/// A subject's measurements as inputs; absent ones are left out.
-pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
+/// A subject's measurements and scan as inputs; absent ones are left out.
+pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
         if let Some(value) = field.get(m) {
             inputs.set(format!("subject.{id}.{}", field.key), value);
         }
     }
-}
-
-/// A subject's scan as inputs.
-pub(crate) fn scan_inputs(inputs: &mut Inputs, id: &str, scan: &ScanFile) {
-    inputs.set(format!("subject.{id}.scan"), scan.file.hash());
-    if let Some(unit) = scan.unit {
-        inputs.set(format!("subject.{id}.scan_unit"), unit.name());
+    if let Some(scan) = scan {
+        inputs.set(format!("subject.{id}.scan"), scan.file.hash());
+        if let Some(unit) = scan.unit {
+            inputs.set(format!("subject.{id}.scan_unit"), unit.name());
+        }
     }
 }
 

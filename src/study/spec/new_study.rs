@@ -189,7 +189,7 @@ pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> 
         measured: vec![("me", me)],
         scanned: vec![],
         garments: vec![garment],
-        fabric: "cotton_shirting_light",
+        fabric: sim::fabric::USUAL,
     };
     files.insert(0, ("study.toml".to_owned(), outline.text().into_bytes()));
     Ok(files)

@@ -17,7 +17,8 @@ use crate::answers::population::{self, Nearest};
 use crate::answers::record::{self, Comparison, Record, Rerun};
 use crate::answers::{reporting, reports, size_map};
 use crate::catalogue::{
-    self, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, fabrics, import, known, sizes, style,
+    self, FabricRow, Imported, Mode, Part, Removed, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, SubjectRow,
+    fabrics, import, known, sizes, style,
 };
 use crate::error::Result;
 use crate::files::SourceFile;
@@ -32,18 +33,18 @@ use crate::seams::preview::{self, Mannequin};
 use crate::seams::workpiece::Workpiece;
 use crate::spec::Selection;
 use crate::spec::fields::Given;
-use crate::spec::file::Study;
+use crate::spec::file::{Person, Study};
 use crate::spec::inputs::Inputs;
 use crate::store::browse::{self, Relation, SqlAnswer};
 use crate::store::read::{self, JobFilter};
 use crate::store::sql::{self, Interrupter};
 use crate::store::{Store, evidence};
-use body::Measurements;
 use fit::{Evidence, Pair, RuleScore};
 use render::View;
 use render::export::MeshFormat;
 use report::Purpose;
-use sim::Step;
+use sim::fabric::USUAL;
+use sim::{Fabric, Step};
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 ///
 /// Questions fail when the database cannot be read, actions when the workspace is read-only; `# Errors` says what else.
@@ -228,13 +229,21 @@ impl Workspace {
         fabrics::fabrics(&self.store)
     }
 
-    /// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
-    /// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.
+    /// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will do), or, for
+    /// subjects and fabrics, CSV with the same keys. Where anything is wrong with one, none is taken, or as `strictness` says.
     ///
     /// # Errors
     /// Everything that is wrong with the files, each with its line.
-    pub fn import(&mut self, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
-        import::import(&mut self.store, part, files)
+    pub fn import(&mut self, part: Part, files: &[PathBuf], strictness: Strictness) -> Result<Imported> {
+        import::import(&mut self.store, part, files, strictness)
+    }
+
+    /// A cloth of the catalogue by its name; the usual one where none is given.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn cloth(&self, name: Option<&str>) -> Result<Fabric> {
+        catalogue::stored_fabric(&self.store, name.unwrap_or(USUAL))
     }
 
     /// The subjects of the catalogue, by name.
@@ -249,6 +258,14 @@ impl Workspace {
     /// read-only.
     pub fn save_subject(&mut self, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
         catalogue::save_subject(&mut self.store, mode, name, given)
+    }
+
+    /// Saves a subject whose body is a scan; what is known of it is measured there.
+    ///
+    /// # Errors
+    /// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
+    pub fn save_scan(&mut self, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
+        catalogue::save_scan(&mut self.store, mode, name, given)
     }
 
     /// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
@@ -404,7 +421,7 @@ impl Workspace {
     ///
     /// # Errors
     /// When there is none of that name.
-    pub fn subject(&self, name: &str) -> Result<Measurements> {
+    pub fn subject(&self, name: &str) -> Result<Person> {
         known::subject(&self.store, name)
     }
 

@@ -133,7 +133,14 @@ pub const BINDINGS: &[Binding] = &[
         "Save the seams: catalogue, and study folder if asked",
     ),
     bind(Action::AskEdge, "ask-edge", &[ch('e')], &[Styles], "edge", "Ask what the selected edge is sewn to"),
-    bind(Action::AskPiece, "ask-piece", &[ch('o')], &[Styles], "piece", "Ask what the selected piece is worn as"),
+    bind(
+        Action::AskPiece,
+        "ask-piece",
+        &[ch('o')],
+        &[Styles],
+        "piece",
+        "Ask what the piece is worn as; again: pieces left out",
+    ),
     bind(
         Action::Import(Part::Style),
         "import-style",

@@ -33,12 +33,25 @@ pub enum SeamTask {
 pub struct PreviewRequest {
     /// Its number: later ones are greater.
     pub number: u64,
-    /// The size, as it is edited.
+    /// The size, with its seam file as it is edited or stored.
     pub size: LayoutRequest,
     /// Who wears it.
     pub subject: SubjectId,
+    /// Name of the cloth; none where nobody chose one.
+    pub fabric: Option<String>,
     /// How carefully it is draped.
     pub care: Care,
+}
+
+impl PreviewRequest {
+    /// Whether a size on somebody in a cloth looks as what was asked for: saving its seams does not change it.
+    #[must_use]
+    pub fn is_of(&self, size: &LayoutRequest, subject: SubjectId, fabric: Option<&String>) -> bool {
+        let LayoutRequest { style, key, seams, .. } = &self.size;
+        (style, key.size, seams) == (&size.style, size.key.size, &size.seams)
+            && self.subject == subject
+            && self.fabric.as_ref() == fabric
+    }
 }
 
 /// How a size hangs, coarsely; its picture is asked for by the number of the request.
@@ -46,6 +59,8 @@ pub struct PreviewRequest {
 pub struct Previewed {
     /// Who wears it.
     pub subject: String,
+    /// The cloth.
+    pub fabric: String,
     /// How far it came.
     pub hung: Hung,
     /// Why no farther, and what is to be seen on it.

@@ -111,6 +111,9 @@ pub fn sewn(size: &str, step: &SeamStep) -> String {
         SeamStep::Edit(SeamEdit::Flip { a, b }) => told(&["flip", a, b]),
         SeamStep::Edit(SeamEdit::Open { edge }) => told(&["open", edge]),
         SeamStep::Edit(SeamEdit::LeaveOut { piece }) => told(&["leave-out", piece]),
+        SeamStep::Edit(SeamEdit::TakeIn { drawn, is_pair }) => {
+            told(&["take-in", drawn]) + if *is_pair { " --pair" } else { "" }
+        }
         SeamStep::Edit(SeamEdit::Role { piece, role }) => told(&["role", piece, role]),
         SeamStep::Confirm(seam) => told(&["confirm", seam]),
         SeamStep::ConfirmSure => told(&["confirm"]),

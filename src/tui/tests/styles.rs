@@ -204,7 +204,7 @@ fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     assert!(bench.screen().contains("sewing it…"), "{}", bench.screen());
     let seen = |hung: Hung, remark: &str| {
         let remarks = vec![remark.to_owned()];
-        Ok(Previewed { subject: "male-i".into(), hung, remarks, took_ms: 400 })
+        Ok(Previewed { subject: "male-i".into(), fabric: "poplin".into(), hung, remarks, took_ms: 400 })
     };
     bench.send(Message::Previewed(Box::new(first.clone()), seen(Hung::Draped, "red edges are in no seam")));
     assert!(bench.screen().contains("✓ sewn and draped coarsely; red") && bench.screen().contains("on male-i · front"));

@@ -8,7 +8,7 @@ use crate::messages::requests::Command;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::threads::reading;
 use study::seams::write_seams;
-use study::{Deed, Mode, Part, Saved, StudyError, StyleGiven, Workspace};
+use study::{Deed, Mode, Part, Saved, Strictness, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const POLL: Duration = Duration::from_millis(250);
@@ -110,7 +110,7 @@ pub fn carry_out(workspace: &mut Workspace, command: &Command) -> Result<String,
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
         Command::Import(part, path) => {
-            let saved = workspace.import(*part, std::slice::from_ref(path))?;
+            let saved = workspace.import(*part, std::slice::from_ref(path), Strictness::AllOrNone)?.saved;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
             let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
@@ -157,7 +157,7 @@ fn import_style(workspace: &mut Workspace, name: &str, given: &StyleGiven) -> Re
     if let [(_, path)] = given.patterns.as_slice()
         && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
     {
-        return Ok(said(&workspace.import(Part::Style, std::slice::from_ref(path))?));
+        return Ok(said(&workspace.import(Part::Style, std::slice::from_ref(path), Strictness::AllOrNone)?.saved));
     }
     let is_known = workspace.sizes()?.iter().any(|row| row.style == name);
     let saved = workspace.save_style(if is_known { Mode::Edit } else { Mode::Add }, name, given)?;

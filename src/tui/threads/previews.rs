@@ -38,11 +38,11 @@ pub fn serve(
         let outcome = match room.dress(&request, &is_stale) {
             Err(StudyError::Interrupted) => continue,
             Err(error) => Err(error.to_string()),
-            Ok((subject, preview)) => {
+            Ok((subject, fabric, preview)) => {
                 let (hung, remarks) = (preview.hung, preview.remarks.clone());
                 *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some((request.number, preview));
                 let took_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
-                Ok(Previewed { subject, hung, remarks, took_ms })
+                Ok(Previewed { subject, fabric, hung, remarks, took_ms })
             }
         };
         if sender.send(Message::Previewed(Box::new(request), outcome)).is_err() {
@@ -57,12 +57,12 @@ struct Room {
 }
 
 impl Room {
-    /// The garment of a request on its subject, with the subject's name.
+    /// The garment of a request on its subject, with the names of the subject and the cloth.
     fn dress(
         &mut self,
         request: &PreviewRequest,
         is_stale: &dyn Fn() -> bool,
-    ) -> Result<(String, Preview), StudyError> {
+    ) -> Result<(String, String, Preview), StudyError> {
         let workspace = self.workspace.as_ref().map_err(|error| StudyError::stage("store")(error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {
             self.ready = Some((request.subject, workspace.mannequin(request.subject)?));
@@ -70,6 +70,8 @@ impl Room {
         let Some((_, mannequin)) = &self.ready else { return Err(StudyError::Interrupted) };
         let stored = workspace.workpiece(request.size.key)?;
         let piece = Workpiece { seams: request.size.seams.clone().or(stored.seams.clone()), ..stored };
-        Ok((mannequin.name.clone(), piece.preview(mannequin, request.care, is_stale)?))
+        let cloth = workspace.cloth(request.fabric.as_deref())?;
+        let seen = piece.preview(mannequin, &cloth, request.care, is_stale)?;
+        Ok((mannequin.name.clone(), cloth.name, seen))
     }
 }

@@ -57,7 +57,7 @@ mod target;
 mod tests;
 mod values;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::bodies;
@@ -75,10 +75,47 @@ use sim::Fabric;
 pub struct Subject {
     /// Name in results.
     pub id: String,
-    /// What is known of the body.
+    /// Who it is.
+    pub person: Person,
+}
+
+/// Somebody who wears garments.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Person {
+    /// What is known of the body; of a scan, what is measured on it.
     pub measurements: Measurements,
     /// The scan that is the body, where there is one.
     pub scan: Option<ScanFile>,
+}
+
+impl Person {
+    /// The body: the scan, or one that is built from the measurements.
+    ///
+    /// # Errors
+    /// When the measurements are those of nobody, or the scan cannot wear garments.
+    pub fn body(&self) -> Result<Body> {
+        let Some(scan) = &self.scan else { return bodies::build_body(&self.measurements) };
+        let read = bodies::read_scan(&scan.file, scan.unit, Some(self.measurements.sex))?;
+        bodies::scanned_body(&scan.file, read)
+    }
+}
+
+impl From<Measurements> for Person {
+    fn from(measurements: Measurements) -> Self {
+        Self { measurements, scan: None }
+    }
+}
+
+impl ScanFile {
+    /// Reads a scan and who it is; measured, which tells whether it is a standing person. The unit and the sex are told from it where
+    /// they are not given.
+    ///
+    /// # Errors
+    /// When it is no body.
+    pub(crate) fn person(self, sex: Option<Sex>) -> Result<Person> {
+        let found = bodies::read_scan(&self.file, self.unit, sex)?;
+        Ok(Person { measurements: found.girths.measurements(found.sex), scan: Some(self) })
+    }
 }
 
 /// A body scan of a study.
@@ -162,11 +199,13 @@ pub struct Study {
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     /// Subjects of the catalogue.
-    pub subjects: BTreeMap<String, Measurements>,
+    pub subjects: BTreeMap<String, Person>,
     /// Fabrics of the catalogue and the library.
     pub fabrics: BTreeMap<String, Fabric>,
     /// Styles of the catalogue with their sizes.
     pub styles: BTreeMap<String, KnownStyle>,
+    /// Entries that were removed and stay stored: `subject male-ii`.
+    pub hidden: BTreeSet<String>,
 }
 
 /// A style of the catalogue.
@@ -247,7 +286,10 @@ pub(crate) fn subjects(
     known: &Known,
 ) -> std::result::Result<Vec<Placed<Subject>>, Vec<Problem>> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    parse::entries(path, text, |reader, top| subjects::subjects(reader, top, folder, &known.subjects))
+    parse::entries(path, text, |reader, top| {
+        reader.hidden.clone_from(&known.hidden);
+        subjects::subjects(reader, top, folder, &known.subjects)
+    })
 }
 
 /// The fabrics of the text of a study file, or of one that has nothing else.

@@ -36,6 +36,7 @@ const STUDY_KEYS: [&str; 12] = [
 /// Checks the text of a study file; files it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
+    reader.hidden.clone_from(&known.hidden);
     let top = Place { name: "study".into(), span: 0..0, table: document.get_ref() };
     reader.only(&top, &STUDY_KEYS);
 

@@ -1,5 +1,6 @@
 //! Reading TOML with every problem kept: which line, what was found, what would be accepted.
 
+use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
@@ -16,6 +17,8 @@ pub(super) struct Reader<'a> {
     /// Where its lines end, bytes, rising.
     ends: Vec<usize>,
     pub problems: Vec<Problem>,
+    /// Entries of the catalogue that were removed and stay stored: `subject male-ii`.
+    pub hidden: BTreeSet<String>,
 }
 
 /// A table of the file with its name for messages.
@@ -31,7 +34,7 @@ pub(super) struct Place<'t> {
 impl<'a> Reader<'a> {
     pub fn new(path: &'a Path, text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
-        Self { path, text, ends, problems: Vec::new() }
+        Self { path, text, ends, problems: Vec::new(), hidden: BTreeSet::new() }
     }
 
     /// Adds a problem at a byte of the text.

@@ -5,11 +5,10 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use crate::bodies::read_scan;
 use crate::spec::fields::{Entry, keys, sex};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::values::{lookup, numbers, source, unique};
-use crate::spec::file::{Placed, ScanFile, SourceFile, Subject};
+use crate::spec::file::{Person, Placed, ScanFile, SourceFile, Subject};
 use body::{LengthUnit, Measurements, Sex};
 
 /// What else a subject of a study may be.
@@ -20,7 +19,7 @@ pub(super) fn subjects(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
     folder: &Path,
-    known: &BTreeMap<String, Measurements>,
+    known: &BTreeMap<String, Person>,
 ) -> Vec<Placed<Subject>> {
     let accepted = [&["id", "like", "scan", "unit"], &keys::<Measurements>()[..]].concat();
     let mut subjects = Vec::new();
@@ -33,16 +32,16 @@ pub(super) fn subjects(
         let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
             (Some(name), _) => {
                 alone(reader, &place, &["id", "like"]);
-                lookup(reader, known, &name, "subject in the catalogue").cloned().map(|known| (known, None))
+                lookup(reader, known, &name, "subject in the catalogue").cloned()
             }
             (None, Some(file)) => {
                 alone(reader, &place, &["id", "scan", "sex", "unit"]);
-                scanned(reader, &place, &file, folder).map(|(measurements, scan)| (measurements, Some(scan)))
+                scanned(reader, &place, &file, folder)
             }
-            (None, None) => measurements(reader, &place, OR_NAMED).map(|measurements| (measurements, None)),
+            (None, None) => measurements(reader, &place, OR_NAMED).map(Person::from),
         };
-        subjects.extend(found.map(|(measurements, scan)| {
-            let subject = Subject { id: (*id.get_ref()).to_owned(), measurements, scan };
+        subjects.extend(found.map(|person| {
+            let subject = Subject { id: (*id.get_ref()).to_owned(), person };
             reader.placed(&id.span(), id.get_ref(), subject)
         }));
     }
@@ -57,13 +56,8 @@ fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
     }
 }
 
-/// A scan beside the study file, and what is measured on it.
-fn scanned(
-    reader: &mut Reader<'_>,
-    place: &Place<'_>,
-    file: &Spanned<&str>,
-    folder: &Path,
-) -> Option<(Measurements, ScanFile)> {
+/// Somebody whose scan lies beside the study file.
+fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, folder: &Path) -> Option<Person> {
     let sex = reader.text(place, "sex").and_then(|word| sex_of(reader, place, &word));
     let unit = reader.text(place, "unit").and_then(|text| {
         let unit = LengthUnit::ALL.into_iter().find(|unit| unit.name() == *text.get_ref());
@@ -74,13 +68,8 @@ fn scanned(
         unit
     });
     let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
-    match read_scan(&scan.file, unit, sex) {
-        Ok(found) => Some((found.girths.measurements(found.sex), scan)),
-        Err(error) => {
-            reader.problem(&file.span(), format!("{}: {error}", place.name));
-            None
-        }
-    }
+    let problem = |error| reader.problem(&file.span(), format!("{}: {error}", place.name));
+    scan.person(sex).map_err(problem).ok()
 }
 
 /// The measurements of a place's keys; `or` is what it may be else.

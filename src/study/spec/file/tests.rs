@@ -19,9 +19,9 @@ fn known() -> Known {
         stretched: None,
     };
     Known {
-        subjects: [("male-ii".to_owned(), male_ii)].into(),
+        subjects: [("male-ii".to_owned(), male_ii.into())].into(),
         fabrics: [("cotton_shirting_light".to_owned(), cotton)].into(),
-        styles: BTreeMap::new(),
+        ..Known::default()
     }
 }
 
@@ -132,7 +132,7 @@ fn a_subject_may_be_a_scan() {
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
     write("tee-s.dxf", "dxf");
     write("tee.seams.toml", "seams");
-    let asked = &known().subjects["male-ii"];
+    let asked = &known().subjects["male-ii"].measurements;
     let body = body::build(asked).expect("an ordinary man");
     write("ii.obj", &body::write_obj(&body.mesh));
     let load = |subject: &str| {
@@ -143,12 +143,12 @@ fn a_subject_may_be_a_scan() {
     };
     let study = load("scan = \"ii.obj\"\nsex = \"male\"").expect("a scan of a man");
     let subject = &study.subjects[0];
-    assert!((subject.measurements.stature_m() - asked.stature_m()).abs() < 2e-3, "{subject:?}");
-    let chest = subject.measurements.get(Dimension::ChestGirth).expect("measured");
+    assert!((subject.person.measurements.stature_m() - asked.stature_m()).abs() < 2e-3, "{subject:?}");
+    let chest = subject.person.measurements.get(Dimension::ChestGirth).expect("measured");
     assert!((chest - 0.863).abs() < 3e-3, "{chest}");
     let jobs = crate::spec::jobs(&study);
     let hash = |name: &str| jobs[0].inputs.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_owned());
-    let scan = subject.scan.as_ref().expect("a scan");
+    let scan = subject.person.scan.as_ref().expect("a scan");
     assert_eq!(hash("subject.ii.scan"), Some(scan.file.hash()));
     let told = |subject: &str| load(subject).expect_err("bad").to_string();
     assert!(told("scan = \"i.obj\"").contains("did you mean `ii.obj`?"));
@@ -164,7 +164,7 @@ fn the_quickstart_is_a_good_study() {
     assert_eq!(crate::spec::jobs(&study).len(), 12);
     let thesis = crate::catalogue::known(None).expect("built in").subjects;
     for subject in &study.subjects {
-        assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
+        assert_eq!(subject.person, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
     }
 }
 

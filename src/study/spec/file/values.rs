@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use crate::error::{StudyError, nearest};
+use crate::error::{StudyError, hidden_hint, nearest};
 use crate::files::SourceFile;
 use crate::spec::fields::{Entry, is_absent};
 use crate::spec::file::reader::{Place, Reader};
@@ -43,7 +43,7 @@ pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>,
     }
 }
 
-/// An entry by name; a problem with a suggestion where there is none.
+/// An entry by name; a problem with a suggestion where there is none. Of `what` the first word is the part of the catalogue, if any.
 pub(super) fn lookup<'k, T>(
     reader: &mut Reader<'_>,
     known: &'k BTreeMap<String, T>,
@@ -52,7 +52,9 @@ pub(super) fn lookup<'k, T>(
 ) -> Option<&'k T> {
     let found = known.get(*name.get_ref());
     if found.is_none() {
+        let part = what.split(' ').next().unwrap_or_default();
         let hint = match nearest(name.get_ref(), known.keys().map(String::as_str)) {
+            _ if reader.hidden.contains(&format!("{part} {}", name.get_ref())) => hidden_hint(part),
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("there are: {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
         };

@@ -11,10 +11,7 @@ use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::screens::study::state::Place;
 use crate::widgets::text;
-use study::{Cell, FitCell, Grid, JobId, wearables};
-
-/// The cloth that a new study starts with, where the catalogue has it.
-const USUAL_FABRIC: &str = "cotton_shirting_light";
+use study::{Cell, FitCell, Grid, JobId, USUAL_FABRIC, wearables};
 
 impl State {
     /// The grid.

@@ -7,7 +7,7 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::stepped;
 use crate::screens::state::State;
 use crate::screens::styles::state::{Asking, EdgeAt, Own, TableLine};
-use study::seams::{SeamStep, Undecided};
+use study::seams::{LEFT_OUT, SeamStep, Undecided};
 
 /// Keys while something is asked, for the status line.
 pub const HINTS: &[(&str, &str)] = &[
@@ -35,6 +35,7 @@ impl State {
                 None => Undecided::free(&out.desk, edge),
             }),
             Some(Own::Piece(piece)) if knows((piece, 0)) => Some(Undecided::piece(&out.desk, piece)),
+            Some(Own::LeftOut(first)) => Undecided::left_out(&out.desk, first),
             Some(_) => None,
             None => out.undecided.get(asking.at).or(out.undecided.last()).cloned(),
         }
@@ -62,13 +63,26 @@ impl State {
         }
     }
 
-    /// Asks about the selected edge, or its piece.
-    pub fn ask_own(&mut self, own: fn(EdgeAt) -> Own) {
+    /// Asks a question of the user's own.
+    pub fn ask_own(&mut self, own: Own) {
         if self.may_sew() {
             let at = self.styles.asking.map_or(0, |asking| asking.at);
             let goes_on = self.styles.asking.is_some_and(|asking| asking.goes_on);
-            self.ask_about(Asking { at, own: Some(own(self.styles.edge)), goes_on });
+            self.ask_about(Asking { at, own: Some(own), goes_on });
         }
+    }
+
+    /// What is asked about pieces next: about the selected one, then about those that are left out, some at a time.
+    #[must_use]
+    pub fn next_of_piece(&self) -> Own {
+        let left_out = self.layout().and_then(Result::ok).map_or(0, |layout| layout.out.desk.left_out.len());
+        let next = match self.styles.asking.and_then(|asking| asking.own) {
+            Some(Own::Piece(_)) => Some(0),
+            Some(Own::LeftOut(first)) => Some(first + LEFT_OUT),
+            _ => None,
+        };
+        let piece = Own::Piece(self.styles.edge.0);
+        next.filter(|first| *first < left_out).map_or(piece, Own::LeftOut)
     }
 
     fn ask_about(&mut self, asking: Asking) {

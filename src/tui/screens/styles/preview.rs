@@ -36,17 +36,24 @@ impl State {
         if !self.shows_preview() || !is_laid_out {
             return None;
         }
-        let (size, subject) = (self.styles.requested.clone()?, self.subject()?.id);
+        let (size, subject) = (self.dressed_size()?, self.subject()?.id);
         let asked = self.styles.preview.asked.as_ref();
-        if asked.is_some_and(|asked| asked.size == size && asked.subject == subject) {
+        if asked.is_some_and(|asked| asked.is_of(&size, subject, self.fabrics.chosen.as_ref())) {
             return None;
         }
         Some(self.dress(size, subject, Care::Glance))
     }
 
+    /// The selected size with its seam file, whether that is edited or stored.
+    fn dressed_size(&self) -> Option<LayoutRequest> {
+        let size = self.layout_request()?;
+        let stored = self.layout().and_then(Result::ok).and_then(|layout| layout.stored.clone());
+        Some(LayoutRequest { seams: size.seams.or(stored), ..size })
+    }
+
     fn dress(&mut self, size: LayoutRequest, subject: SubjectId, care: Care) -> Effect {
         let number = self.styles.preview.asked.as_ref().map_or(1, |asked| asked.number + 1);
-        let request = PreviewRequest { number, size, subject, care };
+        let request = PreviewRequest { number, size, subject, fabric: self.fabrics.chosen.clone(), care };
         self.styles.preview.asked = Some(request.clone());
         Effect::Preview(request)
     }
@@ -55,7 +62,7 @@ impl State {
     pub fn try_on(&mut self) -> Vec<Effect> {
         self.show(Screen::Styles);
         let subject = self.subject().map(|subject| (subject.id, subject.name.clone()));
-        let (Some((subject, name)), Some(size)) = (subject, self.layout_request()) else {
+        let (Some((subject, name)), Some(size)) = (subject, self.dressed_size()) else {
             self.say("a size and a subject are needed: i imports a style, 2 shows the subjects");
             return vec![];
         };
@@ -135,11 +142,11 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let view = look_name(state.pictures.look);
     let seen = state.styles.preview.seen.as_ref();
     let on = match seen {
-        Some((_, Ok(seen))) => format!("on {} · {view}", seen.subject),
+        Some((_, Ok(seen))) => format!("on {} in {} · {view}", seen.subject, seen.fabric),
         _ => "on the body".to_owned(),
     };
-    let block =
-        pane(state.theme, on, false).title_bottom(Line::styled(" v turns it  2 another body ", state.theme.legend()));
+    let block = pane(state.theme, on, false)
+        .title_bottom(Line::styled(" v turns it  2 another body  9 cloth ", state.theme.legend()));
     let [picture, told] = split(area, block.inner(area));
     frame.render_widget(block, area);
     let is_current = seen.is_some_and(|(request, _)| Some(request) == state.styles.preview.asked.as_ref());

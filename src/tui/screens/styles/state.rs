@@ -67,6 +67,8 @@ pub enum Own {
     Edge(EdgeAt),
     /// What a piece is worn as.
     Piece(usize),
+    /// Which of the pieces that are left out, from the first of some on, is worn too.
+    LeftOut(usize),
 }
 
 /// The garment sewn coarsely while its seams are edited.

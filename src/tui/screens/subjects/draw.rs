@@ -131,7 +131,8 @@ fn number(value: Option<f64>, key: &str) -> String {
 }
 
 fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &SubjectRow) {
-    let title = format!("{} · {} · revision {}", subject.name, text::sex(subject), subject.revision);
+    let scan = subject.scan.as_ref().map_or(String::new(), |file| format!(" · scan {file}"));
+    let title = format!("{} · {} · revision {}{scan}", subject.name, text::sex(subject), subject.revision);
     let block = pane(state.theme, title, state.in_second_pane());
     let inner = block.inner(area);
     let lines = table(state, subject, usize::from(inner.width));
