@@ -207,6 +207,9 @@ fn summarise(context: &Context, workspace: &Workspace, jobs: &[JobRow]) -> Resul
         }
         return Ok(output::json(&results)?);
     }
+    if context.quiet {
+        return Ok(());
+    }
     let mut groups: Vec<Vec<&JobRow>> = Vec::new();
     for job in done {
         let same = |other: &&JobRow| {

@@ -116,6 +116,15 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
     Ok(text)
 }
 
+/// The edges of an outline between corners that follow each other.
+fn edges_between(corners: usize) -> InlineTable {
+    let edge = |k: usize| {
+        let (from, to) = (k as i64, ((k + 1) % corners) as i64);
+        (format!("edge_{from}_{to}"), Value::from([from, to].into_iter().collect::<Array>()))
+    };
+    (0..corners).map(edge).collect()
+}
+
 struct Editor<'a> {
     file: &'a str,
     entries: SeamFile,
@@ -256,9 +265,12 @@ impl Editor<'_> {
             if *is_mirrored {
                 entry["mirror"] = value(true);
             }
-            entry["edges"] = value(InlineTable::new());
+            entry["edges"] = value(edges_between(2));
             let id = self.free_id(&piece.name, hand);
             self.document["piece"][&id] = Item::Table(entry);
+            let style = Style::read(pieces, self.document.to_string().as_bytes(), self.file)?;
+            let corners = style.pieces.iter().find(|one| one.id == id).map_or(2, |one| one.corners.len());
+            self.document["piece"][&id]["edges"] = value(edges_between(corners));
         }
         Ok(())
     }
@@ -523,11 +535,11 @@ mod tests {
                 .map(|(id, entry)| (id.as_str(), entry.mirror))
                 .collect();
             assert_eq!(found, expect);
-            // And is sewn from there by the numbers of its edges.
+            // And is sewn from there.
             let first = expect[0].0;
             let worn =
                 edit(&taken, &Edit::Role { piece: first.to_owned(), role: "sleeve_right".to_owned() }).expect("a role");
-            edit(&worn, &add(&format!("{first}.2"), &format!("{first}.4"))).expect("its underarm");
+            edit(&worn, &add(&format!("{first}.edge_1_2"), &format!("{first}.edge_4_0"))).expect("its underarm");
         };
         check(false, &[("sleeve", false)]);
         check(true, &[("sleeve_left", true), ("sleeve_right", false)]);

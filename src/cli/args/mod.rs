@@ -61,7 +61,7 @@ pub struct Global {
     /// Print JSON instead of tables.
     #[arg(long, global = true)]
     pub json: bool,
-    /// No progress and no messages but errors.
+    /// Only errors, and what was asked for: no progress, no messages; `run` prints no tables.
     #[arg(long, short, global = true)]
     pub quiet: bool,
     /// Say more.

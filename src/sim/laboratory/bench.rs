@@ -4,7 +4,7 @@ use super::bending::{Bent, Mesh, bent, cantilever, elastica, lateral_buckling};
 use super::drape::cusick;
 use super::isotropic;
 use super::stretch::{hanging_strip, hanging_thread};
-use super::touch::{on_incline, pressed_tube};
+use super::touch::{layer_on_incline, on_incline, pressed_tube};
 use crate::fabric::{Part, known, library};
 use crate::{Fabric, SimError};
 
@@ -13,6 +13,9 @@ geom::constants! {
     /// Rings of a specimen of Cusick's test.
     const RINGS: usize = 24;
 }
+
+/// Lays a sheet on a slope with a friction coefficient: the residual, and how far it has moved, m.
+type Laying = fn(&Fabric, f64, f64) -> Result<(f64, f64), SimError>;
 
 /// An experiment with a known answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +80,7 @@ impl Experiment {
             Self::Cantilever => "a strip is clamped level and bends by its own weight",
             Self::Buckling => "a strip is clamped on edge and buckles sideways",
             Self::Bending => "a sheet is bent about few edges of its mesh",
-            Self::Incline => "a sheet lies on a slope",
+            Self::Incline => "a sheet lies on a slope, and on another sheet",
             Self::Tube => "a tube is drawn over a cylinder",
             Self::Drape => "a disc of 30 cm hangs over one of 18 cm; no parameter is fitted",
         }
@@ -159,20 +162,21 @@ fn bending() -> Result<Vec<Finding>, SimError> {
 
 fn inclines() -> Result<Vec<Finding>, SimError> {
     let sheet = isotropic(0.15, 1000.0, 1e-5);
-    let steepest = |friction: f64| {
+    let laid: [(&str, Laying); 2] = [("on the body", on_incline), ("on another sheet", layer_on_incline)];
+    let steepest = |(on, lay): (&str, Laying), friction: f64| {
         let known = friction.atan().to_degrees();
         let mut held = 0.0;
         for tenths in -20..=20 {
             let degrees = known + 0.1 * f64::from(tenths);
-            if on_incline(&sheet, friction, degrees.to_radians())?.0 > 1e-3 {
+            if lay(&sheet, friction, degrees.to_radians())?.0 > 1e-3 {
                 break;
             }
             held = degrees;
         }
-        let case = format!("friction {friction}");
+        let case = format!("{on}, friction {friction}");
         Ok(Experiment::Incline.finding(case, "steepest slope that holds, degrees", [known, held], "Coulomb"))
     };
-    [0.2, 0.3, 0.5].into_iter().map(steepest).collect()
+    laid.into_iter().flat_map(|on| [0.2, 0.3, 0.5].map(|friction| steepest(on, friction))).collect()
 }
 
 fn tubes() -> Result<Vec<Finding>, SimError> {
