@@ -4,17 +4,53 @@
 //! [Kavan 2008]: no point comes nearer to the axis, so that nothing collapses as under linear blending. The shares rise
 //! smoothly from the trunk into the limb, and are nought at the girth levels of the trunk.
 
+use std::fmt;
+use std::str::FromStr;
+
 use crate::{Body, BodyError, Joint, Landmarks};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3, hull};
 
-/// Angles of the limbs from the vertical, degrees; `None` leaves them as they are.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Angles of the limbs from the vertical, degrees; `None` leaves them as they are. Written `arms_45`, `legs_10`, `arms_45+legs_10`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
     /// Of both arms, shoulder to elbow.
     pub arm_deg: Option<f64>,
     /// Of both legs, hip to knee.
     pub leg_deg: Option<f64>,
+}
+
+impl fmt::Display for Pose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let limbs = [("arms", self.arm_deg), ("legs", self.leg_deg)];
+        let named = limbs.iter().filter_map(|(limb, degrees)| Some(format!("{limb}_{}", (*degrees)?)));
+        f.write_str(&named.collect::<Vec<_>>().join("+"))
+    }
+}
+
+impl FromStr for Pose {
+    type Err = BodyError;
+
+    fn from_str(text: &str) -> Result<Self, BodyError> {
+        let mut pose = Self::default();
+        for part in text.split('+') {
+            let (limb, accepted) = match part.split_once('_') {
+                Some(("arms", _)) => (&mut pose.arm_deg, ARM_DEG),
+                Some(("legs", _)) => (&mut pose.leg_deg, LEG_DEG),
+                _ => (&mut None, [0.0; 2]),
+            };
+            let degrees = part.split_once('_').and_then(|(_, degrees)| degrees.parse::<f64>().ok());
+            *limb = degrees.filter(|degrees| (accepted[0]..=accepted[1]).contains(degrees) && accepted[1] > 0.0);
+            if limb.is_none() {
+                let [[a, b], [c, d]] = [ARM_DEG, LEG_DEG];
+                let problem = format!(
+                    "pose `{text}`; accepted: arms_{a} to arms_{b}, legs_{c} to legs_{d}, or both: arms_45+legs_10"
+                );
+                return Err(BodyError::Pose { problem });
+            }
+        }
+        Ok(pose)
+    }
 }
 
 /// Accepted angles of arms and legs, degrees.

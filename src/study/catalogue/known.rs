@@ -11,7 +11,7 @@ use crate::rows::SubjectId;
 use crate::spec::fields::{Entry, FABRIC_NUMBERS, Field, MEASUREMENTS};
 use crate::spec::file::{Known, KnownStyle, Person, ScanFile, SizeFile, SourceFile};
 use crate::store::{self, Store};
-use body::{LengthUnit, Measurements, Sex};
+use body::{LengthUnit, Measurements, Pose, Sex};
 use sim::{self, Fabric};
 
 /// The thesis's twelve subjects [T tables 6-1 to 6-4].
@@ -30,6 +30,8 @@ pub struct SubjectRow {
     pub measurements: Measurements,
     /// File of the scan that is the body, where there is one.
     pub scan: Option<String>,
+    /// How they stand, where that is not as they are built or scanned.
+    pub pose: Option<Pose>,
 }
 
 /// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet. A database that has
@@ -66,7 +68,7 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
     };
     let subjects = stored_subjects(connection)?.into_iter().map(|row| {
         let scan = if row.scan.is_some() { stored_scan(connection, row.id)? } else { None };
-        Ok((row.name, Person { measurements: row.measurements, scan }))
+        Ok((row.name, Person { measurements: row.measurements, scan, pose: row.pose }))
     });
     let fabrics = crate::catalogue::fabrics::stored_fabrics(connection)?
         .into_iter()
@@ -162,16 +164,17 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
 /// What [`subject_row`] reads.
 fn select_subject() -> String {
     let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
-    format!("SELECT subject_id, name, revision, sex, {scan}, {} FROM subject", columns(&MEASUREMENTS))
+    format!("SELECT subject_id, name, revision, sex, {scan}, pose, {} FROM subject", columns(&MEASUREMENTS))
 }
 
 fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     let sex: String = row.get(3)?;
     let sex = if sex == "male" { Sex::Male } else { Sex::Female };
     let mut measurements = Measurements::of(sex, f64::NAN);
-    read_numbers(row, 5, &MEASUREMENTS, &mut measurements)?;
+    read_numbers(row, 6, &MEASUREMENTS, &mut measurements)?;
     let (id, name, revision, scan) = (SubjectId(row.get(0)?), row.get(1)?, row.get(2)?, row.get(4)?);
-    Ok(SubjectRow { id, name, revision, measurements, scan })
+    let pose = row.get::<_, Option<String>>(5)?.and_then(|text| text.parse().ok());
+    Ok(SubjectRow { id, name, revision, measurements, scan, pose })
 }
 
 /// The scan of a revision of a subject, where it has one.
@@ -191,8 +194,8 @@ fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile
 /// # Errors
 /// When there is none of that number.
 pub(crate) fn person(store: &Store, id: SubjectId) -> Result<Person> {
-    let measurements = subject_revision(store, id)?.measurements;
-    Ok(Person { measurements, scan: stored_scan(&store.reader, id)? })
+    let SubjectRow { measurements, pose, .. } = subject_revision(store, id)?;
+    Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose })
 }
 
 /// The built-in subjects, by name.

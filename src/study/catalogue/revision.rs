@@ -78,12 +78,16 @@ pub(crate) fn subject(transaction: &Transaction<'_>, name: &str, person: &Person
     let revision = match found(transaction, sql, &[&name, &hash])? {
         Some(revision) => revision,
         None => {
-            let Person { measurements, scan } = person;
+            let Person { measurements, scan, pose } = person;
             let numbers = MEASUREMENTS.iter().map(|field| (field.key, field.get(measurements)));
             let added = insert(transaction, "subject", name, &hash, ("sex", sex_name(measurements)), numbers)?;
             if let Some(ScanFile { file, unit }) = scan {
                 let sql = "INSERT INTO scan (subject_id, file, unit, mesh) VALUES (?, ?, ?, ?)";
                 transaction.execute(sql, params![added.id, file.name, unit.map(LengthUnit::name), &*file.bytes])?;
+            }
+            if let Some(pose) = pose {
+                let sql = "UPDATE subject SET pose = ? WHERE subject_id = ?";
+                transaction.execute(sql, params![pose.to_string(), added.id])?;
             }
             added
         }

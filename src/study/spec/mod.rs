@@ -202,7 +202,7 @@ impl JobSpec {
 }
 
 /// A subject's measurements and scan as inputs; absent ones are left out.
-pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan }: &Person) {
+pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
         if let Some(value) = field.get(m) {
@@ -214,6 +214,9 @@ pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurement
         if let Some(unit) = scan.unit {
             inputs.set(format!("subject.{id}.scan_unit"), unit.name());
         }
+    }
+    if let Some(pose) = pose {
+        inputs.set(format!("subject.{id}.pose"), pose);
     }
 }
 

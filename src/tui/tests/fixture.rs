@@ -231,7 +231,7 @@ fn subjects() -> Vec<SubjectRow> {
         for (field, value) in MEASUREMENTS.iter().zip(values) {
             field.set(&mut measurements, Some(*value));
         }
-        SubjectRow { id: SubjectId(id), name: name.into(), revision: id, measurements, scan: None }
+        SubjectRow { id: SubjectId(id), name: name.into(), revision: id, measurements, scan: None, pose: None }
     };
     vec![
         subject(3, "anna", Sex::Female, &[1480.0]),

@@ -15,6 +15,7 @@
 //! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
 //! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
 //! # or a scan (OBJ, PLY, STL, GLB) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
+//! poses = ["arms_15", "arms_60"]    # each a subject, `ii arms_15`; default: as it is built or scanned
 //!
 //! [[garment]]
 //! name = "tshirt"
@@ -65,7 +66,7 @@ use crate::error::{InFile, Problem, Result, StudyError};
 pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};
-use body::{Body, LengthUnit, Measurements, Sex};
+use body::{Body, LengthUnit, Measurements, Pose, Sex};
 use fit::target::Target;
 use fit::{Cuts, Simulator};
 use sim::Fabric;
@@ -86,23 +87,34 @@ pub struct Person {
     pub measurements: Measurements,
     /// The scan that is the body, where there is one.
     pub scan: Option<ScanFile>,
+    /// How they stand, where that is not as they are built or scanned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
 }
 
 impl Person {
-    /// The body: the scan, or one that is built from the measurements.
+    /// The body: the scan, or one that is built from the measurements, in its pose.
     ///
     /// # Errors
-    /// When the measurements are those of nobody, or the scan cannot wear garments.
+    /// When the measurements are those of nobody, or the scan cannot wear garments or stand so.
     pub fn body(&self) -> Result<Body> {
-        let Some(scan) = &self.scan else { return bodies::build_body(&self.measurements) };
-        let read = bodies::read_scan(&scan.file, scan.unit, Some(self.measurements.sex))?;
-        bodies::scanned_body(&scan.file, read)
+        let body = match &self.scan {
+            None => bodies::build_body(&self.measurements)?,
+            Some(scan) => {
+                let read = bodies::read_scan(&scan.file, scan.unit, Some(self.measurements.sex))?;
+                bodies::scanned_body(&scan.file, read)?
+            }
+        };
+        match self.pose {
+            Some(pose) => bodies::pose_body(&body, pose),
+            None => Ok(body),
+        }
     }
 }
 
 impl From<Measurements> for Person {
     fn from(measurements: Measurements) -> Self {
-        Self { measurements, scan: None }
+        Self { measurements, scan: None, pose: None }
     }
 }
 
@@ -114,7 +126,7 @@ impl ScanFile {
     /// When it is no body.
     pub(crate) fn person(self, sex: Option<Sex>) -> Result<Person> {
         let found = bodies::read_scan(&self.file, self.unit, sex)?;
-        Ok(Person { measurements: found.girths.measurements(found.sex), scan: Some(self) })
+        Ok(Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None })
     }
 }
 

@@ -9,7 +9,7 @@ use crate::spec::fields::{Entry, keys, sex};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::values::{lookup, numbers, source, unique};
 use crate::spec::file::{Person, Placed, ScanFile, SourceFile, Subject};
-use body::{LengthUnit, Measurements, Sex};
+use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
 
 /// What else a subject of a study may be.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";
@@ -21,7 +21,7 @@ pub(super) fn subjects(
     folder: &Path,
     known: &BTreeMap<String, Person>,
 ) -> Vec<Placed<Subject>> {
-    let accepted = [&["id", "like", "scan", "unit"], &keys::<Measurements>()[..]].concat();
+    let accepted = [&["id", "like", "scan", "unit", "pose", "poses"], &keys::<Measurements>()[..]].concat();
     let mut subjects = Vec::new();
     let mut ids = BTreeSet::new();
     for mut place in reader.tables(top, "subject", "subject") {
@@ -31,21 +31,45 @@ pub(super) fn subjects(
         place.name = format!("subject {}", id.get_ref());
         let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
             (Some(name), _) => {
-                alone(reader, &place, &["id", "like"]);
+                alone(reader, &place, &["id", "like", "pose", "poses"]);
                 lookup(reader, known, &name, "subject in the catalogue").cloned()
             }
             (None, Some(file)) => {
-                alone(reader, &place, &["id", "scan", "sex", "unit"]);
+                alone(reader, &place, &["id", "scan", "sex", "unit", "pose", "poses"]);
                 scanned(reader, &place, &file, folder)
             }
             (None, None) => measurements(reader, &place, OR_NAMED).map(Person::from),
         };
-        subjects.extend(found.map(|person| {
-            let subject = Subject { id: (*id.get_ref()).to_owned(), person };
-            reader.placed(&id.span(), id.get_ref(), subject)
+        let pose = reader.text(&place, "pose").and_then(|name| pose(reader, &place, &name));
+        let found = found.map(|person| Person { pose: pose.or(person.pose), ..person });
+        let poses = poses(reader, &place);
+        subjects.extend(found.into_iter().flat_map(|person| posed(id.get_ref(), &person, &poses)).map(|subject| {
+            let name = subject.id.clone();
+            reader.placed(&id.span(), &name, subject)
         }));
     }
     subjects
+}
+
+/// The poses that a subject names.
+fn poses(reader: &mut Reader<'_>, place: &Place<'_>) -> Vec<Pose> {
+    let names = reader.texts(place, "poses").unwrap_or_default();
+    names.iter().filter_map(|name| pose(reader, place, name)).collect()
+}
+
+fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Option<Pose> {
+    let read = name.get_ref().parse();
+    read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
+}
+
+/// A subject in each of some poses, called after them; as it is where there are none.
+fn posed(id: &str, person: &Person, poses: &[Pose]) -> Vec<Subject> {
+    if poses.is_empty() {
+        return vec![Subject { id: id.to_owned(), person: person.clone() }];
+    }
+    let posed =
+        |pose: &Pose| Subject { id: format!("{id} {pose}"), person: Person { pose: Some(*pose), ..person.clone() } };
+    poses.iter().map(posed).collect()
 }
 
 /// Refuses keys beside those of a subject that is named or scanned.
