@@ -11,4 +11,5 @@ pub mod picture;
 pub mod result_table;
 pub mod text;
 pub mod theme;
+pub mod theme_file;
 pub mod typing;
