@@ -1,5 +1,6 @@
 //! What actions do that all screens share; the rest is the screens' own.
 
+use crate::app::frame::keys_of;
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
@@ -49,10 +50,10 @@ impl State {
                 self.terminal.chosen_ascii = Some(self.theme.ascii);
             }
             Action::Mouse => return self.take_mouse(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
+            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings, keys_of(self)))),
             Action::Palette => {
                 let things = Thing::all(self.data.as_deref());
-                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings).and(things)));
+                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings, keys_of(self)).and(things)));
             }
             Action::Write => return self.write(),
             Action::Tour => self.tour(0),

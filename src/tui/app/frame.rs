@@ -32,7 +32,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     }
     frame.render_widget(status_line(state, bottom.width), bottom);
     if let Some(overlay) = &state.overlay {
-        overlay.draw(frame, body, state.theme, state.nav.screen);
+        overlay.draw(frame, body, state.theme);
     }
     if state.theme.ascii {
         ascii::translate(frame.buffer_mut());

@@ -18,7 +18,6 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph, Wrap};
 
-use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
@@ -68,15 +67,15 @@ pub enum Overlay {
 
 impl Overlay {
     /// Draws it over a screen.
-    pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme, screen: Screen) {
+    pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme) {
         match self {
             Self::Help(list) => {
                 let title = format!("keys: /{}▏  type to filter, ↵ does it, Esc closes", list.text);
-                action_list::draw(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme);
             }
             Self::Palette(list) => {
                 let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
-                action_list::draw(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme);
             }
             Self::Form(form) => entry_form::draw(frame, area, form, theme),
             Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
@@ -107,7 +106,6 @@ impl Overlay {
             Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
                 Outcome::Closed
             }
-            Self::Commands(_) | Self::Tour(_) if leaves => Outcome::Closed,
             Self::Tour(tour) => tour.key(event),
             Self::Commands(log) => log.key(event),
             Self::StudyForm(form) => form.key(event),
@@ -152,6 +150,7 @@ mod tests {
 
     use super::*;
     use crate::keys::action::Action;
+    use crate::keys::screen::Screen;
     use crate::keys::table::BINDINGS;
 
     fn press(code: KeyCode) -> KeyEvent {
@@ -166,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_palette_runs_what_is_typed() {
-        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS, Screen::Study)), String::new());
         typed(&mut palette, &mut filter, "canx");
         palette.key(&press(KeyCode::Backspace), &mut filter);
         assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(Action::Cancel));
@@ -177,10 +176,23 @@ mod tests {
     #[test]
     fn every_action_can_be_reached_from_the_palette() {
         for binding in BINDINGS {
-            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS, Screen::Study)), String::new());
             typed(&mut palette, &mut filter, binding.name);
             assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(binding.action));
         }
+    }
+
+    #[test]
+    fn keys_of_the_screen_come_first_and_those_of_other_screens_last() {
+        let check = |screen: Screen, first: Action, last: Action| {
+            let list = List::of(BINDINGS, screen);
+            let rows = list.rows();
+            assert_eq!(rows.len(), BINDINGS.len());
+            let action = |k: usize| if let Row::Action(binding) = rows[k] { Some(binding.action) } else { None };
+            assert_eq!((action(0), action(rows.len() - 1)), (Some(first), Some(last)), "{screen:?}");
+        };
+        check(Screen::Jobs, Action::Open, Action::Write);
+        check(Screen::Sql, Action::EditQuery, Action::Lower);
     }
 
     #[test]

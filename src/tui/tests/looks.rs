@@ -86,6 +86,7 @@ fn maps_say_what_their_colours_mean() {
 #[test]
 fn help() {
     looks_like!("help", "?job");
+    looks_like!("help_of_a_screen", "4?");
 }
 
 #[test]
