@@ -13,12 +13,13 @@
 //! - `messages`: what threads and screens tell each other;
 //! - `keys`: actions and the keys for them;
 //! - `widgets`: what all draw and type with;
-//! - `config`: files of one's own.
+//! - `config`: files of one's own; `glossary`: what numbers are, in words.
 //!
 //! *Invariant*: this crate knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
 mod app;
 mod config;
+mod glossary;
 mod keys;
 mod messages;
 mod overlays;

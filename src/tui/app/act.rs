@@ -6,6 +6,7 @@ use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
 use crate::overlays::action_list::List;
 use crate::overlays::commands::CommandLog;
+use crate::overlays::explanation::Explanation;
 use crate::overlays::things::Thing;
 use crate::overlays::tour::Tour;
 use crate::screens;
@@ -51,6 +52,7 @@ impl State {
             }
             Action::Mouse => return self.take_mouse(),
             Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings, keys_of(self)))),
+            Action::Explain => self.overlay = Some(Overlay::Explanation(Explanation::of(page.explained(self)))),
             Action::Palette => {
                 let things = Thing::all(self.data.as_deref());
                 self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings, keys_of(self)).and(things)));

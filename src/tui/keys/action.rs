@@ -158,6 +158,8 @@ pub enum Action {
     Stop,
     /// Lists the keys.
     Help,
+    /// Tells what the selected row and the columns of the screen are.
+    Explain,
     /// Lists the actions.
     Palette,
     /// Opens the query, seams or study in an editor.

@@ -3,6 +3,7 @@
 pub mod action_list;
 pub mod commands;
 pub mod entry_form;
+pub mod explanation;
 mod form_frame;
 pub mod outcome;
 pub mod path_prompt;
@@ -22,6 +23,7 @@ use crate::messages::effect::Effect;
 use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
 use crate::overlays::entry_form::Form;
+use crate::overlays::explanation::Explanation;
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
@@ -40,6 +42,8 @@ pub enum Overlay {
     Help(List),
     /// The list of actions.
     Palette(List),
+    /// What the numbers of the screen are.
+    Explanation(Explanation),
     /// The filter line, with the filter to go back to.
     Filter(String),
     /// The values of a subject.
@@ -77,6 +81,7 @@ impl Overlay {
                 let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
                 action_list::draw(frame, area, &title, list, theme);
             }
+            Self::Explanation(explanation) => explanation::draw(frame, area, explanation, theme),
             Self::Form(form) => entry_form::draw(frame, area, form, theme),
             Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
             Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
@@ -105,6 +110,11 @@ impl Overlay {
             }
             Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
                 Outcome::Closed
+            }
+            Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => Outcome::Closed,
+            Self::Explanation(explanation) => {
+                explanation.key(event);
+                Outcome::Open
             }
             Self::Tour(tour) => tour.key(event),
             Self::Commands(log) => log.key(event),

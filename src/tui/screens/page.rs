@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::picture::Pictured;
@@ -29,6 +30,11 @@ pub trait Page {
 
     /// The text that stands for what is selected, tab-separated, and what it is.
     fn copied(&self, state: &State) -> Option<(String, &'static str)>;
+
+    /// What is selected, and the names of its numbers and of the columns here, as the glossary has them.
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::default()
+    }
 
     /// Moves left or right.
     fn sideways(&self, _state: &mut State, _step: isize) {}

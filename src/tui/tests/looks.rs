@@ -90,6 +90,11 @@ fn help() {
 }
 
 #[test]
+fn explanation() {
+    looks_like!("explanation", "5jK");
+}
+
+#[test]
 fn every_sign_has_a_stand_in_in_ascii() {
     for keys in [
         "",
@@ -111,6 +116,7 @@ fn every_sign_has_a_stand_in_in_ascii() {
         "0lad",
         "?",
         "1a",
+        "5K",
     ] {
         let screen = Bench::example(160, 50).press(keys).screen();
         let odd: String = screen.chars().filter(|sign| !sign.is_ascii() && stand_in(*sign) == '?').collect();

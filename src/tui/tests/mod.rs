@@ -2,6 +2,7 @@
 
 mod alter;
 mod behaviour;
+mod explanation;
 mod fabrics;
 mod fit;
 mod fixture;

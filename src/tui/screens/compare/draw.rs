@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 use crate::messages::snapshot::Compared;
+use crate::overlays::explanation::Selected;
 use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
 use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
@@ -25,6 +26,20 @@ const FIXED: usize = 3 + 8;
 const LEAST_NAME: usize = 12;
 /// Columns of the difference of two.
 const DELTA: usize = 9;
+
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 8] = ["chi", "diff", "L2D", "E(chi)", "EI", "measurement", "FEM", "HYB"];
+
+/// The selected measurement, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let rows = state.comparison_rows();
+    let what = rows.get(state.compare.row).map_or(String::new(), |row| {
+        let chi: Vec<String> =
+            row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
+        format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
+    });
+    Selected::new(what, &NAMES, &[])
+}
 
 /// The panes: table, verdict, and one picture a run.
 struct Panes {

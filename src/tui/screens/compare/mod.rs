@@ -10,6 +10,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
@@ -49,6 +50,10 @@ impl Page for ComparePage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::comparison_table(state).map(|table| (table, "the comparison"))
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
 
 use crate::overlays::entry_form::{fabric_label, unit_of};
+use crate::overlays::explanation::Selected;
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
 use crate::screens::state::State;
 use crate::widgets::layout::{WIDE, is_narrow};
@@ -86,6 +87,21 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = scrolled(lines, state.nav.table_down, inner);
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_facts(frame, facts_area, state, fabric);
+}
+
+/// The selected fabric, the column that sorts, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let Some(row) = state.fabric() else { return Selected::default() };
+    let bends = row.fabric.bending_lengths_m().map(text::mm).join(" and ");
+    let what = format!("{}: {:.0} g/m², bends at {bends} mm", row.fabric.name, row.fabric.density_kg_m2 * 1e3);
+    let sorted = match state.fabrics.order.by {
+        FabricOrder::Name => "fabric",
+        FabricOrder::Number(k) => HEADINGS[k].0,
+    };
+    let headings = HEADINGS.iter().map(|(title, ..)| *title).chain(FOLLOWS.iter().map(|(title, _)| *title));
+    let numbers = (0..FABRIC_NUMBERS.len()).map(fabric_label);
+    let names: Vec<&str> = headings.chain(numbers).chain(["fabric", "value", "among"]).collect();
+    Selected::new(what, &[sorted], &names)
 }
 
 /// The list with its header; the name takes what the numbers leave.

@@ -9,6 +9,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
@@ -45,6 +46,10 @@ impl Page for FabricsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::fabric_line(state).map(|line| (line, "the fabric"))
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -17,6 +17,7 @@ use ratatui::layout::Rect;
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::fit::state::View;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
@@ -83,6 +84,10 @@ impl Page for FitPage {
             View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
             View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
         }
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        actions::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

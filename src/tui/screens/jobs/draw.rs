@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
+use crate::overlays::explanation::Selected;
 use crate::screens::jobs::state::JobOrder;
 use crate::screens::state::State;
 use crate::widgets::layout::is_narrow;
@@ -31,6 +32,19 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = table(state, inner.width, inner.height, !state.in_second_pane());
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_log(frame, log_area, state);
+}
+
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 13] =
+    ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
+
+/// The selected job, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let what = state.job().map_or(String::new(), |job| {
+        let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
+        format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
+    });
+    Selected::new(what, &NAMES, &[])
 }
 
 /// Columns of phase and percent.

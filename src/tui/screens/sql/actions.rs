@@ -6,10 +6,11 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
+use crate::overlays::explanation::Selected;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::state::State;
-use crate::widgets::result_table::ResultTable;
+use crate::widgets::result_table::{ResultTable, cell_text};
 
 /// Queries that the history keeps.
 const MOST_KEPT: usize = 200;
@@ -145,4 +146,13 @@ impl State {
 pub fn selected_row(state: &State) -> Option<String> {
     let table = state.sql.table.as_ref().filter(|table| table.len() > 0)?;
     Some(table.copied(std::iter::once(table.row)))
+}
+
+/// The selected value, and the other columns of the answer.
+pub fn explained(state: &State) -> Selected {
+    let Some(table) = &state.sql.table else { return Selected::default() };
+    let names: Vec<&str> = table.names().iter().map(String::as_str).collect();
+    let Some(column) = names.get(table.column) else { return Selected::default() };
+    let value = table.values(table.row).map_or(String::new(), |values| cell_text(&values[table.column]));
+    Selected::new(format!("{column}: {value}"), &[column], &names)
 }

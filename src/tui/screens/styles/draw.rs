@@ -17,6 +17,9 @@ use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
 
+/// Names of what is shown, as the glossary has them.
+pub const HEADINGS: [&str; 8] = ["seam", "a mm", "ease", "ratio", "sure", "rev", "pattern", "measurement"];
+
 /// Columns of the table from which it has names of seams and both lengths.
 const FULL: usize = 66;
 /// Columns of the name of a seam there, and of all but its edges.

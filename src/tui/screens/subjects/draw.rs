@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
+use crate::overlays::explanation::Selected;
 use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder};
@@ -63,6 +64,21 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     };
     draw_table(frame, table_area, state, subject);
     draw_picture(frame, picture_area, state, subject);
+}
+
+/// The selected subject, the column that sorts, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let Some(subject) = state.subject() else { return Selected::default() };
+    let sorted = match state.subjects.order.by {
+        SubjectOrder::Name => "subject",
+        SubjectOrder::Sex => "sex",
+        SubjectOrder::Measurement(k) => MEASUREMENTS[k].label,
+    };
+    let known = MEASUREMENTS.iter().filter(|field| field.get(&subject.measurements).is_some()).count();
+    let what = format!("{}: {}, {known} measurements known", subject.name, text::sex(subject));
+    let names: Vec<&str> =
+        ["asked", "measured", "centile"].into_iter().chain(MEASUREMENTS.iter().map(|field| field.label)).collect();
+    Selected::new(what, &[sorted], &names)
 }
 
 /// The list with its header; the name takes what the numbers leave.
