@@ -103,6 +103,10 @@ impl State {
                 self.look_at(thing);
                 vec![]
             }
+            Outcome::Jump(goal) => {
+                self.jump(goal);
+                vec![]
+            }
             Outcome::Tour(step) => {
                 self.tour(step);
                 vec![]

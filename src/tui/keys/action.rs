@@ -160,6 +160,8 @@ pub enum Action {
     Help,
     /// Tells what the selected row and the columns of the screen are.
     Explain,
+    /// Puts letters on what is to be seen; typing one goes there.
+    Jump,
     /// Lists the actions.
     Palette,
     /// Opens the query, seams or study in an editor.

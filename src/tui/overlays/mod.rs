@@ -5,6 +5,7 @@ pub mod commands;
 pub mod entry_form;
 pub mod explanation;
 mod form_frame;
+pub mod jump;
 pub mod outcome;
 pub mod path_prompt;
 pub mod saved_queries;
@@ -24,6 +25,7 @@ use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
 use crate::overlays::entry_form::Form;
 use crate::overlays::explanation::Explanation;
+use crate::overlays::jump::Jump;
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
@@ -44,6 +46,8 @@ pub enum Overlay {
     Palette(List),
     /// What the numbers of the screen are.
     Explanation(Explanation),
+    /// Letters on what is to be seen.
+    Jump(Jump),
     /// The filter line, with the filter to go back to.
     Filter(String),
     /// The values of a subject.
@@ -82,6 +86,7 @@ impl Overlay {
                 action_list::draw(frame, area, &title, list, theme);
             }
             Self::Explanation(explanation) => explanation::draw(frame, area, explanation, theme),
+            Self::Jump(jump) => jump::draw(frame, area, jump, theme),
             Self::Form(form) => entry_form::draw(frame, area, form, theme),
             Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
             Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
@@ -112,6 +117,7 @@ impl Overlay {
                 Outcome::Closed
             }
             Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => Outcome::Closed,
+            Self::Jump(jump) => jump.key(event),
             Self::Explanation(explanation) => {
                 explanation.key(event);
                 Outcome::Open

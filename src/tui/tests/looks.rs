@@ -90,6 +90,11 @@ fn help() {
 }
 
 #[test]
+fn jumps() {
+    looks_like!("jumps", "3'");
+}
+
+#[test]
 fn explanation() {
     looks_like!("explanation", "5jK");
 }

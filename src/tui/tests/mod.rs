@@ -6,6 +6,7 @@ mod explanation;
 mod fabrics;
 mod fit;
 mod fixture;
+mod jumps;
 mod looks;
 mod questions;
 mod styles;

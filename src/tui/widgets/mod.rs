@@ -5,6 +5,7 @@ pub mod braille;
 pub mod dots;
 pub mod editor;
 pub mod half_blocks;
+pub mod jump;
 pub mod layout;
 pub mod lists;
 pub mod picture;

@@ -14,6 +14,7 @@ use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use study::Part;
 
 /// The screen of fabrics.
@@ -46,6 +47,10 @@ impl Page for FabricsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::fabric_line(state).map(|line| (line, "the fabric"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
     }
 
     fn explained(&self, state: &State) -> Selected {

@@ -22,6 +22,7 @@ use crate::screens::fit::state::View;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// Keys and what they do; Tab leads to the next part.
 const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
@@ -84,6 +85,14 @@ impl Page for FitPage {
             View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
             View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
         }
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn focus(&self, state: &mut State, pane: usize) {
+        state.fit.view = View::ALL[pane];
     }
 
     fn explained(&self, state: &State) -> Selected {

@@ -8,6 +8,7 @@ use ratatui::widgets::Paragraph;
 use crate::overlays::explanation::Selected;
 use crate::screens::jobs::state::JobOrder;
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
@@ -20,8 +21,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         frame.render_widget(Paragraph::new(list(state, area)), area);
         return;
     }
-    let log_height = (area.height / 3).clamp(7, 16);
-    let [table_area, log_area] = Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area);
+    let [table_area, log_area] = panes(area);
     let shown = state.jobs().len();
     let all = state.data.as_ref().map_or(0, |data| data.jobs.len());
     let study = state.data.as_ref().and_then(|data| data.study()).map_or("", |study| &study.name);
@@ -32,6 +32,25 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = table(state, inner.width, inner.height, !state.in_second_pane());
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_log(frame, log_area, state);
+}
+
+/// The panes: table and log.
+fn panes(area: Rect) -> [Rect; 2] {
+    let log_height = (area.height / 3).clamp(7, 16);
+    Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let jobs = state.jobs();
+    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+    if is_narrow(area) {
+        return jump::rows(0, area, 0, jobs.len(), at);
+    }
+    let [table, log] = panes(area);
+    let mut targets = jump::rows(0, jump::inside(table), 1, jobs.len(), at);
+    targets.push(jump::pane(log, 1));
+    targets
 }
 
 /// Names of what is shown, as the glossary has them.

@@ -15,6 +15,7 @@ use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// The screen of queries.
 pub struct SqlPage;
@@ -54,6 +55,10 @@ impl Page for SqlPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::selected_row(state).map(|rows| (rows, "the row"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
     }
 
     fn explained(&self, state: &State) -> Selected {

@@ -97,6 +97,14 @@ impl State {
         self.focus.job = self.cell_at(place).and_then(|cell| cell.job);
     }
 
+    /// Goes to a cell by its place among all, row by row.
+    pub fn go_to_cell(&mut self, cell: usize) {
+        if let Some(place) = self.places().get(cell) {
+            self.nav.second_pane[Screen::Study as usize] = false;
+            self.go_to(*place);
+        }
+    }
+
     /// Goes to the next cell that matches the filter, or back.
     pub fn go_to_matching_cell(&mut self, step: isize) {
         let places = self.places();

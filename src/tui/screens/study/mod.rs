@@ -14,6 +14,7 @@ use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::results::measurements;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 
 /// The screen of the study.
@@ -50,6 +51,14 @@ impl Page for StudyPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         state.job_line().map(|line| (line, "the job"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn go_to_item(&self, state: &mut State, item: usize) {
+        state.go_to_cell(item);
     }
 
     fn explained(&self, state: &State) -> Selected {

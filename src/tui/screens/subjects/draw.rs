@@ -9,6 +9,7 @@ use crate::overlays::explanation::Selected;
 use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder};
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::picture::Pictured;
@@ -79,6 +80,19 @@ pub fn explained(state: &State) -> Selected {
     let names: Vec<&str> =
         ["asked", "measured", "centile"].into_iter().chain(MEASUREMENTS.iter().map(|field| field.label)).collect();
     Selected::new(what, &[sorted], &names)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let (subjects, selected) = (state.subjects(), state.subject().map(|row| row.id));
+    let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
+    if is_narrow(area) {
+        return jump::rows(0, area, 1, subjects.len(), at);
+    }
+    let [list, table, _] = panes(area);
+    let mut targets = jump::rows(0, jump::inside(list), 1, subjects.len(), at);
+    targets.push(jump::pane(table, 1));
+    targets
 }
 
 /// The list with its header; the name takes what the numbers leave.

@@ -14,6 +14,7 @@ use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 use study::{MEASUREMENTS, Part};
 
@@ -47,6 +48,10 @@ impl Page for SubjectsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::subject_line(state).map(|line| (line, "the subject"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
     }
 
     fn explained(&self, state: &State) -> Selected {
