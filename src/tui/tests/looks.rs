@@ -95,6 +95,20 @@ fn jumps() {
 }
 
 #[test]
+fn a_terminal_of_60_by_15_shows_the_pieces_where_they_have_the_focus() {
+    assert_snapshot!("pieces_60x15", Bench::example(60, 15).press("3<Tab>").screen());
+}
+
+#[test]
+fn messages_longer_than_the_line_are_wrapped() {
+    let mut bench = Bench::example(60, 15);
+    bench.send(Message::Failed(format!("{}the end", "a word ".repeat(14))));
+    let screen = bench.screen();
+    assert!(screen.contains("✗ a word") && bench.status().ends_with("the end"), "{screen}");
+    assert!(!bench.press("j").screen().contains("the end"));
+}
+
+#[test]
 fn explanation() {
     looks_like!("explanation", "5jK");
 }

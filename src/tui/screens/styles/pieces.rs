@@ -31,7 +31,8 @@ pub fn letter(seam: usize) -> char {
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
     let room = usize::from(area.width).saturating_sub(26);
-    let legend = " ● edge  ○ sewn to it  ◆ marked ";
+    let legend =
+        if area.width < 34 { " ● edge ○ sewn ◆ marked " } else { " ● edge  ○ sewn to it  ◆ marked " };
     let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
         .title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(area);
