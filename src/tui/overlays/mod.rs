@@ -113,9 +113,7 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
-            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
-                Outcome::Closed
-            }
+            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::Queries(_) if leaves => Outcome::Closed,
             Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => Outcome::Closed,
             Self::Jump(jump) => jump.key(event),
             Self::Explanation(explanation) => {

@@ -31,7 +31,7 @@ fn subjects() {
 
 #[test]
 fn the_form_of_a_subject() {
-    looks_like!("subject_form", "2a<Enter>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
+    looks_like!("subject_form", "2a<F5>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn seams() {
 
 #[test]
 fn the_form_of_a_style() {
-    looks_like!("style_form", "3i~/patterns/titan.dxf<Tab><Tab><Tab>mile<Enter>");
+    looks_like!("style_form", "3i~/patterns/titan.dxf<Tab><Tab><Tab>mile<F5>");
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn fabrics() {
 
 #[test]
 fn the_form_of_a_fabric() {
-    looks_like!("fabric_form", "9ja<Enter>poplin<Tab><Tab><C-u>1.2");
+    looks_like!("fabric_form", "9ja<F5>poplin<Tab><Tab><C-u>1.2");
 }
 
 #[test]

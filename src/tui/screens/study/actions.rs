@@ -7,7 +7,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::Target;
 use crate::overlays::Overlay;
 use crate::overlays::explanation::Selected;
-use crate::overlays::study_form::StudyForm;
+use crate::overlays::study_form::{Filter, StudyForm};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::results::measurements;
 use crate::screens::state::State;
@@ -189,6 +189,7 @@ impl State {
             simulators: study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
             sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
             subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
+            filter: Filter::default(),
             at: 0,
             is_busy: false,
             problem: None,
