@@ -90,7 +90,7 @@ pub enum TuiError {
 /// When the database cannot be opened, a file of keys or colours is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
-    let bindings = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
+    let keys = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
     let roles = config::read(config::path(&env, theme_file::FILE).as_deref(), theme_file::taken)?;
     let colours = Colours::detect(options.no_color, &env);
@@ -102,7 +102,8 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let mut display = Display::enter()?;
     let size = display.size()?;
     let mut state = State::new(theme, abilities, size);
-    (state.setup.bindings, state.setup.folders) = (bindings, folders);
+    (state.setup.bindings, state.setup.folders) = (keys.bindings, folders);
+    state.sql.editor.edit_as(keys.editing);
     let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
     state.setup.database = named;
     let session = session::path(&options.database, &env);

@@ -3,6 +3,7 @@
 //! ```toml
 //! cancel = "D"
 //! down = ["j", "Down", "C-e"]
+//! editing = "vim"
 //! ```
 
 use std::path::Path;
@@ -14,6 +15,7 @@ use crate::config::{self, ConfigError, Entry, Problems};
 use crate::keys::binding::{Binding, Key};
 use crate::keys::screen::Screen;
 use crate::keys::table::BINDINGS;
+use crate::widgets::editor::Editing;
 
 /// Names of keys that are no single character.
 const NAMES: [(&str, KeyCode); 15] = [
@@ -37,23 +39,45 @@ const NAMES: [(&str, KeyCode); 15] = [
 /// Its name in the config folder.
 pub const FILE: &str = "keys.toml";
 
+/// The line that says whose keys edit.
+const EDITING: &str = "editing";
+
 /// Letters that terminals, tmux and screen use with Ctrl.
 const TAKEN: &str = "absqhijm";
 
-/// The table of keys with those of a file over it; the table itself where there is no such file. It lives as long as the program does.
+/// The keys of actions, and whose keys edit a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keys {
+    /// The table of keys.
+    pub bindings: &'static [Binding],
+    /// Whose keys edit.
+    pub editing: Editing,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self { bindings: BINDINGS, editing: Editing::default() }
+    }
+}
+
+/// The keys of a file, those of the table where it has no others. They live as long as the program does.
 ///
 /// # Errors
 /// Everything that is wrong with the file, each with its line.
-pub fn read(path: Option<&Path>) -> Result<&'static [Binding], ConfigError> {
-    let changed: Vec<Binding> = config::read(path, taken)?;
-    Ok(if changed.is_empty() { BINDINGS } else { changed.leak() })
+pub fn read(path: Option<&Path>) -> Result<Keys, ConfigError> {
+    config::read(path, taken)
 }
 
-/// The table of keys with those of some lines over it.
-fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Vec<Binding> {
+/// The keys of some lines, over those of the table.
+fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
+    let mut editing = Editing::default();
     let mut bindings = BINDINGS.to_vec();
     let mut changed = Vec::new();
     for entry in entries {
+        if entry.name == EDITING {
+            editing = problems.or_tell(entry, editing_of(entry.value)).unwrap_or_default();
+            continue;
+        }
         let Some(k) = bindings.iter().position(|binding| binding.name == entry.name) else {
             problems.tell(entry.line, format!("no action `{}`; ? and : list all by name", entry.name));
             continue;
@@ -68,7 +92,18 @@ fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Vec<Binding> {
             problems.tell(line, problem);
         }
     }
-    bindings
+    Keys { bindings: bindings.leak(), editing }
+}
+
+/// Whose keys edit.
+fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
+    const ACCEPTED: &str = "accepted: \"readline\", \"vim\"";
+    match value.as_str() {
+        Some("readline") => Ok(Editing::Readline),
+        Some("vim") => Ok(Editing::Vim),
+        Some(other) => Err(format!("`{other}`; {ACCEPTED}")),
+        None => Err(format!("{}; {ACCEPTED}", value.type_str())),
+    }
 }
 
 /// The other action that a key of a binding means on one of its screens, in words.
@@ -127,7 +162,7 @@ mod tests {
     use crate::keys::action::Action;
     use crate::keys::binding::action_of;
 
-    fn parse(text: &str) -> Result<Vec<Binding>, ConfigError> {
+    fn parse(text: &str) -> Result<Keys, ConfigError> {
         config::parse("keys.toml", text, taken)
     }
 
@@ -138,9 +173,11 @@ mod tests {
     #[test]
     fn actions_get_other_keys_and_the_rest_stays() {
         let text = "# mine\ncancel = \"D\"\ndown = [\"Down\", \"C-e\", \"A-x\", \"F7\"]\nnext-match = \"j\"\n";
-        let bindings = parse(text).expect("right");
+        let Keys { bindings, editing } = parse(text).expect("right");
+        assert_eq!(editing, Editing::Readline);
+        assert_eq!(parse("editing = \"vim\"").expect("right").editing, Editing::Vim);
         let check = |name: &str, expect: Option<Action>| {
-            assert_eq!(action_of(&bindings, key(name).expect("a key"), Screen::Jobs), expect, "{name}");
+            assert_eq!(action_of(bindings, key(name).expect("a key"), Screen::Jobs), expect, "{name}");
         };
         check("D", Some(Action::Cancel));
         check("x", None);
@@ -165,6 +202,8 @@ mod tests {
         check("cancel = []", "no key; accepted");
         check("cancel = \"r\"", "keys.toml:1: cancel: key `r` already means retry; give that one another key too");
         check("cancel = ", "keys.toml:1: ");
+        check("editing = \"vi\"", "keys.toml:1: editing: `vi`; accepted: \"readline\", \"vim\"");
+        check("editing = true", "keys.toml:1: editing: boolean; accepted: \"readline\"");
         assert_eq!(told("a = \"x\"\nb = \"y\"").lines().count(), 2, "all are told at once");
     }
 
@@ -173,7 +212,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let env = |name: &str| (name == "XDG_CONFIG_HOME").then(|| folder.path().display().to_string());
         let path = config::path(&env, FILE).expect("a place");
-        assert_eq!(read(Some(&path)).expect("none"), BINDINGS);
+        assert_eq!(read(Some(&path)).expect("none"), Keys::default());
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
         std::fs::write(&path, "cancel = \"D\"").expect("writable");
         assert!(read(Some(&path)).is_ok());

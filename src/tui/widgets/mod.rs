@@ -14,3 +14,4 @@ pub mod text;
 pub mod theme;
 pub mod theme_file;
 pub mod typing;
+mod vim;

@@ -10,6 +10,7 @@ use crate::overlays::explanation::Selected;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::state::State;
+use crate::widgets::editor::Mode;
 use crate::widgets::result_table::{ResultTable, cell_text};
 
 /// Queries that the history keeps.
@@ -25,7 +26,8 @@ impl State {
     /// Hands a key to the editor; returns whether it took it. In an empty editor, keys that no query begins with mean what
     /// they mean elsewhere.
     pub fn edit_query(&mut self, event: &KeyEvent) -> bool {
-        if event.code == KeyCode::Esc {
+        let mode = self.sql.editor.mode();
+        if event.code == KeyCode::Esc && mode != Some(Mode::Insert) {
             self.nav.second_pane[Screen::Sql as usize] = true;
             return true;
         }

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
 use crate::screens::state::State;
-use crate::widgets::editor::Offer;
+use crate::widgets::editor::{Mode, Offer};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{ResultTable, cell_text};
@@ -48,7 +48,12 @@ pub fn targets(state: &State, area: Rect) -> Vec<Target> {
 
 fn draw_editor(frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
     let focused = state.is_editing();
-    let title = if focused { "query: F5 runs, Tab completes, Esc leaves" } else { "query: e edits, F5 runs" };
+    let title = match state.sql.editor.mode() {
+        _ if !focused => "query: e edits, F5 runs",
+        None => "query: F5 runs, Tab completes, Esc leaves",
+        Some(Mode::Insert) => "query, insert: F5 runs, Tab completes, Esc to normal mode",
+        Some(Mode::Normal) => "query, normal: F5 runs, i a o type, Esc leaves",
+    };
     let block = pane(state.theme, title, focused);
     let inner = block.inner(area);
     let editor = &state.sql.editor;
