@@ -8,6 +8,7 @@ mod fit;
 mod fixture;
 mod jumps;
 mod looks;
+mod protocols;
 mod questions;
 mod styles;
 mod subjects;
