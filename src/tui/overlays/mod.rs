@@ -123,7 +123,7 @@ impl Overlay {
             Self::Tour(tour) => tour.key(event),
             Self::Commands(log) => log.key(event),
             Self::StudyForm(form) => form.key(event),
-            Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),
+            Self::Queries(list) => list.key(event),
             Self::Form(form) => form.key(event),
             Self::Path(prompt) => prompt.key(event),
             Self::StyleForm(form) => form.key(event),

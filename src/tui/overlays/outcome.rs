@@ -22,6 +22,8 @@ pub enum Outcome {
     Jump(Goal),
     /// It closes and a query goes into the editor.
     Query(String),
+    /// It closes and another name of a saved query is asked for.
+    Rename(String),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
     /// It stays open until what it asked for is done.
