@@ -12,11 +12,14 @@
 //! - `threads`, `terminal`: the outside, which knows no screen;
 //! - `messages`: what threads and screens tell each other;
 //! - `keys`: actions and the keys for them;
-//! - `widgets`: what all draw and type with.
+//! - `widgets`: what all draw and type with;
+//! - `config`: files of one's own; `glossary`: what numbers are, in words.
 //!
 //! *Invariant*: this crate knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
 mod app;
+mod config;
+mod glossary;
 mod keys;
 mod messages;
 mod overlays;
@@ -37,7 +40,8 @@ pub use widgets::picture::Images;
 
 use app::frame;
 use app::session::{self, Session};
-use keys::file::{self as keys_file, KeysError};
+use config::ConfigError;
+use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders, State};
@@ -47,6 +51,7 @@ use terminal::clipboard::osc52;
 use threads::Threads;
 use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
+use widgets::theme_file;
 
 /// How the workbench is started.
 pub struct Options {
@@ -70,9 +75,9 @@ pub enum TuiError {
     /// The workspace could not be opened.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The file with keys of one's own is wrong.
+    /// A file of one's own, with keys or colours, is wrong.
     #[error(transparent)]
-    Keys(#[from] KeysError),
+    Config(#[from] ConfigError),
     /// The terminal refused.
     #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
@@ -82,12 +87,14 @@ pub enum TuiError {
 /// in the queue; when the terminal is lost, the run is waited for instead.
 ///
 /// # Errors
-/// When the database cannot be opened, the file of keys is wrong, or there is no terminal.
+/// When the database cannot be opened, a file of keys or colours is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
-    let bindings = keys_file::read(keys_file::path(&env).as_deref())?;
+    let keys = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
-    let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
+    let roles = config::read(config::path(&env, theme_file::FILE).as_deref(), theme_file::taken)?;
+    let colours = Colours::detect(options.no_color, &env);
+    let theme = Theme { roles, ..Theme::new(colours, theme::wants_ascii(&env)) };
     let encoder = PictureEncoder::new(options.images, theme.colours, &env);
     let folders = folders(&options);
     let abilities = Abilities { run: !options.readonly, pictures: encoder.is_some() };
@@ -95,7 +102,8 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let mut display = Display::enter()?;
     let size = display.size()?;
     let mut state = State::new(theme, abilities, size);
-    (state.setup.bindings, state.setup.folders) = (bindings, folders);
+    (state.setup.bindings, state.setup.folders) = (keys.bindings, folders);
+    state.sql.editor.edit_as(keys.editing);
     let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
     state.setup.database = named;
     let session = session::path(&options.database, &env);

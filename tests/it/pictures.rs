@@ -13,6 +13,9 @@ use super::workbench::workbench;
 /// Width and height of a cell, and the size of its letters, pixels.
 const CELL: (f64, f64) = (8.4, 17.0);
 const LETTER: f64 = 14.0;
+/// Columns and rows of the terminal.
+const COLUMNS: u16 = 120;
+const ROWS: u16 = 36;
 /// Letters and background where the program names no colour.
 const PLAIN: ([u8; 3], [u8; 3]) = ([216, 216, 216], [30, 30, 30]);
 /// The first sixteen colours.
@@ -205,30 +208,45 @@ const SCENES: [Scene; 19] = [
     ("?", 2.0, None),
 ];
 
-#[test]
-#[ignore = "writes docs/pictures from the database of TOILE_DB"]
-fn pictures_of_the_workbench() {
-    let database = std::env::var("TOILE_DB").expect("TOILE_DB names a database with results");
-    let (columns, rows) = (120, 36);
-    let place = Place::new();
-    let mut command = workbench(&place);
-    command.env("TOILE_DB", std::path::absolute(database).expect("a path")).env("COLORTERM", "truecolor");
-    let Some(seat) = Seat::take(&command, columns, rows) else { return };
-    seat.wait_for("chi");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
-    std::fs::create_dir_all(&folder).expect("writable");
-    let mut frames = vec![];
-    for (keys, seconds, name) in SCENES {
+/// The steps of the tour.
+const TOUR: [Scene; 6] = [
+    ("<C-c>1T", 0.0, Some("tour-1")),
+    ("<Enter>", 0.0, Some("tour-2")),
+    ("<Enter>", 0.0, Some("tour-3")),
+    ("<Enter>", 0.0, Some("tour-4")),
+    ("<Enter>", 0.0, Some("tour-5")),
+    ("<Enter>", 0.0, Some("tour-6")),
+];
+
+/// Plays scenes and writes those that have a picture of their own; returns all of them with their seconds.
+fn played(seat: &Seat, scenes: &[Scene], folder: &Path) -> Vec<(String, f64)> {
+    let play = |(keys, seconds, name): &Scene| {
         seat.press(keys);
         seat.settle();
         seat.wait_until("pictures", |screen| !screen.contains("drawing…") && !screen.contains("reading"));
         seat.settle();
         let frame = seat.shown(drawn);
         if let Some(name) = name {
-            let still = picture(&[(frame.clone(), 1.0)], columns, rows);
+            let still = picture(&[(frame.clone(), 1.0)], COLUMNS, ROWS);
             std::fs::write(folder.join(format!("{name}.svg")), still).expect("writable");
         }
-        frames.push((frame, seconds));
-    }
-    std::fs::write(folder.join("workbench.svg"), picture(&frames, columns, rows)).expect("writable");
+        (frame, *seconds)
+    };
+    scenes.iter().map(play).collect()
+}
+
+#[test]
+#[ignore = "writes docs/pictures from the database of TOILE_DB"]
+fn pictures_of_the_workbench() {
+    let database = std::env::var("TOILE_DB").expect("TOILE_DB names a database with results");
+    let place = Place::new();
+    let mut command = workbench(&place);
+    command.env("TOILE_DB", std::path::absolute(database).expect("a path")).env("COLORTERM", "truecolor");
+    let Some(seat) = Seat::take(&command, COLUMNS, ROWS) else { return };
+    seat.wait_for("chi");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
+    std::fs::create_dir_all(&folder).expect("writable");
+    let frames = played(&seat, &SCENES, &folder);
+    std::fs::write(folder.join("workbench.svg"), picture(&frames, COLUMNS, ROWS)).expect("writable");
+    played(&seat, &TOUR, &folder);
 }

@@ -36,7 +36,7 @@ fn whole_session(columns: u16, rows: u16) {
 
     // Sizes S and M of the drafted T-shirt on male-ii, by Hybrid-GS.
     seat.press("a");
-    seat.wait_for("Space choose");
+    seat.wait_for("F5 make it");
     seat.press("<Tab> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
     seat.wait_for("cotton_shirting_light");
     let form = seat.wait_for("1 subject × 2 sizes × 1 simulator = 2 simulations");
@@ -251,7 +251,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.wait_for("make a study of your own");
     seat.press("3i");
     seat.wait_for("unit");
-    seat.press("patterns/tshirt-s.dxf<Enter>");
+    seat.press("patterns/tshirt-s.dxf<F5>");
     seat.wait_for("to decide");
     seat.press("<Enter>");
     seat.wait_for("question 1 of");
@@ -260,7 +260,7 @@ fn what_was_done_is_done_again_by_its_commands() {
     seat.press("w");
     seat.wait_for("has revision 2");
     seat.press("1a");
-    seat.wait_for("Space choose");
+    seat.wait_for("F5 make it");
     seat.press("<Tab> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
     seat.wait_for("1 subject × 1 size × 1 simulator = 1 simulation");
     seat.press("<Enter>");

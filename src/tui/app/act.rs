@@ -1,15 +1,19 @@
 //! What actions do that all screens share; the rest is the screens' own.
 
+use crate::app::frame::keys_of;
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
 use crate::overlays::action_list::List;
 use crate::overlays::commands::CommandLog;
+use crate::overlays::explanation::Explanation;
+use crate::overlays::jump::Jump;
 use crate::overlays::things::Thing;
 use crate::overlays::tour::Tour;
 use crate::screens;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
+use crate::widgets::jump::Goal;
 
 /// Lines that no list has: title, borders, headers, status line.
 const FRAME_LINES: u16 = 8;
@@ -49,10 +53,12 @@ impl State {
                 self.terminal.chosen_ascii = Some(self.theme.ascii);
             }
             Action::Mouse => return self.take_mouse(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
+            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings, keys_of(self)))),
+            Action::Explain => self.overlay = Some(Overlay::Explanation(Explanation::of(page.explained(self)))),
+            Action::Jump => self.offer_jumps(),
             Action::Palette => {
                 let things = Thing::all(self.data.as_deref());
-                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings).and(things)));
+                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings, keys_of(self)).and(things)));
             }
             Action::Write => return self.write(),
             Action::Tour => self.tour(0),
@@ -71,6 +77,28 @@ impl State {
         let Some(tour) = Tour::at(step) else { return self.say("that was the tour; ? lists all keys") };
         self.show(tour.screen());
         self.overlay = Some(Overlay::Tour(tour));
+    }
+
+    /// Puts letters on what is to be seen.
+    fn offer_jumps(&mut self) {
+        let targets = screens::page(self.nav.screen).targets(self, self.body());
+        match targets.is_empty() || self.data.is_none() {
+            true => self.say("nothing to go to is seen here"),
+            false => self.overlay = Some(Overlay::Jump(Jump { targets, typed: String::new() })),
+        }
+    }
+
+    /// Goes to what is to be seen somewhere.
+    pub fn jump(&mut self, goal: Goal) {
+        let page = screens::page(self.nav.screen);
+        match goal {
+            Goal::Pane(pane) => page.focus(self, pane),
+            Goal::Row(pane, step) => {
+                page.focus(self, pane);
+                page.go(self, Movement::By(step));
+            }
+            Goal::Item(item) => page.go_to_item(self, item),
+        }
     }
 
     /// Goes to something by its name.

@@ -1,9 +1,10 @@
 //! The frame that all screens share: tabs, body, status line, overlays.
 
 use ratatui::Frame;
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Paragraph;
+use ratatui::widgets::{Clear, Paragraph};
 
 use crate::keys::binding::Binding;
 use crate::keys::screen::Screen;
@@ -31,8 +32,9 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
         screens::page(state.nav.screen).draw(frame, body, state);
     }
     frame.render_widget(status_line(state, bottom.width), bottom);
+    draw_notice(frame, state);
     if let Some(overlay) = &state.overlay {
-        overlay.draw(frame, body, state.theme, state.nav.screen);
+        overlay.draw(frame, body, state.theme);
     }
     if state.theme.ascii {
         ascii::translate(frame.buffer_mut());
@@ -114,16 +116,27 @@ fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     spans
 }
 
-/// The filter while it is typed, a message, or the keys that matter here.
+/// A message in the last line, or, where it is longer, in as many lines as it takes.
+fn draw_notice(frame: &mut Frame<'_>, state: &State) {
+    let Some(notice) = state.told.notice.as_ref().filter(|_| !matches!(state.overlay, Some(Overlay::Filter(_)))) else {
+        return;
+    };
+    let (mark, style) = if notice.is_error { ("✗ ", state.theme.bad()) } else { ("", Style::new()) };
+    let line = notice.text.lines().collect::<Vec<_>>().join("; ");
+    let area = frame.area();
+    let lines = text::wrapped(&format!("{mark}{line}"), usize::from(area.width.saturating_sub(1)).max(1));
+    let height = (lines.len() as u16).min(area.height / 2).max(1).min(area.height);
+    let place = Rect { y: area.bottom() - height, height, ..area };
+    let lines: Vec<Line<'_>> = lines.into_iter().map(|line| Line::styled(format!(" {line}"), style)).collect();
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines), place);
+}
+
+/// The filter while it is typed, or the keys that matter here.
 fn status_line(state: &State, width: u16) -> Line<'static> {
     if matches!(state.overlay, Some(Overlay::Filter(_))) {
         let hint = Span::styled("  ↵ keep  Esc undo", state.theme.dim());
         return Line::from(vec![Span::raw(format!("/{}▏", state.filter())), hint]);
-    }
-    if let Some(notice) = &state.told.notice {
-        let (mark, style) = if notice.is_error { ("✗ ", state.theme.bad()) } else { ("", Style::new()) };
-        let line = notice.text.lines().collect::<Vec<_>>().join("; ");
-        return Line::styled(text::shortened(&format!(" {mark}{line}"), usize::from(width)), style);
     }
     if let Some(hints) = screens::page(state.nav.screen).hints(state) {
         return hint_line(hints, state.theme);

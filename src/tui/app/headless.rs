@@ -48,7 +48,7 @@ impl Headless {
     pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
         let workspace = Workspace::open(database, true)?;
         let abilities = Abilities { run: false, pictures: false };
-        let state = State::new(Theme { colours: Colours::Indexed, ascii: false }, abilities, Size::new(width, height));
+        let state = State::new(Theme::new(Colours::Indexed, false), abilities, Size::new(width, height));
         let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
         let sent = Rc::new(Cell::new(0));
         let line = FramedBackend::new(Counter(sent.clone()), Some(Size::new(width, height)));

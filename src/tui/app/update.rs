@@ -11,7 +11,9 @@ use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::messages::taught;
+use crate::overlays::Overlay;
 use crate::overlays::outcome::Outcome;
+use crate::overlays::path_prompt::PathPrompt;
 use crate::screens;
 use crate::screens::state::State;
 
@@ -103,12 +105,20 @@ impl State {
                 self.look_at(thing);
                 vec![]
             }
+            Outcome::Jump(goal) => {
+                self.jump(goal);
+                vec![]
+            }
             Outcome::Tour(step) => {
                 self.tour(step);
                 vec![]
             }
             Outcome::Query(text) => {
                 self.take_query(&text);
+                vec![]
+            }
+            Outcome::Rename(name) => {
+                self.overlay = Some(Overlay::Path(PathPrompt::rename_query(name)));
                 vec![]
             }
             Outcome::Sent(effects) => {

@@ -158,6 +158,10 @@ pub enum Action {
     Stop,
     /// Lists the keys.
     Help,
+    /// Tells what the selected row and the columns of the screen are.
+    Explain,
+    /// Puts letters on what is to be seen; typing one goes there.
+    Jump,
     /// Lists the actions.
     Palette,
     /// Opens the query, seams or study in an editor.

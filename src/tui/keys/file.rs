@@ -3,16 +3,19 @@
 //! ```toml
 //! cancel = "D"
 //! down = ["j", "Down", "C-e"]
+//! editing = "vim"
 //! ```
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crossterm::event::KeyCode;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
+use crate::config::{self, ConfigError, Entry, Problems};
 use crate::keys::binding::{Binding, Key};
 use crate::keys::screen::Screen;
 use crate::keys::table::BINDINGS;
+use crate::widgets::editor::Editing;
 
 /// Names of keys that are no single character.
 const NAMES: [(&str, KeyCode); 15] = [
@@ -33,66 +36,74 @@ const NAMES: [(&str, KeyCode); 15] = [
     ("Delete", KeyCode::Delete),
 ];
 
+/// Its name in the config folder.
+pub const FILE: &str = "keys.toml";
+
+/// The line that says whose keys edit.
+const EDITING: &str = "editing";
+
 /// Letters that terminals, tmux and screen use with Ctrl.
 const TAKEN: &str = "absqhijm";
 
-/// Everything that is wrong with a file of keys.
-#[derive(Debug, thiserror::Error)]
-#[error("{}", .0.join("\n"))]
-pub struct KeysError(Vec<String>);
-
-/// Where the file of keys is looked for: `toile/keys.toml` in the config folder.
-#[must_use]
-pub fn path(env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
-    let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
-    Some(folder.join("toile").join("keys.toml"))
+/// The keys of actions, and whose keys edit a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keys {
+    /// The table of keys.
+    pub bindings: &'static [Binding],
+    /// Whose keys edit.
+    pub editing: Editing,
 }
 
-/// The table of keys with those of a file over it; the table itself where there is no such file.
+impl Default for Keys {
+    fn default() -> Self {
+        Self { bindings: BINDINGS, editing: Editing::default() }
+    }
+}
+
+/// The keys of a file, those of the table where it has no others. They live as long as the program does.
 ///
 /// # Errors
 /// Everything that is wrong with the file, each with its line.
-pub fn read(path: Option<&Path>) -> Result<&'static [Binding], KeysError> {
-    let Some(path) = path.filter(|path| path.exists()) else { return Ok(BINDINGS) };
-    let text =
-        std::fs::read_to_string(path).map_err(|error| KeysError(vec![format!("{}: {error}", path.display())]))?;
-    parse(&path.display().to_string(), &text)
+pub fn read(path: Option<&Path>) -> Result<Keys, ConfigError> {
+    config::read(path, taken)
 }
 
-/// The table of keys with those of a text over it. It lives as long as the program does.
-fn parse(name: &str, text: &str) -> Result<&'static [Binding], KeysError> {
-    let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
-    let mut problems = Vec::new();
-    let (document, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
-        problems.push((line(error.span().unwrap_or_default().start), error.message().to_owned()));
-    }
+/// The keys of some lines, over those of the table.
+fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
+    let mut editing = Editing::default();
     let mut bindings = BINDINGS.to_vec();
     let mut changed = Vec::new();
-    for (action, value) in document.get_ref() {
-        let at = line(action.span().start);
-        let Some(k) = bindings.iter().position(|binding| binding.name == action.get_ref().as_ref()) else {
-            problems.push((at, format!("no action `{}`; ? and : list all by name", action.get_ref())));
+    for entry in entries {
+        if entry.name == EDITING {
+            editing = problems.or_tell(entry, editing_of(entry.value)).unwrap_or_default();
+            continue;
+        }
+        let Some(k) = bindings.iter().position(|binding| binding.name == entry.name) else {
+            problems.tell(entry.line, format!("no action `{}`; ? and : list all by name", entry.name));
             continue;
         };
-        match keys(value.get_ref()) {
-            Ok(keys) => {
-                bindings[k].keys = keys.leak();
-                changed.push((k, at));
-            }
-            Err(problem) => problems.push((at, format!("{}: {problem}", action.get_ref()))),
+        if let Some(keys) = problems.or_tell(entry, keys(entry.value)) {
+            bindings[k].keys = keys.leak();
+            changed.push((k, entry.line));
         }
     }
-    for (k, at) in changed {
-        problems.extend(clash(&bindings, k).map(|problem| (at, problem)));
+    for (k, line) in changed {
+        if let Some(problem) = clash(&bindings, k) {
+            problems.tell(line, problem);
+        }
     }
-    if problems.is_empty() {
-        return Ok(bindings.leak());
+    Keys { bindings: bindings.leak(), editing }
+}
+
+/// Whose keys edit.
+fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
+    const ACCEPTED: &str = "accepted: \"readline\", \"vim\"";
+    match value.as_str() {
+        Some("readline") => Ok(Editing::Readline),
+        Some("vim") => Ok(Editing::Vim),
+        Some(other) => Err(format!("`{other}`; {ACCEPTED}")),
+        None => Err(format!("{}; {ACCEPTED}", value.type_str())),
     }
-    problems.sort();
-    problems.dedup();
-    Err(KeysError(problems.into_iter().map(|(line, problem)| format!("{name}:{line}: {problem}")).collect()))
 }
 
 /// The other action that a key of a binding means on one of its screens, in words.
@@ -151,14 +162,20 @@ mod tests {
     use crate::keys::action::Action;
     use crate::keys::binding::action_of;
 
+    fn parse(text: &str) -> Result<Keys, ConfigError> {
+        config::parse("keys.toml", text, taken)
+    }
+
     fn told(text: &str) -> String {
-        parse("keys.toml", text).expect_err("wrong").to_string()
+        parse(text).expect_err("wrong").to_string()
     }
 
     #[test]
     fn actions_get_other_keys_and_the_rest_stays() {
         let text = "# mine\ncancel = \"D\"\ndown = [\"Down\", \"C-e\", \"A-x\", \"F7\"]\nnext-match = \"j\"\n";
-        let bindings = parse("keys.toml", text).expect("right");
+        let Keys { bindings, editing } = parse(text).expect("right");
+        assert_eq!(editing, Editing::Readline);
+        assert_eq!(parse("editing = \"vim\"").expect("right").editing, Editing::Vim);
         let check = |name: &str, expect: Option<Action>| {
             assert_eq!(action_of(bindings, key(name).expect("a key"), Screen::Jobs), expect, "{name}");
         };
@@ -185,6 +202,8 @@ mod tests {
         check("cancel = []", "no key; accepted");
         check("cancel = \"r\"", "keys.toml:1: cancel: key `r` already means retry; give that one another key too");
         check("cancel = ", "keys.toml:1: ");
+        check("editing = \"vi\"", "keys.toml:1: editing: `vi`; accepted: \"readline\", \"vim\"");
+        check("editing = true", "keys.toml:1: editing: boolean; accepted: \"readline\"");
         assert_eq!(told("a = \"x\"\nb = \"y\"").lines().count(), 2, "all are told at once");
     }
 
@@ -192,8 +211,8 @@ mod tests {
     fn no_file_means_the_keys_of_the_table() {
         let folder = tempfile::tempdir().expect("a folder");
         let env = |name: &str| (name == "XDG_CONFIG_HOME").then(|| folder.path().display().to_string());
-        let path = path(&env).expect("a place");
-        assert_eq!(read(Some(&path)).expect("none"), BINDINGS);
+        let path = config::path(&env, FILE).expect("a place");
+        assert_eq!(read(Some(&path)).expect("none"), Keys::default());
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
         std::fs::write(&path, "cancel = \"D\"").expect("writable");
         assert!(read(Some(&path)).is_ok());

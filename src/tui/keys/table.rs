@@ -296,6 +296,8 @@ pub const BINDINGS: &[Binding] = &[
         "help",
         "List the keys; type to filter by name or key",
     ),
+    bind(Action::Explain, "explain", &[ch('K')], &[], "", "What the selected row and the columns here are"),
+    bind(Action::Jump, "jump", &[ch('\'')], &[], "", "Letters on rows, panes and edges: type one to go"),
     bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
     bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
     bind(Action::Down, "down", &[ch('j'), key(KeyCode::Down)], &[], "", "Select what is below"),

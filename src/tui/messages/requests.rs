@@ -58,6 +58,8 @@ pub enum QueryRequest {
     Rows(String),
     /// A query under a name, for good.
     Save(String, String),
+    /// Another name of a saved query: the one it has, and the one it gets.
+    Rename(String, String),
     /// The rows of a query in a file.
     Export(String, PathBuf),
 }

@@ -18,6 +18,7 @@ pub fn command(effect: &Effect) -> Option<String> {
         Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", quoted(study))),
         Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
         Effect::Query(QueryRequest::Save(_, name)) => Some(format!("# saved the query {name}")),
+        Effect::Query(QueryRequest::Rename(from, to)) => Some(format!("# renamed the query {from} to {to}")),
         Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", quoted(sql))),
         _ => None,
     }
@@ -29,7 +30,7 @@ pub fn is_awaited(effect: &Effect) -> bool {
     match effect {
         Effect::Do(command) => command.is_from_form(),
         Effect::Files(task) => matches!(task, FileTask::CreateStudy(_) | FileTask::Write(..)),
-        Effect::Query(request) => matches!(request, QueryRequest::Save(..) | QueryRequest::Export(..)),
+        Effect::Query(request) => !matches!(request, QueryRequest::Names | QueryRequest::Rows(_)),
         _ => false,
     }
 }

@@ -1,6 +1,6 @@
 //! The list of actions that what is typed narrows: help and palette.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::KeyEvent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
@@ -13,7 +13,7 @@ use crate::widgets::layout::middle;
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, left};
 use crate::widgets::theme::Theme;
-use crate::widgets::typing::edit;
+use crate::widgets::typing::in_list;
 
 /// A row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,11 +24,27 @@ pub enum Row<'a> {
     Thing(&'a Thing),
 }
 
+/// Most lines of the list: a letter typed changes all of them, and a frame is to stay small.
+const MOST: u16 = 40;
+
+/// Where an action can be done, in the order of the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Reach {
+    /// On the screen in hand, and not everywhere.
+    Here,
+    /// Everywhere.
+    Everywhere,
+    /// On other screens.
+    Elsewhere,
+}
+
 /// A list that what is typed narrows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
     /// The actions.
     pub bindings: &'static [Binding],
+    /// The screen in hand.
+    pub screen: Screen,
     /// What can be gone to.
     pub things: Vec<Thing>,
     /// What is typed.
@@ -38,10 +54,10 @@ pub struct List {
 }
 
 impl List {
-    /// All of a table of keys.
+    /// All of a table of keys, for a screen.
     #[must_use]
-    pub fn of(bindings: &'static [Binding]) -> Self {
-        Self { bindings, things: vec![], text: String::new(), row: 0 }
+    pub fn of(bindings: &'static [Binding], screen: Screen) -> Self {
+        Self { bindings, screen, things: vec![], text: String::new(), row: 0 }
     }
 
     /// The same with what can be gone to.
@@ -50,13 +66,15 @@ impl List {
         Self { things, ..self }
     }
 
-    /// Its rows: the keys in the order of the table where nothing is typed; otherwise actions whose names begin with it, what has such a
-    /// name, and actions that have it anywhere.
+    /// Its rows: where nothing is typed the keys in the order of the table, those of the screen first, then those that work everywhere, then
+    /// those of other screens; otherwise actions whose names begin with it, what has such a name, and actions that have it anywhere.
     #[must_use]
     pub fn rows(&self) -> Vec<Row<'_>> {
         let text = self.text.trim();
         if text.is_empty() {
-            return self.bindings.iter().map(Row::Action).collect();
+            let mut rows: Vec<&Binding> = self.bindings.iter().collect();
+            rows.sort_by_key(|binding| self.reach(binding));
+            return rows.into_iter().map(Row::Action).collect();
         }
         let begins = |binding: &&Binding| binding.name.starts_with(&text.to_lowercase());
         let (named, others): (Vec<_>, Vec<_>) = search(self.bindings, text).into_iter().partition(begins);
@@ -67,38 +85,59 @@ impl List {
         named.into_iter().map(Row::Action).chain(things).chain(others.into_iter().map(Row::Action)).collect()
     }
 
+    /// Where an action can be done.
+    fn reach(&self, binding: &Binding) -> Reach {
+        match binding.is_on(self.screen) {
+            true if binding.screens.is_empty() => Reach::Everywhere,
+            true => Reach::Here,
+            false => Reach::Elsewhere,
+        }
+    }
+
+    /// The heading above a row: of the first of each group, where nothing is typed.
+    fn heading(&self, rows: &[Row<'_>], k: usize) -> Option<String> {
+        let reach = |row: &Row<'_>| match row {
+            Row::Action(binding) => Some(self.reach(binding)),
+            Row::Thing(_) => None,
+        };
+        let own = reach(&rows[k]).filter(|_| self.text.trim().is_empty())?;
+        let is_first = k == 0 || reach(&rows[k - 1]) != Some(own);
+        is_first.then(|| match own {
+            Reach::Here => format!("on this screen, {}", self.screen.names()[0]),
+            Reach::Everywhere => "everywhere".to_owned(),
+            Reach::Elsewhere => "on other screens".to_owned(),
+        })
+    }
+
     /// Edits what is typed, or goes through the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
-        match event.code {
-            KeyCode::Up => self.row = self.row.saturating_sub(1),
-            KeyCode::Down => self.row += 1,
-            KeyCode::PageUp => self.row = self.row.saturating_sub(10),
-            KeyCode::PageDown => self.row += 10,
-            _ => {
-                if edit(&mut self.text, event) {
-                    self.row = 0;
-                }
-            }
-        }
+        in_list(&mut self.text, &mut self.row, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
     }
 }
 
 /// Draws it over a screen.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme, screen: Screen) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme) {
     let rows = list.rows();
-    let height = (rows.len() as u16 + 2).max(3).min(area.height);
+    // A line a row, or a heading of which there is no row.
+    let all: Vec<(Option<usize>, String)> = (0..rows.len())
+        .flat_map(|k| list.heading(&rows, k).map(|text| (None, text)).into_iter().chain([(Some(k), String::new())]))
+        .collect();
+    let height = (all.len() as u16 + 2).clamp(3, MOST).min(area.height);
     let place = middle(area, area.width.min(100), height);
     let place_of_keys = " other keys: toile/keys.toml in the config folder, like cancel = \"D\" ";
     let block = pane(theme, title, true).title_bottom(Line::styled(place_of_keys, theme.legend()));
     let inner = block.inner(place);
-    let first = first_shown(list.row, rows.len(), usize::from(inner.height));
-    let line = |(k, row): (usize, &Row<'_>)| {
-        let line = line(list, theme, screen, *row, usize::from(inner.width));
-        if k == list.row { line.patch_style(theme.selected()) } else { line }
+    let at = all.iter().position(|(row, _)| *row == Some(list.row)).unwrap_or(0);
+    let first = first_shown(at, all.len(), usize::from(inner.height));
+    let line = |(row, heading): &(Option<usize>, String)| match row {
+        None => Line::styled(heading.clone(), theme.busy().patch(theme.bold())),
+        Some(k) => {
+            let line = line(list, theme, rows[*k], usize::from(inner.width));
+            if *k == list.row { line.patch_style(theme.selected()) } else { line }
+        }
     };
-    let mut lines: Vec<Line<'_>> =
-        rows.iter().enumerate().skip(first).take(usize::from(inner.height)).map(line).collect();
+    let mut lines: Vec<Line<'_>> = all.iter().skip(first).take(usize::from(inner.height)).map(line).collect();
     if lines.is_empty() {
         lines.push(Line::raw("nothing of that name or key"));
     }
@@ -107,7 +146,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: 
 }
 
 /// Keys, name and help of an action, dim where it does nothing on this screen; or what something is, and its name.
-fn line(list: &List, theme: Theme, screen: Screen, row: Row<'_>, columns: usize) -> Line<'static> {
+fn line(list: &List, theme: Theme, row: Row<'_>, columns: usize) -> Line<'static> {
     let longest = |field: fn(&Binding) -> usize| list.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| text::width(&b.keys_text())) + 1;
     let name = longest(|b| b.name.len()) + 1;
@@ -125,5 +164,5 @@ fn line(list: &List, theme: Theme, screen: Screen, row: Row<'_>, columns: usize)
         Span::raw(left(binding.name, name)),
         Span::raw(help),
     ]);
-    if binding.is_on(screen) { line } else { line.patch_style(theme.dim()) }
+    if binding.is_on(list.screen) { line } else { line.patch_style(theme.dim()) }
 }

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::form_frame::{draw_frame, end, ended, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, shortened};
@@ -206,8 +206,8 @@ impl Form {
             return Outcome::Open;
         }
         match event.code {
-            KeyCode::Enter => return self.save(),
-            KeyCode::Tab | KeyCode::Down => self.step(1),
+            _ if is_done(event, self.at + 1 == self.texts.len()) => return self.save(),
+            KeyCode::Enter | KeyCode::Tab | KeyCode::Down => self.step(1),
             KeyCode::BackTab | KeyCode::Up => self.step(self.texts.len() - 1),
             KeyCode::Left | KeyCode::Right | KeyCode::Char(' ') if self.at == WORD && self.part == Part::Subject => {
                 let other = if self.sex() == Some(Sex::Female) { "male" } else { "female" };
@@ -280,8 +280,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let mut lines: Vec<Line<'_>> = shown.map(|k| line(form, k, columns, theme)).collect();
     lines.extend(end);
     let keys = match form.part {
-        Part::Fabric => " Tab ↑↓ line  C-u empties it  ↵ save  Esc cancel ",
-        _ => " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ",
+        Part::Fabric => " ↵ Tab ↑↓ line  C-u empties it  F5 save  Esc cancel ",
+        _ => " ↵ Tab ↑↓ line  F5 save  Esc cancel  empty = not known ",
     };
     draw_frame(frame, area, width, title, keys, lines, theme);
 }

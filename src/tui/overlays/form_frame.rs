@@ -1,5 +1,6 @@
 //! The frame that all forms have.
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
@@ -9,6 +10,15 @@ use crate::widgets::layout::middle;
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
+
+/// Whether a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
+pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
+    match event.code {
+        KeyCode::F(5) => true,
+        KeyCode::Enter => is_last || event.modifiers.contains(KeyModifiers::ALT),
+        _ => false,
+    }
+}
 
 /// Draws a form: its title, its lines, and what the keys do.
 pub fn draw_frame(

@@ -3,7 +3,9 @@
 pub mod action_list;
 pub mod commands;
 pub mod entry_form;
+pub mod explanation;
 mod form_frame;
+pub mod jump;
 pub mod outcome;
 pub mod path_prompt;
 pub mod saved_queries;
@@ -18,11 +20,12 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph, Wrap};
 
-use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::overlays::action_list::{List, Row};
 use crate::overlays::commands::CommandLog;
 use crate::overlays::entry_form::Form;
+use crate::overlays::explanation::Explanation;
+use crate::overlays::jump::Jump;
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
@@ -41,6 +44,10 @@ pub enum Overlay {
     Help(List),
     /// The list of actions.
     Palette(List),
+    /// What the numbers of the screen are.
+    Explanation(Explanation),
+    /// Letters on what is to be seen.
+    Jump(Jump),
     /// The filter line, with the filter to go back to.
     Filter(String),
     /// The values of a subject.
@@ -68,16 +75,18 @@ pub enum Overlay {
 
 impl Overlay {
     /// Draws it over a screen.
-    pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme, screen: Screen) {
+    pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme) {
         match self {
             Self::Help(list) => {
                 let title = format!("keys: /{}▏  type to filter, ↵ does it, Esc closes", list.text);
-                action_list::draw(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme);
             }
             Self::Palette(list) => {
                 let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
-                action_list::draw(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme);
             }
+            Self::Explanation(explanation) => explanation::draw(frame, area, explanation, theme),
+            Self::Jump(jump) => jump::draw(frame, area, jump, theme),
             Self::Form(form) => entry_form::draw(frame, area, form, theme),
             Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
             Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
@@ -104,14 +113,17 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
-            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
-                Outcome::Closed
+            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::Queries(_) if leaves => Outcome::Closed,
+            Self::Commands(_) | Self::Tour(_) | Self::Explanation(_) if leaves => Outcome::Closed,
+            Self::Jump(jump) => jump.key(event),
+            Self::Explanation(explanation) => {
+                explanation.key(event);
+                Outcome::Open
             }
-            Self::Commands(_) | Self::Tour(_) if leaves => Outcome::Closed,
             Self::Tour(tour) => tour.key(event),
             Self::Commands(log) => log.key(event),
             Self::StudyForm(form) => form.key(event),
-            Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),
+            Self::Queries(list) => list.key(event),
             Self::Form(form) => form.key(event),
             Self::Path(prompt) => prompt.key(event),
             Self::StyleForm(form) => form.key(event),
@@ -152,6 +164,7 @@ mod tests {
 
     use super::*;
     use crate::keys::action::Action;
+    use crate::keys::screen::Screen;
     use crate::keys::table::BINDINGS;
 
     fn press(code: KeyCode) -> KeyEvent {
@@ -166,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_palette_runs_what_is_typed() {
-        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS, Screen::Study)), String::new());
         typed(&mut palette, &mut filter, "canx");
         palette.key(&press(KeyCode::Backspace), &mut filter);
         assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(Action::Cancel));
@@ -177,10 +190,23 @@ mod tests {
     #[test]
     fn every_action_can_be_reached_from_the_palette() {
         for binding in BINDINGS {
-            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS, Screen::Study)), String::new());
             typed(&mut palette, &mut filter, binding.name);
             assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(binding.action));
         }
+    }
+
+    #[test]
+    fn keys_of_the_screen_come_first_and_those_of_other_screens_last() {
+        let check = |screen: Screen, first: Action, last: Action| {
+            let list = List::of(BINDINGS, screen);
+            let rows = list.rows();
+            assert_eq!(rows.len(), BINDINGS.len());
+            let action = |k: usize| if let Row::Action(binding) = rows[k] { Some(binding.action) } else { None };
+            assert_eq!((action(0), action(rows.len() - 1)), (Some(first), Some(last)), "{screen:?}");
+        };
+        check(Screen::Jobs, Action::Open, Action::Write);
+        check(Screen::Sql, Action::EditQuery, Action::Lower);
     }
 
     #[test]

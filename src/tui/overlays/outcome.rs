@@ -3,6 +3,7 @@
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::overlays::things::Thing;
+use crate::widgets::jump::Goal;
 
 /// What a key did to an overlay.
 #[derive(Debug, PartialEq)]
@@ -17,8 +18,12 @@ pub enum Outcome {
     Thing(Thing),
     /// A step of the tour follows.
     Tour(usize),
+    /// It closes and what is to be seen somewhere is gone to.
+    Jump(Goal),
     /// It closes and a query goes into the editor.
     Query(String),
+    /// It closes and another name of a saved query is asked for.
+    Rename(String),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
     /// It stays open until what it asked for is done.

@@ -26,6 +26,8 @@ pub enum Purpose {
     Write(Vec<(String, Vec<u8>)>),
     /// The name under which a query is saved.
     SaveQuery(String),
+    /// Another name of a saved query.
+    RenameQuery(String),
 }
 
 impl Purpose {
@@ -38,6 +40,7 @@ impl Purpose {
             Self::Export(_) => "write all rows of the query into",
             Self::Write(_) => "write the changed pattern, its seam file and a sheet into",
             Self::SaveQuery(_) => "save the query as",
+            Self::RenameQuery(_) => "rename the saved query to",
         }
     }
 
@@ -52,6 +55,7 @@ impl Purpose {
             Self::SaveQuery(_) => {
                 "a name: NAME.sql in the folder queries beside the database; one of that name is replaced"
             }
+            Self::RenameQuery(_) => "a name that no saved query has",
         }
     }
 
@@ -61,7 +65,7 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "reading…",
             Self::Import(_) => "reading, and building each body…",
-            Self::Export(_) | Self::Write(_) | Self::SaveQuery(_) => "writing…",
+            Self::Export(_) | Self::Write(_) | Self::SaveQuery(_) | Self::RenameQuery(_) => "writing…",
         }
     }
 
@@ -72,6 +76,7 @@ impl Purpose {
             Self::Import(_) => " ↵ import all or none  Tab complete  Esc cancel ",
             Self::Export(_) | Self::Write(_) => " ↵ write  Tab complete  Esc cancel ",
             Self::SaveQuery(_) => " ↵ save  Esc cancel ",
+            Self::RenameQuery(_) => " ↵ rename  Esc cancel ",
         }
     }
 }
@@ -114,12 +119,23 @@ impl PathPrompt {
         Self { purpose: Purpose::SaveQuery(query), text: name, is_busy: false, problem: None }
     }
 
+    /// Asks for another name of a saved query.
+    #[must_use]
+    pub fn rename_query(name: String) -> Self {
+        Self { purpose: Purpose::RenameQuery(name.clone()), text: name, is_busy: false, problem: None }
+    }
+
+    /// Whether a name is asked for, not a path.
+    fn is_name(&self) -> bool {
+        matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_))
+    }
+
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.is_busy {
             return Outcome::Open;
         }
-        if event.code == KeyCode::Tab && !matches!(self.purpose, Purpose::SaveQuery(_)) {
+        if event.code == KeyCode::Tab && !self.is_name() {
             self.text = completed(&self.text).unwrap_or_else(|| self.text.clone());
             return Outcome::Open;
         }
@@ -137,6 +153,9 @@ impl PathPrompt {
             Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
             Purpose::Export(query) => Effect::Query(QueryRequest::Export(query.clone(), path)),
             Purpose::SaveQuery(query) => Effect::Query(QueryRequest::Save(query.clone(), self.text.trim().to_owned())),
+            Purpose::RenameQuery(name) => {
+                Effect::Query(QueryRequest::Rename(name.clone(), self.text.trim().to_owned()))
+            }
             Purpose::Write(files) => Effect::Files(FileTask::Write(path, files.clone())),
         }])
     }
@@ -175,7 +194,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
     let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
     lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
     if lines.len() == 1 {
-        lines.push(Line::styled(format!(" {}; ~/ is home", prompt.purpose.hint()), theme.dim()));
+        let home = if prompt.is_name() { "" } else { "; ~/ is home" };
+        lines.push(Line::styled(format!(" {}{home}", prompt.purpose.hint()), theme.dim()));
     }
     draw_frame(frame, area, width, prompt.purpose.title().to_owned(), prompt.purpose.keys(), lines, theme);
 }

@@ -1,17 +1,18 @@
 //! The list of saved queries.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Clear, Paragraph};
 
+use crate::overlays::outcome::Outcome;
 use crate::widgets::layout::middle;
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{left, shortened};
 use crate::widgets::theme::Theme;
-use crate::widgets::typing::edit;
+use crate::widgets::typing::in_list;
 use study::SavedQuery;
 
 /// A list of queries that what is typed narrows.
@@ -36,20 +37,17 @@ impl QueryList {
             .collect()
     }
 
-    /// Handles a key; returns the query that was chosen.
-    pub fn key(&mut self, event: &KeyEvent) -> Option<String> {
-        match event.code {
-            KeyCode::Enter => return self.rows().get(self.row).map(|query| query.sql.clone()),
-            KeyCode::Up => self.row = self.row.saturating_sub(1),
-            KeyCode::Down => self.row += 1,
-            _ => {
-                if edit(&mut self.text, event) {
-                    self.row = 0;
-                }
-            }
+    /// Handles a key: Enter takes the selected query, Ctrl-R asks for another name of it.
+    pub fn key(&mut self, event: &KeyEvent) -> Outcome {
+        let selected = self.rows().get(self.row).copied();
+        let is_rename = event.code == KeyCode::Char('r') && event.modifiers.contains(KeyModifiers::CONTROL);
+        match selected {
+            Some(query) if event.code == KeyCode::Enter => return Outcome::Query(query.sql.clone()),
+            Some(query) if is_rename => return Outcome::Rename(query.name.clone()),
+            _ => in_list(&mut self.text, &mut self.row, event),
         }
         self.row = self.row.min(self.rows().len().saturating_sub(1));
-        None
+        Outcome::Open
     }
 }
 
@@ -57,7 +55,7 @@ impl QueryList {
 pub fn draw(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
     let rows = list.rows();
     let place = middle(area, area.width.min(100), (rows.len() as u16 + 2).max(3).min(area.height));
-    let title = format!("saved queries: /{}▏  ↵ takes it, Esc closes", list.text);
+    let title = format!("saved queries: /{}▏  ↵ takes it, C-r renames, Esc closes", list.text);
     let legend = Line::styled(" .sql files of the folder queries beside the database ", theme.legend());
     let block = pane(theme, title, true).title_bottom(legend);
     let inner = block.inner(place);

@@ -9,12 +9,12 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::FileTask;
-use crate::overlays::form_frame::{draw_frame, end};
+use crate::overlays::form_frame::{draw_frame, end, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
-use crate::widgets::typing::edit;
+use crate::widgets::typing::{edit, is_ctrl_c};
 use study::{NewStudy, PatternSource, Simulator, Wearable};
 
 /// Lines of a page.
@@ -52,6 +52,17 @@ impl FormLine {
     }
 }
 
+/// What the lines of a part must contain to be shown.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Filter {
+    /// The part.
+    section: &'static str,
+    /// What its lines contain, in small letters.
+    text: String,
+    /// Whether it is being typed.
+    is_typed: bool,
+}
+
 /// A new study as it is filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyForm {
@@ -69,6 +80,8 @@ pub struct StudyForm {
     pub sizes: Vec<(Wearable, bool)>,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
+    /// What the sizes or subjects shown contain.
+    pub filter: Filter,
     /// Line selected.
     pub at: usize,
     /// Whether it is being written.
@@ -78,7 +91,7 @@ pub struct StudyForm {
 }
 
 impl StudyForm {
-    /// Its lines, in order.
+    /// Its lines, in order, without those that the filter hides.
     #[must_use]
     pub fn lines(&self) -> Vec<FormLine> {
         let mut lines = vec![FormLine::Name];
@@ -86,7 +99,18 @@ impl StudyForm {
         lines.extend((0..self.subjects.len()).map(FormLine::Subject));
         lines.extend((0..self.simulators.len()).map(FormLine::Simulator));
         lines.push(FormLine::Fabric);
+        lines.retain(|line| self.passes(*line));
         lines
+    }
+
+    /// Whether a line passes the filter of its part.
+    fn passes(&self, line: FormLine) -> bool {
+        let words = match line {
+            FormLine::Size(k) => format!("{} {}", self.sizes[k].0.style, self.sizes[k].0.size),
+            FormLine::Subject(k) => self.subjects[k].0.clone(),
+            _ => return true,
+        };
+        line.section() != self.filter.section || words.to_lowercase().contains(&self.filter.text)
     }
 
     /// The line selected.
@@ -126,26 +150,36 @@ impl StudyForm {
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if is_ctrl_c(event) || event.code == KeyCode::Esc && !self.leave() {
+            return Outcome::Closed;
+        }
+        if self.is_busy || event.code == KeyCode::Esc {
+            return Outcome::Open;
+        }
+        self.problem = None;
+        if self.filter.is_typed {
+            self.narrow(event);
             return Outcome::Open;
         }
         let (line, last) = (self.line(), self.lines().len() - 1);
-        if event.code != KeyCode::Enter {
-            self.problem = None;
-        }
         match event.code {
-            KeyCode::Enter => return self.save(),
+            _ if is_done(event, line == FormLine::Fabric) => return self.save(),
+            KeyCode::Enter | KeyCode::Tab => self.go_to_section(1),
+            KeyCode::BackTab => self.go_to_section(-1),
             KeyCode::Down => self.at = (self.at + 1).min(last),
             KeyCode::Up => self.at = self.at.saturating_sub(1),
             KeyCode::PageDown => self.at = (self.at + PAGE).min(last),
             KeyCode::PageUp => self.at = self.at.saturating_sub(PAGE),
-            KeyCode::Tab => self.go_to_section(1),
-            KeyCode::BackTab => self.go_to_section(-1),
-            KeyCode::Left if line == FormLine::Fabric => self.next_fabric(-1),
-            KeyCode::Right | KeyCode::Char(' ') if line == FormLine::Fabric => self.next_fabric(1),
             _ if line == FormLine::Name => {
                 edit(&mut self.name, event);
             }
+            KeyCode::Char('j') => self.at = (self.at + 1).min(last),
+            KeyCode::Char('k') => self.at = self.at.saturating_sub(1),
+            KeyCode::Char('/') if matches!(line, FormLine::Size(_) | FormLine::Subject(_)) => {
+                self.filter = Filter { section: line.section(), text: String::new(), is_typed: true };
+            }
+            KeyCode::Left | KeyCode::Char('h') if line == FormLine::Fabric => self.next_fabric(-1),
+            KeyCode::Right | KeyCode::Char(' ' | 'l') if line == FormLine::Fabric => self.next_fabric(1),
             KeyCode::Char(' ' | 'x') => {
                 if let Some(is_chosen) = self.choice(line) {
                     self.choose(line, !is_chosen);
@@ -155,6 +189,51 @@ impl StudyForm {
             _ => {}
         }
         Outcome::Open
+    }
+
+    /// Leaves the filter or the part in hand; returns whether there was any to leave.
+    fn leave(&mut self) -> bool {
+        if self.is_busy {
+            return false;
+        }
+        let line = self.line();
+        if !self.filter.section.is_empty() {
+            let Filter { section, .. } = std::mem::take(&mut self.filter);
+            let is_meant =
+                |other: &FormLine| if line.section() == section { *other == line } else { other.section() == section };
+            self.at = self.lines().iter().position(is_meant).unwrap_or(0);
+            return true;
+        }
+        self.at = 0;
+        line != FormLine::Name
+    }
+
+    /// Types in the filter; the first line of its part that passes is selected.
+    fn narrow(&mut self, event: &KeyEvent) {
+        if event.code == KeyCode::Enter {
+            self.filter.is_typed = false;
+        } else if edit(&mut self.filter.text, event) {
+            self.filter.text = self.filter.text.to_lowercase();
+        }
+        let lines = self.lines();
+        if lines.get(self.at).is_none_or(|line| line.section() != self.filter.section) {
+            let first = lines.iter().position(|line| line.section() == self.filter.section);
+            self.at = first.unwrap_or(self.at.min(lines.len() - 1));
+        }
+    }
+
+    /// What the keys do on the selected line.
+    fn keys(&self) -> &'static str {
+        match self.line() {
+            _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
+            FormLine::Name => " ↵ next part  F5 make it  Esc cancel ",
+            FormLine::Fabric => " h l choose  ↵ make it  Esc back ",
+            FormLine::Simulator(_) => " j k  Space choose  a all  ↵ next part  F5 make it  Esc back ",
+            _ if !self.filter.section.is_empty() => {
+                " j k  Space choose  a all of these  ↵ next part  F5 make it  Esc all again "
+            }
+            _ => " j k  Space choose  a all  / filter  ↵ next part  F5 make it  Esc back ",
+        }
     }
 
     /// Goes to the first line of the next part or the one before.
@@ -191,6 +270,7 @@ impl StudyForm {
             (self.fabrics.is_empty(), "fabric", "the catalogue has no fabric: screen 9 imports some"),
         ];
         if let Some((_, section, problem)) = missing.into_iter().find(|(is_missing, ..)| *is_missing) {
+            self.filter = Filter::default();
             self.at = self.lines().iter().position(|line| line.section() == section).unwrap_or(0);
             self.problem = Some(problem.to_owned());
             return Outcome::Open;
@@ -229,6 +309,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
         Line::styled(shortened(&count, columns), theme.bold()),
         Line::styled(shortened(&folder, columns), theme.dim()),
     ];
+    if !form.filter.section.is_empty() {
+        let cursor = if form.filter.is_typed { "▏" } else { "" };
+        let shown = form.lines().iter().filter(|line| line.section() == form.filter.section).count();
+        let text = format!(" {}: {shown} that contain /{}{cursor}", form.filter.section, form.filter.text);
+        below.push(Line::styled(shortened(&text, columns), theme.warn()));
+    }
     below.extend(end(form.is_busy.then_some("writing and checking…"), form.problem.as_deref(), columns, theme));
     let lines = form.lines();
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(below.len());
@@ -236,8 +322,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     let mut shown: Vec<Line<'_>> =
         (first..lines.len()).take(room).map(|k| line(form, k, k == first, columns, theme)).collect();
     shown.extend(below);
-    let keys = " Space choose  a all  Tab next part  ↵ make it  Esc cancel ";
-    draw_frame(frame, area, width, "new study".to_owned(), keys, shown, theme);
+    draw_frame(frame, area, width, "new study".to_owned(), form.keys(), shown, theme);
 }
 
 /// A line: the part where one begins, and the choice.

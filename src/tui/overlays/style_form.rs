@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::form_frame::{draw_frame, end, ended, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::{completed, path_of};
 use crate::widgets::text::{self, left, shortened};
@@ -81,9 +81,9 @@ impl StyleForm {
         }
         let lines = self.texts.len();
         match event.code {
-            KeyCode::Enter => return self.save(),
+            _ if is_done(event, self.at + 1 == lines) => return self.save(),
             KeyCode::Tab if self.complete() => {}
-            KeyCode::Tab | KeyCode::Down => self.at = (self.at + 1) % lines,
+            KeyCode::Enter | KeyCode::Tab | KeyCode::Down => self.at = (self.at + 1) % lines,
             KeyCode::BackTab | KeyCode::Up => self.at = (self.at + lines - 1) % lines,
             _ => {
                 edit(&mut self.texts[self.at], event);
@@ -155,6 +155,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
     let busy = form.is_busy.then_some("reading, and sewing each size…");
     lines.extend(end(busy, form.problem.as_deref(), columns, theme));
-    let keys = " Tab completes, next line  ↵ import all or none  Esc cancel  ~/ is home ";
+    let keys = " Tab completes  ↵ next line  F5 import all or none  Esc cancel  ~/ is home ";
     draw_frame(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);
 }

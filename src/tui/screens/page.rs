@@ -6,8 +6,10 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 
 /// What a screen does with the state, and how it shows it.
@@ -29,6 +31,24 @@ pub trait Page {
 
     /// The text that stands for what is selected, tab-separated, and what it is.
     fn copied(&self, state: &State) -> Option<(String, &'static str)>;
+
+    /// What is to be seen that can be gone to: rows, panes and what the screen counts itself.
+    fn targets(&self, _state: &State, _area: Rect) -> Vec<Target> {
+        vec![]
+    }
+
+    /// Gives a pane the focus.
+    fn focus(&self, state: &mut State, pane: usize) {
+        state.nav.second_pane[state.nav.screen as usize] = pane == 1;
+    }
+
+    /// Goes to something that the screen counts itself.
+    fn go_to_item(&self, _state: &mut State, _item: usize) {}
+
+    /// What is selected, and the names of its numbers and of the columns here, as the glossary has them.
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::default()
+    }
 
     /// Moves left or right.
     fn sideways(&self, _state: &mut State, _step: isize) {}

@@ -30,15 +30,15 @@ fn fabrics_are_chosen_sorted_and_filtered() {
 #[test]
 fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     let mut bench = Bench::example(80, 24);
-    bench.press("9a<Enter>");
+    bench.press("9a<F5>");
     assert!(bench.screen().contains("new fabric, like cotton_shirting_light"), "{}", bench.screen());
     assert!(bench.screen().contains("a fabric needs a name") && bench.asked().is_empty());
     // A mass per area in grams is out of range; three times what is known is only doubtful.
-    bench.press("poplin<Tab><Tab><C-u>120<Enter>");
+    bench.press("poplin<Tab><Tab><C-u>120<F5>");
     assert!(bench.screen().contains("`density_kg_m2` is 120; accepted: 0.005 to 5"), "{}", bench.screen());
     bench.press("<C-u>1.2");
     assert!(bench.screen().contains("! known 0.1 to 0.1"), "{}", bench.screen());
-    bench.press("<C-u>0.12<Enter>");
+    bench.press("<C-u>0.12<F5>");
     let asked = bench.asked();
     let [Effect::Do(Command::Save(Part::Fabric, Mode::Add, name, given))] = &asked[..] else { panic!("{asked:?}") };
     let value = |key: &str| given.iter().find(|(name, _)| name == key).map(|(_, text)| text.as_str());
@@ -49,7 +49,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     );
     bench.send(Message::Saved(Err("fabric poplin: `stretch_pct` is missing".into())));
     assert!(bench.screen().contains("✗ fabric poplin: `stretch_pct` is missing"), "{}", bench.screen());
-    bench.press("<Enter>").asked();
+    bench.press("<F5>").asked();
     bench.send(Message::Saved(Ok("fabric poplin is added".into())));
     assert!(bench.state.overlay.is_none() && bench.state.fabrics.chosen.as_deref() == Some("poplin"));
 }
@@ -57,7 +57,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
 #[test]
 fn fabrics_are_edited_imported_and_removed() {
     let mut bench = Bench::example(80, 24);
-    bench.press("9G<Enter><S-Tab><C-u>a test of ours<Enter>");
+    bench.press("9G<Enter><S-Tab><C-u>a test of ours<F5>");
     let asked = bench.asked();
     let [Effect::Do(Command::Save(Part::Fabric, Mode::Edit, name, given))] = &asked[..] else { panic!("{asked:?}") };
     assert_eq!((name.as_str(), given[0].1.as_str()), ("stiff", "a test of ours"));

@@ -31,7 +31,7 @@ fn subjects() {
 
 #[test]
 fn the_form_of_a_subject() {
-    looks_like!("subject_form", "2a<Enter>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
+    looks_like!("subject_form", "2a<F5>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn seams() {
 
 #[test]
 fn the_form_of_a_style() {
-    looks_like!("style_form", "3i~/patterns/titan.dxf<Tab><Tab><Tab>mile<Enter>");
+    looks_like!("style_form", "3i~/patterns/titan.dxf<Tab><Tab><Tab>mile<F5>");
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn fabrics() {
 
 #[test]
 fn the_form_of_a_fabric() {
-    looks_like!("fabric_form", "9ja<Enter>poplin<Tab><Tab><C-u>1.2");
+    looks_like!("fabric_form", "9ja<F5>poplin<Tab><Tab><C-u>1.2");
 }
 
 #[test]
@@ -86,6 +86,31 @@ fn maps_say_what_their_colours_mean() {
 #[test]
 fn help() {
     looks_like!("help", "?job");
+    looks_like!("help_of_a_screen", "4?");
+}
+
+#[test]
+fn jumps() {
+    looks_like!("jumps", "3'");
+}
+
+#[test]
+fn a_terminal_of_60_by_15_shows_the_pieces_where_they_have_the_focus() {
+    assert_snapshot!("pieces_60x15", Bench::example(60, 15).press("3<Tab>").screen());
+}
+
+#[test]
+fn messages_longer_than_the_line_are_wrapped() {
+    let mut bench = Bench::example(60, 15);
+    bench.send(Message::Failed(format!("{}the end", "a word ".repeat(14))));
+    let screen = bench.screen();
+    assert!(screen.contains("✗ a word") && bench.status().ends_with("the end"), "{screen}");
+    assert!(!bench.press("j").screen().contains("the end"));
+}
+
+#[test]
+fn explanation() {
+    looks_like!("explanation", "5jK");
 }
 
 #[test]
@@ -110,6 +135,7 @@ fn every_sign_has_a_stand_in_in_ascii() {
         "0lad",
         "?",
         "1a",
+        "5K",
     ] {
         let screen = Bench::example(160, 50).press(keys).screen();
         let odd: String = screen.chars().filter(|sign| !sign.is_ascii() && stand_in(*sign) == '?').collect();

@@ -2,10 +2,13 @@
 
 mod alter;
 mod behaviour;
+mod explanation;
 mod fabrics;
 mod fit;
 mod fixture;
+mod jumps;
 mod looks;
+mod protocols;
 mod questions;
 mod styles;
 mod subjects;
@@ -34,7 +37,7 @@ impl Bench {
     /// A workbench that has read something.
     fn new(width: u16, height: u16, data: Snapshot) -> Self {
         let abilities = Abilities { run: true, pictures: true };
-        let state = State::new(Theme { colours: Colours::True, ascii: false }, abilities, Size::new(width, height));
+        let state = State::new(Theme::new(Colours::True, false), abilities, Size::new(width, height));
         let mut bench = Self { state, effects: vec![] };
         bench.send(Message::Data(Box::new(data)));
         bench

@@ -12,6 +12,7 @@ use crate::keys::screen::Screen;
 use crate::messages::requests::FileTask;
 use crate::messages::{effect::Effect, message::Message};
 use crate::overlays::Overlay;
+use crate::overlays::study_form::StudyForm;
 use crate::screens::state::State;
 use crate::widgets::result_table::ResultTable;
 use crate::{
@@ -200,11 +201,11 @@ fn a_new_study_is_chosen_from_the_catalogue() {
                 ..fixture::empty()
             },
         );
-        assert!(bench.press("a<Enter>").asked().is_empty());
+        assert!(bench.press("a<F5>").asked().is_empty());
         assert!(bench.screen().contains("✗ choose a size of a style"), "{}", bench.screen());
         bench.press(" <Tab>a");
         assert_snapshot!(format!("new_study_{width}x{height}"), bench.screen());
-        let asked = bench.press("<Enter>").asked();
+        let asked = bench.press("<F5>").asked();
         let [Effect::Files(FileTask::CreateStudy(new))] = &asked[..] else { panic!("{asked:?}") };
         assert_eq!(
             (new.name.as_str(), new.subjects.len(), new.sizes.len(), new.simulators.len()),
@@ -304,4 +305,46 @@ fn escape_closes_the_form_of_a_study() {
     bench.press("a");
     assert!(matches!(bench.state.overlay, Some(Overlay::StudyForm(_))));
     assert!(bench.press("<Esc>").state.overlay.is_none());
+}
+
+/// The form of a new study after some keys.
+fn form(keys: &str) -> Option<StudyForm> {
+    match Bench::example(80, 24).press("a").press(keys).state.overlay.take() {
+        Some(Overlay::StudyForm(form)) => Some(*form),
+        _ => None,
+    }
+}
+
+#[test]
+fn lists_of_forms_are_gone_through_and_narrowed_as_on_screens() {
+    let chosen = |form: &StudyForm| -> Vec<String> {
+        form.subjects.iter().filter(|(_, is_chosen)| *is_chosen).map(|(name, _)| name.clone()).collect()
+    };
+    let check = |keys: &str, expect: &[&str]| {
+        assert_eq!(chosen(&form(keys).unwrap_or_else(|| panic!("{keys}"))), expect, "{keys}");
+    };
+    check("<Enter><Enter> ", &["anna"]);
+    check("<Enter><Enter>j ", &["male-i"]);
+    check("<Enter><Enter>jjk ", &["male-i"]);
+    check("<Enter><Enter>/MALE-II<Enter> ", &["male-ii"]);
+    check("<Enter><Enter>/male<Enter>a", &["male-i", "male-ii"]);
+    check("<Enter><Enter>/male<Enter>a<Esc>k ", &["anna", "male-i", "male-ii"]);
+    check("<Enter><Enter>/xyz<Esc> ", &["anna"]);
+    check("jk", &[]);
+    assert_eq!(form("jk").expect("open").name.chars().rev().take(2).collect::<String>(), "kj", "the name is typed");
+}
+
+#[test]
+fn escape_leaves_the_part_before_the_form_and_enter_makes_it_at_the_last() {
+    let check = |keys: &str, expect: bool| assert_eq!(form(keys).is_some(), expect, "{keys}");
+    check("<Enter><Esc>", true);
+    check("<Enter><Esc><Esc>", false);
+    check("<Enter>/t<Esc><Esc>", true);
+    check("<Enter>/t<Enter><Esc><Esc><Esc>", false);
+    check("<Enter><C-c>", false);
+    let made = |keys: &str| form(keys).expect("open").is_busy;
+    assert!(!made("<Enter> <Enter> <Enter><Enter>"), "at the last part, not made yet");
+    assert!(made("<Enter> <Enter> <Enter><Enter><Enter>"));
+    assert!(made("<Enter> <Enter> <F5>"));
+    assert!(form("<F5>").expect("open").problem.is_some_and(|problem| problem.contains("choose a size")));
 }

@@ -228,20 +228,20 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     let mut bench = Bench::example(80, 24);
     bench.press("3ititan.dxf<Tab>");
     assert!(bench.screen().contains("empty = titan"), "{}", bench.screen());
-    bench.press("<Enter>");
+    bench.press("<F5>");
     let given = StyleGiven { is_proposed: true, patterns: vec![(None, "titan.dxf".into())], ..Default::default() };
     assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given.clone()))]);
     bench.send(Message::Saved(Err("pattern: titan.dxf: no unit; accepted: a file that names its unit".into())));
     let Some(Overlay::StyleForm(form)) = &bench.state.overlay else { panic!("the form stays") };
     assert_eq!(form.at, 3, "the unit is asked for");
-    bench.press("yard<Enter>");
+    bench.press("yard<F5>");
     assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in"));
-    bench.press("<Backspace><Backspace><Backspace><Backspace>mm<Enter>");
+    bench.press("<Backspace><Backspace><Backspace><Backspace>mm<F5>");
     let given = StyleGiven { unit: Some("mm".into()), ..given };
     assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given))]);
     bench.send(Message::Saved(Ok("style titan is added".into())));
     assert!(bench.state.overlay.is_none() && bench.status().contains("titan is added"));
-    assert!(bench.press("i<Enter>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
+    assert!(bench.press("i<F5>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn what_was_done_is_told_as_commands() {
     };
     assert!(bench.press("L").screen().contains("nothing yet"), "{}", bench.screen());
     bench.press("<Esc>").send(Message::SeamsSaved("tshirt".into(), file, Ok("saved".into())));
-    bench.press("nitee.dxf<Enter>").send(Message::Saved(Err("pattern: tee.dxf: no such file".into())));
+    bench.press("nitee.dxf<F5>").send(Message::Saved(Err("pattern: tee.dxf: no such file".into())));
     bench.press("<Esc>L");
     let screen = bench.screen();
     assert!(!screen.contains("tee.dxf"), "what was refused was not done: {screen}");

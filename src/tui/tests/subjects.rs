@@ -5,7 +5,7 @@ use crate::keys::screen::Screen;
 use crate::messages::{effect::Effect, message::Message, requests::Command};
 use crate::overlays::Overlay;
 use crate::widgets::picture::{PictureRequest, Pictured};
-use study::{Mode, Part, SubjectId};
+use study::{MEASUREMENTS, Mode, Part, SubjectId};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.subject().map_or("", |row| row.name.as_str())
@@ -42,12 +42,12 @@ fn subjects_are_chosen_sorted_and_filtered() {
 #[test]
 fn a_new_subject_is_filled_in_checked_and_saved() {
     let mut bench = Bench::example(80, 24);
-    bench.press("2a<Enter>");
+    bench.press("2a<F5>");
     assert!(bench.screen().contains("a subject needs a name") && bench.asked().is_empty());
-    bench.press("eva<Tab><Right><Tab>16<Enter>");
+    bench.press("eva<Tab><Right><Tab>16<F5>");
     assert!(bench.screen().contains("`stature_mm` is 16; accepted: 1300 to 2200"), "{}", bench.screen());
     assert!(bench.asked().is_empty());
-    bench.press("50<Tab><Tab><Tab>700<Enter>");
+    bench.press("50<Tab><Tab><Tab>700<F5>");
     assert!(bench.screen().contains("building the body"));
     let (mode, name, given) = saved(&mut bench);
     assert_eq!((mode, name.as_str()), (Mode::Add, "eva"));
@@ -56,11 +56,11 @@ fn a_new_subject_is_filled_in_checked_and_saved() {
         ["sex", "stature_mm", "weight_kg", "waist_girth_mm"].map(value),
         [Some("male"), Some("1650"), Some(""), Some("700")]
     );
-    assert!(bench.press("x<Enter>").asked().is_empty(), "it is saved once");
+    assert!(bench.press("x<F5>").asked().is_empty(), "it is saved once");
 
     bench.send(Message::Saved(Err("subject eva: no such body".into())));
     assert!(bench.screen().contains("✗ subject eva: no such body"));
-    bench.press("<Backspace>5<Enter>");
+    bench.press("<Backspace>5<F5>");
     saved(&mut bench);
     let mut data = fixture::snapshot();
     data.subjects[1].name = "eva".into();
@@ -78,7 +78,7 @@ fn an_edit_starts_from_what_is_known_and_keeps_the_name() {
     bench.press("<S-Tab><S-Tab>");
     let Some(Overlay::Form(form)) = &bench.state.overlay else { panic!("a form") };
     assert_eq!(form.at, form.texts.len() - 1, "the name is passed by");
-    bench.press("<Tab><Tab><Tab><Backspace><Backspace>60<Enter>");
+    bench.press("<Tab><Tab><Tab><Backspace><Backspace>60<F5>");
     let (mode, name, given) = saved(&mut bench);
     assert_eq!((mode, name.as_str()), (Mode::Edit, "male-i"));
     assert!(
@@ -154,4 +154,16 @@ fn bodies_are_built_when_seen_and_measured_without_pictures_too() {
     assert!(bench.screen().contains("pictures are off"));
     bench.send(Message::Measured(SubjectId(2), Err("body: no such person".into())));
     assert!(bench.screen().contains("body: no such person"));
+}
+
+#[test]
+fn enter_goes_on_and_saves_on_the_last_line() {
+    let lines = 2 + MEASUREMENTS.len();
+    let check = |times: usize, expect: bool| {
+        let mut bench = Bench::example(80, 24);
+        bench.press("2aeva<Enter><Enter>1650").press(&"<Enter>".repeat(times));
+        assert_eq!(!bench.asked().is_empty(), expect, "{times} times");
+    };
+    check(lines - 3, false);
+    check(lines - 2, true);
 }

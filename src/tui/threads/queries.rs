@@ -59,6 +59,12 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
                 }
                 names(workspace, &folder)
             }
+            QueryRequest::Rename(from, to) => {
+                if sender.send(Message::Saved(rename(&folder, &from, &to))).is_err() {
+                    return;
+                }
+                names(workspace, &folder)
+            }
             QueryRequest::Rows(text) => {
                 let answer = workspace
                     .and_then(|it| it.answer(&text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error)));
@@ -77,6 +83,23 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
     }
 }
 
+/// Gives a saved query another name; those of the program keep theirs.
+fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
+    let said = |error: StudyError| error.to_string();
+    let file = folder.join(format!("{from}.sql"));
+    if !file.exists() {
+        return Err(format!("{from} comes with the program and keeps its name; W saves a copy under another one"));
+    }
+    let saved = saved_queries(Some(folder)).map_err(said)?;
+    if saved.iter().any(|query| query.name == to) {
+        return Err(format!("there is a saved query {to} already; accepted: a name that none has"));
+    }
+    let sql = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+    save_query(folder, to, &sql).map_err(said)?;
+    std::fs::remove_file(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(format!("{from} is {to} now"))
+}
+
 /// What a query may name, and the saved ones.
 fn names(workspace: Result<&Workspace, String>, folder: &Path) -> Message {
     let names = workspace.and_then(|it| {
@@ -93,5 +116,32 @@ fn said(error: &StudyError) -> String {
         StudyError::Database(inner) if inner.to_string().contains("interrupted") => "cancelled".to_owned(),
         StudyError::Database(inner) => inner.to_string(),
         other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn saved_queries_get_other_names_that_none_has() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        save_query(folder, "mine", "SELECT 1").expect("saved");
+        save_query(folder, "yours", "SELECT 2").expect("saved");
+        let builtin = saved_queries(None).expect("those of the program")[0].name.clone();
+        let check = |from: &str, to: &str, expect: &str| {
+            let told = rename(folder, from, to).unwrap_or_else(|error| error);
+            assert!(told.contains(expect), "{from} to {to}: {told}");
+        };
+        check("mine", "yours", "there is a saved query yours already; accepted: a name that none has");
+        check("mine", &builtin, "already");
+        check("mine", "a/b", "`a/b` is no name of a query; accepted: letters");
+        check(&builtin, "other", "comes with the program and keeps its name");
+        check("mine", "ours", "mine is ours now");
+        let names: Vec<String> =
+            saved_queries(Some(folder)).expect("read").into_iter().map(|query| query.name).collect();
+        assert!(names.contains(&"ours".to_owned()) && !names.contains(&"mine".to_owned()), "{names:?}");
+        assert_eq!(study::saved_query(Some(folder), "ours").expect("there").trim(), "SELECT 1");
     }
 }

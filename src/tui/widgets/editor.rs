@@ -1,4 +1,5 @@
-//! A text of several lines that is edited in place, and the completion of the word before its cursor.
+//! A text of several lines that is edited in place, by readline's keys or vim's (see `vim`), and the completion of the word
+//! before its cursor.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -32,13 +33,44 @@ const WORDS: [&str; 24] = [
     "round(",
 ];
 
+/// Edits that can be taken back.
+const REMEMBERED: usize = 100;
+
+/// Whose keys edit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Editing {
+    /// Those of readline: letters are typed, keys with Ctrl and Alt move and cut.
+    #[default]
+    Readline,
+    /// Those of vim.
+    Vim,
+}
+
+/// What letters do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// They are typed.
+    #[default]
+    Insert,
+    /// They are vim's commands.
+    Normal,
+}
+
 /// A text and the place in it where typing goes on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
     /// The text.
     text: String,
     /// Where the cursor is, a byte of `text` between characters.
-    cursor: usize,
+    pub(super) cursor: usize,
+    editing: Editing,
+    pub(super) mode: Mode,
+    /// The operator that waits for a motion.
+    pub(super) pending: Option<char>,
+    /// What was cut or copied last; whole lines end with the end of a line.
+    pub(super) killed: String,
+    /// Texts and cursors before the latest edits of normal mode.
+    before_edits: Vec<(String, usize)>,
     /// The words offered for the one before the cursor.
     offer: Option<Offer>,
 }
@@ -74,7 +106,19 @@ impl Editor {
 
     /// Puts another text in, the cursor at its end.
     pub fn set(&mut self, text: &str) {
-        *self = Self { text: text.to_owned(), cursor: text.len(), offer: None };
+        let Self { editing, killed, .. } = std::mem::take(self);
+        *self = Self { text: text.to_owned(), cursor: text.len(), editing, killed, ..Self::default() };
+    }
+
+    /// Takes the keys of readline or vim from now on.
+    pub fn edit_as(&mut self, editing: Editing) {
+        self.editing = editing;
+    }
+
+    /// What letters do, where that changes.
+    #[must_use]
+    pub fn mode(&self) -> Option<Mode> {
+        (self.editing == Editing::Vim).then_some(self.mode)
     }
 
     /// Line and column of the cursor, in characters from 0.
@@ -85,25 +129,29 @@ impl Editor {
         (line, before[self.line_start()..].chars().count())
     }
 
-    fn line_start(&self) -> usize {
+    pub(super) fn line_start(&self) -> usize {
         self.text[..self.cursor].rfind('\n').map_or(0, |at| at + 1)
     }
 
-    fn line_end(&self) -> usize {
+    pub(super) fn line_end(&self) -> usize {
         self.text[self.cursor..].find('\n').map_or(self.text.len(), |at| self.cursor + at)
     }
 
     /// Handles a key; returns whether it was one for the editor.
     pub fn key(&mut self, event: &KeyEvent, relations: &[Relation]) -> bool {
-        let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
-        if event.modifiers.contains(KeyModifiers::ALT) {
-            return false;
-        }
+        let [ctrl, alt] = [KeyModifiers::CONTROL, KeyModifiers::ALT].map(|modifier| event.modifiers.contains(modifier));
         match event.code {
             KeyCode::Tab if self.offer.is_some() => self.take_word(1),
             KeyCode::BackTab if self.offer.is_some() => self.take_word(-1),
-            _ => {
-                if !self.edit(event.code, ctrl) {
+            KeyCode::Esc if self.mode() == Some(Mode::Insert) => {
+                self.offer = None;
+                self.end_insert();
+            }
+            KeyCode::Char(letter) if self.mode == Mode::Normal && !ctrl && !alt => return self.command(letter),
+            KeyCode::Enter if self.mode == Mode::Normal && !alt => self.go_to_line(1),
+            code => {
+                let is_taken = if alt { self.edit_words(code) } else { self.edit(code, ctrl) };
+                if !is_taken {
                     return false;
                 }
                 self.offer = self.offered(relations);
@@ -112,22 +160,38 @@ impl Editor {
         true
     }
 
+    /// The keys of readline with Alt.
+    fn edit_words(&mut self, code: KeyCode) -> bool {
+        match code {
+            KeyCode::Char('b') => self.cursor = self.word_start(),
+            KeyCode::Char('f') => self.cursor = self.after_word(),
+            KeyCode::Char('d') => self.kill(self.cursor, self.after_word()),
+            _ => return false,
+        }
+        true
+    }
+
     fn edit(&mut self, code: KeyCode, ctrl: bool) -> bool {
         match code {
-            KeyCode::Char('u') if ctrl => self.remove(self.line_start()),
-            KeyCode::Char('w') if ctrl => self.remove(self.word_start()),
-            KeyCode::Char(_) if ctrl => return false,
-            KeyCode::Char(letter) => self.insert(letter),
-            KeyCode::Enter => self.insert('\n'),
-            KeyCode::Backspace => self.remove(self.before()),
-            KeyCode::Delete => {
-                if self.cursor < self.text.len() {
-                    self.text.remove(self.cursor);
-                }
+            KeyCode::Char('a') if ctrl => self.cursor = self.line_start(),
+            KeyCode::Char('e') if ctrl => self.cursor = self.line_end(),
+            KeyCode::Char('k') if ctrl => {
+                // At the end of a line, the end itself goes.
+                let end = if self.cursor == self.line_end() { self.after() } else { self.line_end() };
+                self.kill(self.cursor, end);
             }
+            KeyCode::Char('u') if ctrl => self.kill(self.line_start(), self.cursor),
+            KeyCode::Char('w') if ctrl => self.kill(self.word_start(), self.cursor),
+            KeyCode::Char('y') if ctrl => self.insert(&self.killed.clone()),
+            KeyCode::Char(_) if ctrl => return false,
+            KeyCode::Char(letter) => self.insert(letter.encode_utf8(&mut [0; 4])),
+            KeyCode::Enter => self.insert("\n"),
+            KeyCode::Backspace => self.cut(self.before(), self.cursor),
+            KeyCode::Delete => self.cut(self.cursor, self.after()),
             KeyCode::Left if ctrl => self.cursor = self.word_start(),
+            KeyCode::Right if ctrl => self.cursor = self.after_word(),
             KeyCode::Left => self.cursor = self.before(),
-            KeyCode::Right => self.cursor += self.text[self.cursor..].chars().next().map_or(0, char::len_utf8),
+            KeyCode::Right => self.cursor = self.after(),
             KeyCode::Home => self.cursor = self.line_start(),
             KeyCode::End => self.cursor = self.line_end(),
             KeyCode::Up => self.go_to_line(-1),
@@ -137,23 +201,78 @@ impl Editor {
         true
     }
 
-    fn insert(&mut self, letter: char) {
-        self.text.insert(self.cursor, letter);
-        self.cursor += letter.len_utf8();
+    pub(super) fn insert(&mut self, text: &str) {
+        self.text.insert_str(self.cursor, text);
+        self.cursor += text.len();
     }
 
-    /// Removes what lies between a place and the cursor.
-    fn remove(&mut self, from: usize) {
-        self.text.replace_range(from..self.cursor, "");
+    /// Takes out what lies between two places, and keeps it for being put in elsewhere.
+    fn kill(&mut self, from: usize, to: usize) {
+        self.killed = self.text[from..to].to_owned();
+        self.cut(from, to);
+    }
+
+    /// Takes out what lies between two places; the cursor is there.
+    pub(super) fn cut(&mut self, from: usize, to: usize) {
+        self.text.replace_range(from..to, "");
         self.cursor = from;
     }
 
-    fn before(&self) -> usize {
+    /// Remembers the text before an edit.
+    pub(super) fn remember(&mut self) {
+        self.before_edits.push((self.text.clone(), self.cursor));
+        let surplus = self.before_edits.len().saturating_sub(REMEMBERED);
+        self.before_edits.drain(..surplus);
+    }
+
+    /// Takes the latest edit back.
+    pub(super) fn undo(&mut self) {
+        if let Some((text, cursor)) = self.before_edits.pop() {
+            (self.text, self.cursor) = (text, cursor);
+        }
+    }
+
+    pub(super) fn before(&self) -> usize {
         self.text[..self.cursor].char_indices().next_back().map_or(0, |(at, _)| at)
     }
 
+    pub(super) fn after(&self) -> usize {
+        self.letter_after(self.cursor)
+    }
+
+    /// The place after the letter at a place.
+    pub(super) fn letter_after(&self, at: usize) -> usize {
+        at + self.text[at..].chars().next().map_or(0, char::len_utf8)
+    }
+
+    /// Where the next word or sign begins.
+    pub(super) fn next_word(&self) -> usize {
+        let kind = self.text[self.cursor..].chars().next().map(is_of_word);
+        let rest = |from: usize, is_passed: &dyn Fn(char) -> bool| {
+            self.text[from..].find(|c: char| !is_passed(c)).map_or(self.text.len(), |at| from + at)
+        };
+        let end = rest(self.cursor, &|c| !c.is_whitespace() && Some(is_of_word(c)) == kind);
+        rest(end, &char::is_whitespace)
+    }
+
+    /// The last letter of the word that ends after the cursor.
+    pub(super) fn word_end(&self) -> usize {
+        let end = |c: char, next: Option<char>| {
+            !c.is_whitespace() && next.is_none_or(|next| next.is_whitespace() || is_of_word(next) != is_of_word(c))
+        };
+        let letters = || self.text[self.after()..].char_indices();
+        let next = letters().skip(1).map(|(_, c)| Some(c)).chain([None]);
+        letters().zip(next).find(|((_, c), next)| end(*c, *next)).map_or(self.cursor, |((at, _), _)| self.after() + at)
+    }
+
+    /// The place after the word that ends after the cursor.
+    fn after_word(&self) -> usize {
+        let start = self.text[self.cursor..].find(is_of_word).map_or(self.text.len(), |at| self.cursor + at);
+        self.text[start..].find(|c| !is_of_word(c)).map_or(self.text.len(), |at| start + at)
+    }
+
     /// Where the word before the cursor begins, blanks after it left out.
-    fn word_start(&self) -> usize {
+    pub(super) fn word_start(&self) -> usize {
         let trimmed = self.text[..self.cursor].trim_end();
         trimmed.rfind(|c: char| !is_of_word(c)).map_or(0, |at| {
             let after = at + trimmed[at..].chars().next().map_or(1, char::len_utf8);
@@ -161,7 +280,7 @@ impl Editor {
         })
     }
 
-    fn go_to_line(&mut self, step: isize) {
+    pub(super) fn go_to_line(&mut self, step: isize) {
         let (line, column) = self.place();
         let starts: Vec<usize> =
             std::iter::once(0).chain(self.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
@@ -286,6 +405,31 @@ mod tests {
         assert_eq!(editor.text(), "SELECT ");
         editor.key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL), &[]);
         assert_eq!(editor.text(), "");
+    }
+
+    #[test]
+    fn the_keys_of_readline_move_cut_and_put_in() {
+        let check = |keys: &str, text: &str, column: usize| {
+            let mut editor = Editor::default();
+            editor.set("SELECT chi, ei");
+            for key in keys.split(' ') {
+                let (modifier, letter) = key.split_once('-').expect("C-x or A-x");
+                let modifier = if modifier == "C" { KeyModifiers::CONTROL } else { KeyModifiers::ALT };
+                let letter = letter.chars().next().expect("a letter");
+                assert!(editor.key(&KeyEvent::new(KeyCode::Char(letter), modifier), &[]), "{key}");
+            }
+            assert_eq!((editor.text(), editor.place()), (text, (0, column)), "{keys}");
+        };
+        check("C-a", "SELECT chi, ei", 0);
+        check("C-a C-e", "SELECT chi, ei", 14);
+        check("A-b A-b A-b", "SELECT chi, ei", 7);
+        check("C-a A-f A-f", "SELECT chi, ei", 10);
+        check("C-a A-d", " chi, ei", 0);
+        check("A-b C-k", "SELECT chi, ", 12);
+        check("C-w C-y C-y", "SELECT chi, eiei", 16);
+        check("C-a A-d C-e C-y", " chi, eiSELECT", 14);
+        check("C-u C-k", "", 0);
+        check("C-u C-y", "SELECT chi, ei", 14);
     }
 
     #[test]

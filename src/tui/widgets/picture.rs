@@ -167,8 +167,14 @@ impl PictureEncoder {
             Images::Auto if !letters => pixel_protocol(env).zip(cell_size()),
             _ => None,
         };
+        Some(Self::with(pixels, letters))
+    }
+
+    /// Pixels by a protocol in cells of a size, letters, or half blocks.
+    #[must_use]
+    pub fn with(pixels: Option<(ProtocolType, FontSize)>, letters: bool) -> Self {
         let picker = pixels.map(|(protocol, cell)| picker_of(protocol, cell));
-        Some(Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) })
+        Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) }
     }
 
     /// Pixels to render for a picture, width by height.
@@ -202,7 +208,8 @@ impl PictureEncoder {
 }
 
 /// The protocol of a terminal that names itself; none inside tmux and screen, which pass pixels on only when told to.
-fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolType> {
+#[must_use]
+pub fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolType> {
     let is = |name: &str, value: &str| env(name).is_some_and(|found| found == value);
     if env("TMUX").is_some() || env("STY").is_some() {
         return None;

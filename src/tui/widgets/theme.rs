@@ -1,4 +1,5 @@
-//! Colours: the sixteen of the terminal's own palette, so that light and dark themes both stay readable, or none.
+//! Colours: the sixteen of the terminal's own palette, so that light and dark backgrounds both stay readable, those of a
+//! file of one's own (see `theme_file`), or none.
 //! Colour never stands alone: a glyph or a bar beside it says the same.
 
 use ratatui::buffer::Buffer;
@@ -50,6 +51,61 @@ pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
     env("TOILE_ASCII").is_some_and(|value| !value.is_empty()) || term == "dumb" || term.starts_with("vt")
 }
 
+/// What a colour says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Right or finished.
+    Good,
+    /// Questionable.
+    Warn,
+    /// Wrong or failed.
+    Bad,
+    /// Going on.
+    Busy,
+    /// The border of the pane that has the focus.
+    Focus,
+    /// Of less weight.
+    Dim,
+    /// Selected, in the pane that has the focus.
+    Selected,
+}
+
+impl Role {
+    /// All of them.
+    pub const ALL: [Self; 7] = [Self::Good, Self::Warn, Self::Bad, Self::Busy, Self::Focus, Self::Dim, Self::Selected];
+
+    /// Its name in the file of colours.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Warn => "warn",
+            Self::Bad => "bad",
+            Self::Busy => "busy",
+            Self::Focus => "focus",
+            Self::Dim => "dim",
+            Self::Selected => "selected",
+        }
+    }
+}
+
+/// The colours of roles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Roles {
+    /// That of each role, in the order of [`Role::ALL`]; `Reset` where it is told by weight alone.
+    pub colours: [Color; Role::ALL.len()],
+    /// Those of seams and sizes, in turn.
+    pub seams: &'static [Color],
+}
+
+impl Default for Roles {
+    fn default() -> Self {
+        const SEAMS: [Color; 5] = [Color::Green, Color::Magenta, Color::Cyan, Color::Red, Color::Blue];
+        let colours = [Color::Green, Color::Magenta, Color::Red, Color::Cyan, Color::Cyan, Color::Reset, Color::Reset];
+        Self { colours, seams: &SEAMS }
+    }
+}
+
 /// The styles of the workbench.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
@@ -57,47 +113,73 @@ pub struct Theme {
     pub colours: Colours,
     /// Whether only ASCII is shown.
     pub ascii: bool,
+    /// What colours say.
+    pub roles: Roles,
 }
 
 impl Theme {
-    fn fg(self, colour: Color) -> Style {
-        if self.colours == Colours::None { Style::new() } else { Style::new().fg(colour) }
+    /// The theme of a terminal without a file of colours.
+    #[must_use]
+    pub fn new(colours: Colours, ascii: bool) -> Self {
+        Self { colours, ascii, roles: Roles::default() }
+    }
+
+    /// The nearest of the colours there are; `Reset` where there are none.
+    fn shown(self, colour: Color) -> Color {
+        match self.colours {
+            Colours::None => Color::Reset,
+            Colours::Basic => basic(colour),
+            Colours::Indexed => indexed(colour),
+            Colours::True => colour,
+        }
+    }
+
+    /// The style of a role, on top of one; `otherwise` where the role has no colour.
+    fn of(self, role: Role, style: Style, otherwise: Style) -> Style {
+        match self.shown(self.roles.colours[role as usize]) {
+            Color::Reset => otherwise,
+            colour => style.fg(colour),
+        }
+    }
+
+    fn plain(self, role: Role) -> Style {
+        self.of(role, Style::new(), Style::new())
     }
 
     /// Right or finished.
     #[must_use]
     pub fn good(self) -> Style {
-        self.fg(Color::Green)
+        self.plain(Role::Good)
     }
 
     /// Questionable.
     #[must_use]
     pub fn warn(self) -> Style {
-        self.fg(Color::Magenta)
+        self.plain(Role::Warn)
     }
 
     /// Wrong or failed.
     #[must_use]
     pub fn bad(self) -> Style {
-        self.fg(Color::Red)
+        self.plain(Role::Bad)
     }
 
     /// Going on.
     #[must_use]
     pub fn busy(self) -> Style {
-        self.fg(Color::Cyan)
+        self.plain(Role::Busy)
     }
 
     /// Of less weight.
     #[must_use]
     pub fn dim(self) -> Style {
-        Style::new().add_modifier(Modifier::DIM)
+        self.of(Role::Dim, Style::new(), Style::new().add_modifier(Modifier::DIM))
     }
 
     /// A legend in a border: of less weight, whatever the border is like.
     #[must_use]
     pub fn legend(self) -> Style {
-        Style::reset().add_modifier(Modifier::DIM)
+        Style::reset().patch(self.dim())
     }
 
     /// Of more weight.
@@ -109,7 +191,8 @@ impl Theme {
     /// Selected, in the pane that has the focus.
     #[must_use]
     pub fn selected(self) -> Style {
-        Style::new().add_modifier(Modifier::REVERSED)
+        let reversed = Style::new().add_modifier(Modifier::REVERSED);
+        self.of(Role::Selected, reversed, reversed)
     }
 
     /// Selected, in another pane.
@@ -127,7 +210,7 @@ impl Theme {
     /// The border of a pane.
     #[must_use]
     pub fn border(self, focused: bool) -> Style {
-        if focused { self.busy().add_modifier(Modifier::BOLD) } else { self.dim() }
+        if focused { self.plain(Role::Focus).add_modifier(Modifier::BOLD) } else { self.dim() }
     }
 
     /// The style of a status.
@@ -155,8 +238,7 @@ impl Theme {
     /// The colour of a seam or a size, which its letter or line tells as well.
     #[must_use]
     pub fn lettered(self, number: usize) -> Color {
-        const COLOURS: [Color; 5] = [Color::Green, Color::Magenta, Color::Cyan, Color::Red, Color::Blue];
-        if self.has_colours() { COLOURS[number % COLOURS.len()] } else { Color::Reset }
+        self.shown(self.roles.seams[number % self.roles.seams.len()])
     }
 
     /// Whether there are colours at all.
@@ -167,21 +249,41 @@ impl Theme {
 
     /// Turns colours the terminal lacks, as pictures have them, into the nearest it has.
     pub fn adapt(self, buffer: &mut Buffer, area: Rect) {
-        let near: fn(Color) -> Color = match self.colours {
-            Colours::Indexed => indexed,
-            Colours::Basic => basic,
-            Colours::None | Colours::True => return,
-        };
+        if matches!(self.colours, Colours::None | Colours::True) {
+            return;
+        }
         for position in area.intersection(buffer.area).positions() {
             let cell = &mut buffer[position];
-            (cell.fg, cell.bg) = (near(cell.fg), near(cell.bg));
+            (cell.fg, cell.bg) = (self.shown(cell.fg), self.shown(cell.bg));
         }
     }
 }
 
+/// The steps of the cube of xterm's colours.
+const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+
+/// The sixteen colours, as most terminals have them.
+const SIXTEEN: [(Color, [u8; 3]); 16] = [
+    (Color::Black, [0, 0, 0]),
+    (Color::Red, [170, 0, 0]),
+    (Color::Green, [0, 170, 0]),
+    (Color::Yellow, [170, 85, 0]),
+    (Color::Blue, [0, 0, 170]),
+    (Color::Magenta, [170, 0, 170]),
+    (Color::Cyan, [0, 170, 170]),
+    (Color::Gray, [170, 170, 170]),
+    (Color::DarkGray, [85, 85, 85]),
+    (Color::LightRed, [255, 85, 85]),
+    (Color::LightGreen, [85, 255, 85]),
+    (Color::LightYellow, [255, 255, 85]),
+    (Color::LightBlue, [85, 85, 255]),
+    (Color::LightMagenta, [255, 85, 255]),
+    (Color::LightCyan, [85, 255, 255]),
+    (Color::White, [255, 255, 255]),
+];
+
 /// The nearest colour of xterm's 256: of its cube or its greys, whichever is nearer.
 fn indexed(colour: Color) -> Color {
-    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let Color::Rgb(r, g, b) = colour else { return colour };
     let level = |v: u8| (0..6).min_by_key(|k| LEVELS[*k].abs_diff(v)).unwrap_or(0);
     let [i, j, k] = [r, g, b].map(level);
@@ -197,30 +299,18 @@ fn indexed(colour: Color) -> Color {
     }
 }
 
-/// The nearest of the 16 colours, as most terminals have them.
+/// The nearest of the 16 colours.
 fn basic(colour: Color) -> Color {
-    const PALETTE: [(Color, [u8; 3]); 16] = [
-        (Color::Black, [0, 0, 0]),
-        (Color::Red, [170, 0, 0]),
-        (Color::Green, [0, 170, 0]),
-        (Color::Yellow, [170, 85, 0]),
-        (Color::Blue, [0, 0, 170]),
-        (Color::Magenta, [170, 0, 170]),
-        (Color::Cyan, [0, 170, 170]),
-        (Color::Gray, [170, 170, 170]),
-        (Color::DarkGray, [85, 85, 85]),
-        (Color::LightRed, [255, 85, 85]),
-        (Color::LightGreen, [85, 255, 85]),
-        (Color::LightYellow, [255, 255, 85]),
-        (Color::LightBlue, [85, 85, 255]),
-        (Color::LightMagenta, [255, 85, 255]),
-        (Color::LightCyan, [85, 255, 255]),
-        (Color::White, [255, 255, 255]),
-    ];
-    let Color::Rgb(r, g, b) = colour else { return colour };
+    let wanted = match colour {
+        Color::Rgb(r, g, b) => [r, g, b],
+        Color::Indexed(k @ 0..16) => return SIXTEEN[usize::from(k)].0,
+        Color::Indexed(k @ 16..232) => [(k - 16) / 36, (k - 16) / 6 % 6, (k - 16) % 6].map(|n| LEVELS[usize::from(n)]),
+        Color::Indexed(k) => [8 + 10 * (k - 232); 3],
+        named => return named,
+    };
     let distance =
-        |to: &[u8; 3]| -> u32 { [r, g, b].iter().zip(to).map(|(v, to)| u32::from(v.abs_diff(*to)).pow(2)).sum() };
-    PALETTE.iter().min_by_key(|(_, to)| distance(to)).map_or(colour, |(near, _)| *near)
+        |to: &[u8; 3]| -> u32 { wanted.iter().zip(to).map(|(v, to)| u32::from(v.abs_diff(*to)).pow(2)).sum() };
+    SIXTEEN.iter().min_by_key(|(_, to)| distance(to)).map_or(colour, |(near, _)| *near)
 }
 
 /// The glyph of a status.
@@ -284,10 +374,31 @@ mod tests {
     }
 
     #[test]
+    fn roles_have_the_nearest_colour_that_there_is() {
+        let check = |colours: Colours, colour: Color, expect: Option<Color>| {
+            let mut theme = Theme::new(colours, false);
+            theme.roles.colours = [colour; Role::ALL.len()];
+            for style in [theme.good(), theme.dim(), theme.selected(), theme.border(true)] {
+                assert_eq!(style.fg, expect, "{colour:?} of {colours:?}");
+            }
+        };
+        let orange = Color::Rgb(250, 90, 80);
+        check(Colours::True, orange, Some(orange));
+        check(Colours::Indexed, orange, Some(Color::Indexed(203)));
+        check(Colours::Basic, orange, Some(Color::LightRed));
+        check(Colours::Basic, Color::Indexed(196), Some(Color::Red));
+        check(Colours::Basic, Color::Indexed(9), Some(Color::LightRed));
+        check(Colours::Basic, Color::Indexed(255), Some(Color::White));
+        check(Colours::None, orange, None);
+        check(Colours::True, Color::Reset, None);
+    }
+
+    #[test]
     fn without_colours_no_style_has_one() {
-        let theme = Theme { colours: Colours::None, ascii: false };
+        let theme = Theme::new(Colours::None, false);
         for style in [theme.good(), theme.warn(), theme.bad(), theme.busy(), theme.border(true), theme.chi(1.2)] {
             assert_eq!((style.fg, style.bg), (None, None));
         }
+        assert_eq!(theme.lettered(3), Color::Reset);
     }
 }

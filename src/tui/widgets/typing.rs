@@ -2,9 +2,27 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+/// Rows of a page of a list.
+const PAGE: usize = 10;
+
 /// Whether a key is Ctrl-C.
 pub fn is_ctrl_c(event: &KeyEvent) -> bool {
     event.code == KeyCode::Char('c') && event.modifiers.contains(KeyModifiers::CONTROL)
+}
+
+/// Goes through a list that what is typed narrows, or edits that: then the first row is selected.
+pub fn in_list(text: &mut String, row: &mut usize, event: &KeyEvent) {
+    match event.code {
+        KeyCode::Up => *row = row.saturating_sub(1),
+        KeyCode::Down => *row += 1,
+        KeyCode::PageUp => *row = row.saturating_sub(PAGE),
+        KeyCode::PageDown => *row += PAGE,
+        _ => {
+            if edit(text, event) {
+                *row = 0;
+            }
+        }
+    }
 }
 
 /// Edits a line at its end; returns whether it changed.

@@ -7,9 +7,11 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 use crate::messages::snapshot::Compared;
+use crate::overlays::explanation::Selected;
 use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
 use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::picture::Pictured;
@@ -21,10 +23,26 @@ use study::{JobRow, MetricsRow};
 const RUN: usize = 12;
 /// Columns of number and pattern length.
 const FIXED: usize = 3 + 8;
+/// Lines above the measurements.
+const HEAD: usize = 3;
 /// The fewest columns of a name.
 const LEAST_NAME: usize = 12;
 /// Columns of the difference of two.
 const DELTA: usize = 9;
+
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 8] = ["chi", "diff", "L2D", "E(chi)", "EI", "measurement", "FEM", "HYB"];
+
+/// The selected measurement, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let rows = state.comparison_rows();
+    let what = rows.get(state.compare.row).map_or(String::new(), |row| {
+        let chi: Vec<String> =
+            row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
+        format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
+    });
+    Selected::new(what, &NAMES, &[])
+}
 
 /// The panes: table, verdict, and one picture a run.
 struct Panes {
@@ -61,6 +79,18 @@ fn panes(area: Rect, state: &State) -> Panes {
 pub fn picture_panes(area: Rect, state: &State) -> Vec<(Pictured, Rect)> {
     let drapes = state.compared().iter().map(|run| Pictured::Drape(run.job.id));
     drapes.zip(panes(area, state).pictures).collect()
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    if state.compared().is_empty() {
+        return vec![];
+    }
+    let panes = panes(area, state);
+    let rows = panes.table.map_or(vec![], |table| {
+        jump::rows(0, jump::inside(table), HEAD, state.comparison_rows().len(), state.compare.row)
+    });
+    rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
 }
 
 /// Draws the screen.
@@ -142,7 +172,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared
         .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
-    let mut lines = header(state, runs, &columns);
+    let mut lines = header(state, runs, &columns).to_vec();
     let room = usize::from(inner.height).saturating_sub(lines.len());
     let first = first_shown(state.compare.row, rows.len(), room);
     for (k, row) in rows.iter().enumerate().skip(first).take(room) {
@@ -182,7 +212,7 @@ impl Columns {
 }
 
 /// Names of the runs, and below them E and EI.
-fn header(state: &State, runs: &[Compared], columns: &Columns) -> Vec<Line<'static>> {
+fn header(state: &State, runs: &[Compared], columns: &Columns) -> [Line<'static>; HEAD] {
     let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
     let names = labels(&jobs);
     let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
@@ -197,7 +227,7 @@ fn header(state: &State, runs: &[Compared], columns: &Columns) -> Vec<Line<'stat
         runs.iter().take(columns.runs).map(value).collect()
     };
     let blank = 3 + columns.name + 8;
-    vec![
+    [
         Line::styled(head, state.theme.dim()),
         Line::styled(format!("{}{}", left("   E(chi)", blank), over(number(|m| m.e_chi))), state.theme.bold()),
         Line::styled(format!("{}{}", left("   EI", blank), over(number(|m| m.ei))), state.theme.bold()),

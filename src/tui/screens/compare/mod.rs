@@ -10,9 +10,11 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 
 /// The screen of a comparison.
@@ -49,6 +51,14 @@ impl Page for ComparePage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::comparison_table(state).map(|table| (table, "the comparison"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -7,8 +7,10 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
 
 use crate::overlays::entry_form::{fabric_label, unit_of};
+use crate::overlays::explanation::Selected;
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
@@ -86,6 +88,34 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = scrolled(lines, state.nav.table_down, inner);
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_facts(frame, facts_area, state, fabric);
+}
+
+/// The selected fabric, the column that sorts, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let Some(row) = state.fabric() else { return Selected::default() };
+    let bends = row.fabric.bending_lengths_m().map(text::mm).join(" and ");
+    let what = format!("{}: {:.0} g/m², bends at {bends} mm", row.fabric.name, row.fabric.density_kg_m2 * 1e3);
+    let sorted = match state.fabrics.order.by {
+        FabricOrder::Name => "fabric",
+        FabricOrder::Number(k) => fabric_label(FABRIC_SHOWN[k]),
+    };
+    let headings = FABRIC_SHOWN.into_iter().map(fabric_label).chain(FOLLOWS.iter().map(|(title, _)| *title));
+    let numbers = (0..FABRIC_NUMBERS.len()).map(fabric_label);
+    let names: Vec<&str> = headings.chain(numbers).chain(["fabric", "value", "among"]).collect();
+    Selected::new(what, &[sorted], &names)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let (fabrics, selected) = (state.fabrics(), state.fabric().map(|row| &row.fabric.name));
+    let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
+    if is_narrow(area) {
+        return jump::rows(0, area, 1, fabrics.len(), at);
+    }
+    let [list, table, _] = panes(area);
+    let mut targets = jump::rows(0, jump::inside(list), 1, fabrics.len(), at);
+    targets.push(jump::pane(table, 1));
+    targets
 }
 
 /// The list with its header; the name takes what the numbers leave.

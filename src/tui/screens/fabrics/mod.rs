@@ -9,10 +9,12 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use study::Part;
 
 /// The screen of fabrics.
@@ -45,6 +47,14 @@ impl Page for FabricsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::fabric_line(state).map(|line| (line, "the fabric"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

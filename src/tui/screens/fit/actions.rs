@@ -2,6 +2,7 @@
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::fit::quantities::{Quantity, quantities};
 use crate::screens::fit::state::{Sections, View};
 use crate::screens::movement::{Movement, stepped};
@@ -145,6 +146,36 @@ impl State {
             self.fit.cut = Some((jobs, sections));
         }
     }
+}
+
+/// The selected level or quantity, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    const NAMES: [&str; 11] = [
+        "ease",
+        "target",
+        "body",
+        "wear",
+        "level",
+        "mean gap",
+        "hem",
+        "side seam lean",
+        "greatest pressure",
+        "folds",
+        "drag lines",
+    ];
+    let quantities = state.quantities();
+    let quantity = quantities.get(state.fit.row).filter(|_| state.fit.view == View::Sizes);
+    let (what, name) = match (quantity, state.level()) {
+        (Some(quantity), _) => {
+            let cells: Vec<&str> = quantity.cells.iter().flatten().map(String::as_str).collect();
+            (format!("{}: {}", quantity.name, cells.join("; ")), quantity.name.clone())
+        }
+        (None, level) => {
+            let level = words(level.unwrap_or_default());
+            (level.clone(), level)
+        }
+    };
+    Selected::new(what, &[&name], &NAMES)
 }
 
 /// The results of the sizes that have one.

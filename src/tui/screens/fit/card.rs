@@ -1,14 +1,17 @@
 //! The fit card: a row a level, a column a size.
 
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use crate::screens::fit::actions::is_same;
+use crate::screens::fit::state::View;
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, whole, words, wrapped};
 use crate::widgets::theme::Theme;
-use study::{FitCard, LevelSits, Sits, SizeSits};
+use study::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
 
 /// What the signs mean.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
@@ -42,18 +45,9 @@ pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<
         return vec![Line::raw("no ease is known yet: R runs the study, which measures it")];
     }
     let levels = state.card_levels();
-    let missing = if worn.sizes.is_empty() {
-        wrapped("no drape yet: sections and the comparison of sizes need one, R runs the study", columns)
-    } else {
-        vec![]
-    };
+    let missing = missing(worn, columns);
     let widths = Columns::new(card, columns);
-    let mut told = vec![verdict(state.theme, card, columns)];
-    let others = others(card, columns);
-    if told.len() + others.len() + 1 + levels.len() + missing.len() <= lines {
-        told.extend(others.into_iter().map(|line| Line::styled(line, state.theme.dim())));
-    }
-    told.push(header(state.theme, card, &widths));
+    let mut told = head(state.theme, card, &widths, columns, lines.saturating_sub(levels.len() + missing.len()));
     let at = state.level().and_then(|level| levels.iter().position(|one| is_same(one, level)));
     let room = lines.saturating_sub(told.len() + missing.len());
     let first = first_shown(at.unwrap_or(0), levels.len(), room);
@@ -65,6 +59,39 @@ pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<
         told.push(Line::raw("no level matches the filter"));
     }
     told.extend(missing.into_iter().map(|line| Line::styled(line, state.theme.busy())));
+    told
+}
+
+/// The levels that can be gone to.
+pub fn targets(state: &State, inner: Rect) -> Vec<Target> {
+    let Some(worn) = state.worn().filter(|worn| !worn.card.sizes.is_empty()) else { return vec![] };
+    let (columns, lines) = (usize::from(inner.width), usize::from(inner.height));
+    let levels = state.card_levels();
+    let missing = missing(worn, columns).len();
+    let widths = Columns::new(&worn.card, columns);
+    let head = head(state.theme, &worn.card, &widths, columns, lines.saturating_sub(levels.len() + missing)).len();
+    let at = state.level().and_then(|level| levels.iter().position(|one| is_same(one, level)));
+    let inner = Rect { height: inner.height.saturating_sub(missing as u16), ..inner };
+    jump::rows(View::Card as usize, inner, head, levels.len(), at.unwrap_or(0))
+}
+
+/// What is missing where there is no drape.
+fn missing(worn: &GarmentWorn, columns: usize) -> Vec<String> {
+    if worn.sizes.is_empty() {
+        wrapped("no drape yet: sections and the comparison of sizes need one, R runs the study", columns)
+    } else {
+        vec![]
+    }
+}
+
+/// What to wear, what is wrong with the sizes beside it where there is room in so many lines, and the header.
+fn head(theme: Theme, card: &FitCard, widths: &Columns<'_>, columns: usize, lines: usize) -> Vec<Line<'static>> {
+    let mut told = vec![verdict(theme, card, columns)];
+    let others = others(card, columns);
+    if told.len() + others.len() < lines {
+        told.extend(others.into_iter().map(|line| Line::styled(line, theme.dim())));
+    }
+    told.push(header(theme, card, widths));
     told
 }
 

@@ -8,6 +8,7 @@ use ratatui::widgets::Paragraph;
 use crate::screens::fit::state::View;
 use crate::screens::fit::{alteration, card, section, sizes};
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::WIDE;
 use crate::widgets::lists::pane;
 use crate::widgets::text;
@@ -25,31 +26,52 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         draw_alteration(frame, area, state);
         return;
     }
-    if !has_drape(state) {
-        draw_card(frame, area, state, true);
-        return;
-    }
-    let view = state.fit.view;
-    if area.width < WIDE {
-        match view {
-            View::Card => draw_card(frame, area, state, true),
-            View::Section => section::draw(frame, area, state, true),
-            View::Sizes => draw_sizes(frame, area, state, true),
+    let parts = parts(area, state);
+    let is_alone = parts.len() == 1;
+    for (part, area) in parts {
+        let focused = is_alone || state.fit.view == part;
+        match part {
+            View::Card => draw_card(frame, area, state, focused),
+            View::Section => section::draw(frame, area, state, focused),
+            View::Sizes => draw_sizes(frame, area, state, focused),
         }
-        return;
+    }
+}
+
+/// The parts that there is room for, each with its place.
+fn parts(area: Rect, state: &State) -> Vec<(View, Rect)> {
+    let view = state.fit.view;
+    if !has_drape(state) {
+        return vec![(View::Card, area)];
+    }
+    if area.width < WIDE {
+        return vec![(view, area)];
     }
     let [left, right] = beside(area);
-    section::draw(frame, right, state, view == View::Section);
+    let section = (View::Section, right);
     if area.height >= TALL {
         let lines = card::lines(state, usize::from(left.width - 2), usize::from(area.height), false).len() as u16;
         let [card, sizes] = Layout::vertical([Constraint::Length(lines + 2), Constraint::Fill(1)]).areas(left);
-        draw_card(frame, card, state, view == View::Card);
-        draw_sizes(frame, sizes, state, view == View::Sizes);
-    } else if view == View::Sizes {
-        draw_sizes(frame, left, state, true);
-    } else {
-        draw_card(frame, left, state, view == View::Card);
+        return vec![section, (View::Card, card), (View::Sizes, sizes)];
     }
+    let left_view = if view == View::Sizes { View::Sizes } else { View::Card };
+    vec![section, (left_view, left)]
+}
+
+/// Rows and parts that can be gone to; none while it is shown what to change.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    if state.fit.alter.is_open {
+        return vec![];
+    }
+    let of = |(part, area): (View, Rect)| {
+        let inner = jump::inside(area);
+        match part {
+            View::Card => card::targets(state, inner),
+            View::Section => vec![jump::pane(area, part as usize)],
+            View::Sizes => jump::rows(part as usize, inner, 1, state.quantities().len(), state.fit.row),
+        }
+    };
+    parts(area, state).into_iter().flat_map(of).collect()
 }
 
 fn has_drape(state: &State) -> bool {

@@ -17,10 +17,12 @@ use ratatui::layout::Rect;
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::fit::state::View;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// Keys and what they do; Tab leads to the next part.
 const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
@@ -83,6 +85,18 @@ impl Page for FitPage {
             View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
             View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
         }
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn focus(&self, state: &mut State, pane: usize) {
+        state.fit.view = View::ALL[pane];
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        actions::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -5,8 +5,10 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
+use crate::overlays::explanation::Selected;
 use crate::screens::jobs::state::JobOrder;
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
@@ -19,8 +21,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         frame.render_widget(Paragraph::new(list(state, area)), area);
         return;
     }
-    let log_height = (area.height / 3).clamp(7, 16);
-    let [table_area, log_area] = Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area);
+    let [table_area, log_area] = panes(area);
     let shown = state.jobs().len();
     let all = state.data.as_ref().map_or(0, |data| data.jobs.len());
     let study = state.data.as_ref().and_then(|data| data.study()).map_or("", |study| &study.name);
@@ -31,6 +32,38 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = table(state, inner.width, inner.height, !state.in_second_pane());
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_log(frame, log_area, state);
+}
+
+/// The panes: table and log.
+fn panes(area: Rect) -> [Rect; 2] {
+    let log_height = (area.height / 3).clamp(7, 16);
+    Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let jobs = state.jobs();
+    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+    if is_narrow(area) {
+        return jump::rows(0, area, 0, jobs.len(), at);
+    }
+    let [table, log] = panes(area);
+    let mut targets = jump::rows(0, jump::inside(table), 1, jobs.len(), at);
+    targets.push(jump::pane(log, 1));
+    targets
+}
+
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 13] =
+    ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
+
+/// The selected job, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let what = state.job().map_or(String::new(), |job| {
+        let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
+        format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
+    });
+    Selected::new(what, &NAMES, &[])
 }
 
 /// Columns of phase and percent.

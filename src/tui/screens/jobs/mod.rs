@@ -10,9 +10,11 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// The screen of jobs.
 pub struct JobsPage;
@@ -44,6 +46,14 @@ impl Page for JobsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         state.job_line().map(|line| (line, "the job"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -8,16 +8,27 @@ use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::reports::actions::address;
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
 /// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let [list, facts] =
-        Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area);
+    let [list, facts] = panes(area);
     draw_list(frame, list, state);
     draw_facts(frame, facts, state);
+}
+
+/// The panes: list, and where the selected report is.
+fn panes(area: Rect) -> [Rect; 2] {
+    Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area)
+}
+
+/// Rows that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let rows = state.reports().len();
+    jump::rows(0, jump::inside(panes(area)[0]), 1, rows, state.reports.row.min(rows.saturating_sub(1)))
 }
 
 fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State) {

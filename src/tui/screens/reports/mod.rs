@@ -12,6 +12,7 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// The screen of reports.
 pub struct ReportsPage;
@@ -39,6 +40,10 @@ impl Page for ReportsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         state.report().map(|row| (row.page.display().to_string(), "the path"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -8,6 +8,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 use crate::screens::picture_pane::draw::draw_drape;
 use crate::screens::results::measurements;
 use crate::screens::state::State;
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::pane;
 use crate::widgets::text;
@@ -39,6 +40,14 @@ fn panes(area: Rect, state: &State) -> Panes {
 /// The pane of the picture, where there is room for it.
 pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     panes(area, state).picture
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let panes = panes(area, state);
+    let rows =
+        panes.table.map_or(vec![], |table| jump::rows(0, jump::inside(table), 1, state.chi().len(), state.results.row));
+    rows.into_iter().chain(panes.picture.map(|picture| jump::pane(picture, 1))).collect()
 }
 
 /// Draws the screen.

@@ -2,6 +2,7 @@
 
 use ratatui::text::{Line, Span};
 
+use crate::overlays::explanation::Selected;
 use crate::screens::results::state::ChiOrder;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, selected_line};
@@ -128,6 +129,40 @@ pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
         lines.push(Line::raw(text.trim_end().to_owned()));
     }
     lines
+}
+
+/// Names of what the table and the numbers show, as the glossary has them.
+const NAMES: [&str; 19] = [
+    "chi",
+    "L2D",
+    "L3D",
+    "measurement",
+    "−5% 1 +5%",
+    "EI",
+    "E(chi)",
+    "SD(chi)",
+    "max err",
+    "n",
+    "seam gap",
+    "in body",
+    "residual",
+    "steps",
+    "vertices",
+    "faces",
+    "ease mm",
+    "why",
+    "cached",
+];
+
+/// The selected measurement, and what the table and the numbers show.
+pub fn explained(state: &State) -> Selected {
+    let rows = state.chi();
+    let Some(row) = rows.get(state.results.row) else { return Selected::new(String::new(), &NAMES, &[]) };
+    let (l2d, l3d) = (mm(row.l2d_m), mm(row.l3d_m));
+    let what = format!("{}: L2D {l2d} mm, L3D {l3d} mm, chi {:.3}", row.name, row.chi());
+    let kinds = [(row.is_controlled, "controlled"), (row.is_free_edge, "free edge"), (row.is_girth, "girth")];
+    let kinds: Vec<&str> = kinds.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name).collect();
+    Selected::new(what, &[&NAMES[..3], kinds.as_slice()].concat(), &NAMES)
 }
 
 /// Why the cache did not have the selected job, and which of its stages it had.

@@ -6,10 +6,12 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
+use crate::overlays::explanation::Selected;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::state::State;
-use crate::widgets::result_table::ResultTable;
+use crate::widgets::editor::Mode;
+use crate::widgets::result_table::{ResultTable, cell_text};
 
 /// Queries that the history keeps.
 const MOST_KEPT: usize = 200;
@@ -24,7 +26,8 @@ impl State {
     /// Hands a key to the editor; returns whether it took it. In an empty editor, keys that no query begins with mean what
     /// they mean elsewhere.
     pub fn edit_query(&mut self, event: &KeyEvent) -> bool {
-        if event.code == KeyCode::Esc {
+        let mode = self.sql.editor.mode();
+        if event.code == KeyCode::Esc && mode != Some(Mode::Insert) {
             self.nav.second_pane[Screen::Sql as usize] = true;
             return true;
         }
@@ -145,4 +148,13 @@ impl State {
 pub fn selected_row(state: &State) -> Option<String> {
     let table = state.sql.table.as_ref().filter(|table| table.len() > 0)?;
     Some(table.copied(std::iter::once(table.row)))
+}
+
+/// The selected value, and the other columns of the answer.
+pub fn explained(state: &State) -> Selected {
+    let Some(table) = &state.sql.table else { return Selected::default() };
+    let names: Vec<&str> = table.names().iter().map(String::as_str).collect();
+    let Some(column) = names.get(table.column) else { return Selected::default() };
+    let value = table.values(table.row).map_or(String::new(), |values| cell_text(&values[table.column]));
+    Selected::new(format!("{column}: {value}"), &[column], &names)
 }

@@ -7,7 +7,8 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
 use crate::screens::state::State;
-use crate::widgets::editor::Offer;
+use crate::widgets::editor::{Mode, Offer};
+use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
@@ -24,16 +25,35 @@ const OFFERED: usize = 6;
 
 /// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
-    let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
-    let [editor, result] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area);
+    let [editor, result] = panes(area, state);
     draw_result(frame, result, state);
     draw_editor(frame, editor, area, state);
 }
 
+/// Editor and answer.
+fn panes(area: Rect, state: &State) -> [Rect; 2] {
+    let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
+    let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
+    Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let [editor, result] = panes(area, state);
+    let inner = jump::inside(result);
+    let head = 1 + refusal(state, inner.width).len();
+    let rows = state.sql.table.as_ref().map_or(vec![], |table| jump::rows(1, inner, head, table.len(), table.row));
+    rows.into_iter().chain([jump::pane(editor, 0)]).collect()
+}
+
 fn draw_editor(frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
     let focused = state.is_editing();
-    let title = if focused { "query: F5 runs, Tab completes, Esc leaves" } else { "query: e edits, F5 runs" };
+    let title = match state.sql.editor.mode() {
+        _ if !focused => "query: e edits, F5 runs",
+        None => "query: F5 runs, Tab completes, Esc leaves",
+        Some(Mode::Insert) => "query, insert: F5 runs, Tab completes, Esc to normal mode",
+        Some(Mode::Normal) => "query, normal: F5 runs, i a o type, Esc leaves",
+    };
     let block = pane(state.theme, title, focused);
     let inner = block.inner(area);
     let editor = &state.sql.editor;
@@ -125,11 +145,7 @@ fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let block = pane(state.theme, title, !state.is_editing())
         .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
-    let mut lines: Vec<Line<'static>> = vec![];
-    if let Some(Err(error)) = &sql.outcome {
-        let wrapped = wrapped(error, usize::from(inner.width).saturating_sub(2));
-        lines.extend(wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())));
-    }
+    let mut lines = refusal(state, inner.width);
     let room = usize::from(inner.height).saturating_sub(lines.len());
     match &sql.table {
         Some(table) if !table.names().is_empty() => lines.extend(rows(state, table, usize::from(inner.width), room)),
@@ -138,6 +154,13 @@ fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
         None => {}
     }
     frame.render_widget(Paragraph::new(lines).block(block), area);
+}
+
+/// Why the query was refused, if it was.
+fn refusal(state: &State, width: u16) -> Vec<Line<'static>> {
+    let Some(Err(error)) = &state.sql.outcome else { return vec![] };
+    let wrapped = wrapped(error, usize::from(width).saturating_sub(2));
+    wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())).collect()
 }
 
 /// The views there are, before anything was asked.

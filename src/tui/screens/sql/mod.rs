@@ -11,9 +11,11 @@ use ratatui::layout::Rect;
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 
 /// The screen of queries.
 pub struct SqlPage;
@@ -53,6 +55,14 @@ impl Page for SqlPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::selected_row(state).map(|rows| (rows, "the row"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        actions::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

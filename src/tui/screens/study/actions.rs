@@ -6,8 +6,10 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Target;
 use crate::overlays::Overlay;
-use crate::overlays::study_form::StudyForm;
+use crate::overlays::explanation::Selected;
+use crate::overlays::study_form::{Filter, StudyForm};
 use crate::screens::movement::{Movement, stepped};
+use crate::screens::results::measurements;
 use crate::screens::state::State;
 use crate::screens::study::state::Place;
 use crate::widgets::text;
@@ -90,6 +92,14 @@ impl State {
     fn go_to(&mut self, place: Place) {
         self.study.place = place;
         self.focus.job = self.cell_at(place).and_then(|cell| cell.job);
+    }
+
+    /// Goes to a cell by its place among all, row by row.
+    pub fn go_to_cell(&mut self, cell: usize) {
+        if let Some(place) = self.places().get(cell) {
+            self.nav.second_pane[Screen::Study as usize] = false;
+            self.go_to(*place);
+        }
     }
 
     /// Goes to the next cell that matches the filter, or back.
@@ -176,6 +186,7 @@ impl State {
             simulators: study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
             sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
             subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
+            filter: Filter::default(),
             at: 0,
             is_busy: false,
             problem: None,
@@ -200,4 +211,22 @@ impl State {
             (Err(text), _) => self.complain(text),
         }
     }
+}
+
+/// The selected cell, and what the grid and the numbers below it show.
+pub fn explained(state: &State) -> Selected {
+    let shown = measurements::explained(state);
+    let place = state.study.place;
+    let Some(grid) = state.grid() else { return shown };
+    let cell = state.cell_at(place);
+    let status = cell
+        .and_then(|cell| cell.status)
+        .map_or(", no job yet".to_owned(), |status| format!(", {}", text::status(status)));
+    let ei = cell.and_then(|cell| cell.ei).map_or(String::new(), |ei| format!(", EI {ei:.4}"));
+    let ease = |fit: FitCell| format!(", ease {} mm, {}", text::ease_mm(fit.ease_m), fit.class.as_str());
+    let ease = state.fit_at(place).map_or(String::new(), ease);
+    let (size, subject) = (&grid.sizes[place.size], &grid.subjects[place.subject]);
+    let what = format!("{size} on {subject} by {}{status}{ei}{ease}", text::sim(grid.simulators[place.simulator]));
+    let others: Vec<&str> = shown.names.iter().map(String::as_str).collect();
+    Selected::new(what, &["EI", "ease mm", "fit class", "status", "FEM", "HYB"], &others)
 }

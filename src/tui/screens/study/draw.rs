@@ -1,7 +1,9 @@
 //! Drawing the grid and what is known of the selected cell.
 
+use std::ops::Range;
+
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
@@ -10,6 +12,7 @@ use crate::screens::picture_pane::draw::draw_drape;
 use crate::screens::results::measurements;
 use crate::screens::state::State;
 use crate::screens::study::state::Place;
+use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, ease_mm, left, wrapped};
@@ -74,22 +77,61 @@ pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
 fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let block = pane(state.theme, title(state, grid), !state.in_second_pane())
         .title_bottom(Line::styled(FIT_LEGEND, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    let shown = (usize::from(inner.width).saturating_sub(label_width(grid)) / cell_width(grid)).max(1);
-    let first = first_shown(state.study.place.subject, grid.subjects.len(), shown);
-    let subjects = first..(first + shown).min(grid.subjects.len());
-
-    // Each size has a line a simulator and one of its ease.
+    let Shown { subjects, lines } = Shown::of(block.inner(area), state, grid);
     let of_size = grid.simulators.len() + 1;
-    let all = grid.sizes.len() * of_size;
-    let height = usize::from(inner.height).saturating_sub(1);
-    let from = first_shown(state.study.place.size * of_size + state.study.place.simulator, all, height);
-    let mut lines = vec![header(state, grid, subjects.clone())];
-    lines.extend((from..all).take(height).map(|line| match (line / of_size, line % of_size) {
+    let mut told = vec![header(state, grid, subjects.clone())];
+    told.extend(lines.map(|line| match (line / of_size, line % of_size) {
         (size, simulator) if simulator + 1 < of_size => row(state, grid, subjects.clone(), size, simulator),
         (size, _) => fit_row(state, grid, subjects.clone(), size),
     }));
-    frame.render_widget(Paragraph::new(lines).block(block), area);
+    frame.render_widget(Paragraph::new(told).block(block), area);
+}
+
+/// The part of the grid that there is room for: each size has a line a simulator and one of its ease.
+struct Shown {
+    subjects: Range<usize>,
+    lines: Range<usize>,
+}
+
+impl Shown {
+    fn of(inner: Rect, state: &State, grid: &Grid) -> Self {
+        let place = state.study.place;
+        let shown = (usize::from(inner.width).saturating_sub(label_width(grid)) / cell_width(grid)).max(1);
+        let first = first_shown(place.subject, grid.subjects.len(), shown);
+        let of_size = grid.simulators.len() + 1;
+        let all = grid.sizes.len() * of_size;
+        let height = usize::from(inner.height).saturating_sub(1);
+        let from = first_shown(place.size * of_size + place.simulator, all, height);
+        Self { subjects: first..(first + shown).min(grid.subjects.len()), lines: from..(from + height).min(all) }
+    }
+}
+
+/// Cells and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let Some(grid) = state.grid() else { return vec![] };
+    let places = state.places();
+    let cell = |place: &Place| places.iter().position(|one| one == place).unwrap_or(0);
+    if is_narrow(area) {
+        let selected = cell(&state.study.place);
+        let first = first_shown(selected, places.len(), usize::from(area.height));
+        let rows = jump::rows(0, area, 0, places.len(), selected).into_iter().enumerate();
+        return rows.map(|(k, row)| Target { goal: Goal::Item(first + k), ..row }).collect();
+    }
+    let panes = Panes::new(area, grid);
+    let inner = jump::inside(panes.grid);
+    let Shown { subjects, lines } = Shown::of(inner, state, grid);
+    let of_size = grid.simulators.len() + 1;
+    let cells = lines.clone().filter(|line| line % of_size + 1 < of_size).flat_map(|line| {
+        let y = inner.y + 1 + (line - lines.start) as u16;
+        subjects.clone().map(move |subject| (line, subject, y))
+    });
+    let target = |(line, subject, y): (usize, usize, u16)| {
+        let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
+        let place = Place { size: line / of_size, simulator: line % of_size, subject };
+        Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
+    };
+    let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
+    cells.map(target).chain([other]).collect()
 }
 
 /// Study and garment, and which of how many.
@@ -115,7 +157,7 @@ fn cell_width(grid: &Grid) -> usize {
     grid.subjects.iter().map(|subject| text::width(subject) + 2).max().unwrap_or(0).clamp(10, 16)
 }
 
-fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<'static> {
+fn header(state: &State, grid: &Grid, subjects: Range<usize>) -> Line<'static> {
     let more = if subjects.start > 0 { "◂" } else { " " };
     let mut spans = vec![Span::styled(left("EI", label_width(grid) - 1) + more, state.theme.dim())];
     let last = subjects.end;
@@ -129,7 +171,7 @@ fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<
     Line::from(spans)
 }
 
-fn row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize, simulator: usize) -> Line<'static> {
+fn row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize, simulator: usize) -> Line<'static> {
     let name = if simulator == 0 { grid.sizes[size].as_str() } else { "" };
     let is_selected = (size, simulator) == (state.study.place.size, state.study.place.simulator);
     let label = format!("{} {} ", left(name, size_width(grid)), text::sim(grid.simulators[simulator]));
@@ -162,7 +204,7 @@ fn cell_text(cell: &Cell) -> String {
     }
 }
 
-fn fit_row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize) -> Line<'static> {
+fn fit_row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize) -> Line<'static> {
     let mut line = left("ease mm", label_width(grid));
     for subject in subjects {
         let fit = grid.fits[size][subject];

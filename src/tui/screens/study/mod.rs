@@ -9,9 +9,12 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
+use crate::screens::results::measurements;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 
 /// The screen of the study.
@@ -48,6 +51,18 @@ impl Page for StudyPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         state.job_line().map(|line| (line, "the job"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn go_to_item(&self, state: &mut State, item: usize) {
+        state.go_to_cell(item);
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        if state.in_second_pane() { measurements::explained(state) } else { actions::explained(state) }
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

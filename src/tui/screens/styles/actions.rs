@@ -105,9 +105,18 @@ impl State {
         let Some(Ok(layout)) = self.layout() else { return };
         let edges = layout.edges();
         let at = edges.iter().position(|edge| *edge == self.styles.edge).unwrap_or(0);
-        let Some(next) = stepped(at, step, edges.len()) else { return };
-        let line = layout.seam_at(edges[next]).unwrap_or(self.styles.line);
-        (self.styles.edge, self.styles.line) = (edges[next], line);
+        if let Some(next) = stepped(at, step, edges.len()) {
+            self.go_to_edge(next);
+        }
+    }
+
+    /// Selects an edge by its place among all, and the seam that holds it.
+    pub fn go_to_edge(&mut self, edge: usize) {
+        let Some(Ok(layout)) = self.layout() else { return };
+        let Some(edge) = layout.edges().get(edge).copied() else { return };
+        let line = layout.seam_at(edge).unwrap_or(self.styles.line);
+        (self.styles.edge, self.styles.line) = (edge, line);
+        self.nav.second_pane[Screen::Styles as usize] = true;
     }
 
     /// Gives the pieces all the room, or less again.

@@ -11,11 +11,18 @@ use crate::screens::state::State;
 use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, TableLine};
 use crate::screens::styles::{preview, question};
+use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
+
+/// Columns of a small terminal that has room for the pieces beside the table.
+const BESIDE: u16 = 56;
+
+/// Names of what is shown, as the glossary has them.
+pub const HEADINGS: [&str; 8] = ["seam", "a mm", "ease", "ratio", "sure", "rev", "pattern", "measurement"];
 
 /// Columns of the table from which it has names of seams and both lengths.
 const FULL: usize = 66;
@@ -23,69 +30,126 @@ const FULL: usize = 66;
 const NAME: usize = 14;
 const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
 
-/// The panes: list, table of the selected size, pieces.
-fn panes(area: Rect, sizes: usize) -> [Rect; 3] {
+/// The panes: list, table of the selected size or what is asked, pieces; those without room are `None`.
+#[derive(Default)]
+struct Panes {
+    list: Option<Rect>,
+    table: Option<Rect>,
+    pieces: Option<Rect>,
+}
+
+fn panes(area: Rect, state: &State) -> Panes {
+    // While something is asked it has to be seen.
+    if state.styles.enlarged && state.styles.asking.is_none() {
+        return Panes { pieces: Some(area), ..Panes::default() };
+    }
+    if is_narrow(area) {
+        if !state.in_second_pane() || !matches!(state.layout(), Some(Ok(_))) {
+            return Panes { list: Some(area), ..Panes::default() };
+        }
+        if area.width < BESIDE {
+            return Panes { table: Some(area), ..Panes::default() };
+        }
+        let [table, pieces] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(area);
+        return Panes { table: Some(table), pieces: Some(pieces), ..Panes::default() };
+    }
     let share = if area.width >= WIDE { area.width * 9 / 20 } else { area.width / 2 };
     let [left, pieces] = Layout::horizontal([Constraint::Length(share), Constraint::Fill(1)]).areas(area);
-    let list = (sizes.max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
+    let list = (state.sizes().len().max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
     let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
-    [list, table, pieces]
+    Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
 }
 
 /// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let on_desk = state.in_second_pane();
-    if is_narrow(area) {
-        let lines = match (on_desk, state.layout()) {
-            (true, Some(Ok(layout))) if state.asked().is_none() => table(state, layout, area.width, area.height),
-            (true, Some(Ok(_))) => {
-                if let Some(asked) = state.asked() {
-                    question::draw(frame, area, state, &asked);
-                }
-                return;
+    let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
+    let panes = panes(area, state);
+    if let Some(area) = panes.list {
+        draw_list(frame, area, state, is_bare);
+    }
+    if let Some(area) = panes.table {
+        match (state.asked(), state.layout()) {
+            (Some(asked), _) => question::draw(frame, area, state, &asked),
+            (None, Some(Ok(layout))) if is_bare => {
+                frame.render_widget(Paragraph::new(table(state, layout, area.width, area.height)), area);
             }
-            _ => list(state, area.width, area.height),
-        };
-        frame.render_widget(Paragraph::new(lines), area);
-        return;
+            (None, _) => draw_table(frame, area, state, on_desk),
+        }
     }
-    let sizes = state.sizes();
-    let [list_area, table_area, pieces_area] = panes(area, sizes.len());
-    if is_enlarged(state) {
-        draw_pieces(frame, area, state, true);
-        return;
+    if let Some(area) = panes.pieces {
+        let is_alone = panes.table.is_none();
+        draw_pieces(frame, area, state, is_alone || on_desk && state.styles.asking.is_none());
     }
-    let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
-    styles.dedup();
-    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
-    let block = pane(state.theme, title, !on_desk);
-    let legend = "• study  * not saved  ? proposed";
-    let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
-    let inner = block.inner(list_area);
-    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), list_area);
-    match state.asked() {
-        Some(asked) => question::draw(frame, table_area, state, &asked),
-        None => draw_table(frame, table_area, state, on_desk),
-    }
-    draw_pieces(frame, pieces_area, state, on_desk && state.styles.asking.is_none());
 }
 
-/// Whether the pieces have all the room: not while something is asked, which has to be seen.
-fn is_enlarged(state: &State) -> bool {
-    state.styles.enlarged && state.styles.asking.is_none()
+/// Rows, seams and edges that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let Panes { list, table, pieces } = panes(area, state);
+    let is_bare = is_narrow(area);
+    let inner = |area: Rect| if is_bare { area } else { jump::inside(area) };
+    let sizes = state.sizes();
+    let key = state.size_row().map(|row| row.key);
+    let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
+    let mut targets = list.map_or(vec![], |area| jump::rows(0, inner(area), 1, sizes.len(), at));
+    if let Some(Ok(layout)) = state.layout() {
+        let lines = table.filter(|_| state.asked().is_none());
+        targets.extend(lines.into_iter().flat_map(|area| line_targets(state, layout, inner(area))));
+        let pieces = pieces.map(|area| beside_preview(state, area)).filter(|area| area.width > 0);
+        targets.extend(pieces.into_iter().flat_map(|area| pieces::targets(layout, area)));
+    }
+    targets
+}
+
+/// The lines of the table that can be gone to: a selected question takes several.
+fn line_targets(state: &State, layout: &SizeLayout, area: Rect) -> Vec<Target> {
+    let items = layout.lines();
+    let at = state.styles.line.min(items.len().saturating_sub(1));
+    let mut targets = jump::rows(1, area, 1, items.len(), at);
+    let below = match items.get(at) {
+        Some(TableLine::Question(_)) => {
+            item_lines(state, layout, items[at], usize::from(area.width), true).0.len().saturating_sub(1) as u16
+        }
+        _ => 0,
+    };
+    for target in &mut targets {
+        target.at.y += if matches!(target.goal, Goal::Row(_, step) if step > 0) { below } else { 0 };
+    }
+    targets.retain(|target| area.contains(target.at));
+    targets
 }
 
 /// Where pieces and the garment sewn of them are drawn; `None` where there is only room for lists.
 pub fn pieces_area(state: &State, area: Rect) -> Option<Rect> {
-    let all = || if is_enlarged(state) { area } else { panes(area, state.sizes().len())[2] };
-    (!is_narrow(area)).then(all)
+    panes(area, state).pieces
+}
+
+/// The room that the garment leaves for the pieces.
+fn beside_preview(state: &State, area: Rect) -> Rect {
+    preview::place(state, area).map_or(area, |garment| Rect { width: area.width - garment.width, ..area })
+}
+
+/// The list of sizes, in a border where there is room for one.
+fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, is_bare: bool) {
+    if is_bare {
+        frame.render_widget(Paragraph::new(list(state, area.width, area.height)), area);
+        return;
+    }
+    let sizes = state.sizes();
+    let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
+    styles.dedup();
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
+    let legend = "• study  * not saved  ? proposed";
+    let block = pane(state.theme, title, !state.in_second_pane());
+    let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
+    let inner = block.inner(area);
+    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), area);
 }
 
 /// Draws the pieces, and beside them or instead of them the garment.
 fn draw_pieces(frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
     let garment = preview::place(state, area);
-    let left = garment.map_or(area, |garment| Rect { width: area.width - garment.width, ..area });
+    let left = beside_preview(state, area);
     if left.width > 0 {
         pieces::draw(frame, left, state, on_desk);
     }

@@ -15,10 +15,12 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 use crate::screens::styles::state::Own;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 use study::Part;
 
@@ -61,6 +63,18 @@ impl Page for StylesPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::seam_table(state).map(|table| (table, "the table of seams"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn go_to_item(&self, state: &mut State, item: usize) {
+        state.go_to_edge(item);
+    }
+
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::new(String::new(), &draw::HEADINGS, &[])
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

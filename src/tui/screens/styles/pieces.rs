@@ -11,6 +11,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
 use crate::screens::styles::state::EdgeAt;
+use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
 use study::seams::{DeskEdge, DeskPiece, DeskSeam};
@@ -30,7 +31,8 @@ pub fn letter(seam: usize) -> char {
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
     let room = usize::from(area.width).saturating_sub(26);
-    let legend = " ● edge  ○ sewn to it  ◆ marked ";
+    let legend =
+        if area.width < 34 { " ● edge ○ sewn ◆ marked " } else { " ● edge  ○ sewn to it  ◆ marked " };
     let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
         .title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(area);
@@ -41,6 +43,16 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     drawing.outlines(frame);
     drawing.selection(frame);
     drawing.labels(frame);
+}
+
+/// The edges that can be gone to, at their middles.
+pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
+    let Some(view) = View::of(jump::inside(area), layout) else { return vec![] };
+    let place = |(k, (piece, edge)): (usize, EdgeAt)| {
+        let [middle, _] = layout.out.desk.pieces[piece].edges[edge].middle();
+        Some(Target { at: view.cell(middle)?, goal: Goal::Item(k) })
+    };
+    layout.edges().into_iter().enumerate().filter_map(place).collect()
 }
 
 /// How millimetres become dots of braille, two by four a cell.

@@ -5,9 +5,11 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
+use crate::overlays::explanation::Selected;
 use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder};
+use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::picture::Pictured;
@@ -63,6 +65,34 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     };
     draw_table(frame, table_area, state, subject);
     draw_picture(frame, picture_area, state, subject);
+}
+
+/// The selected subject, the column that sorts, and what is shown of all.
+pub fn explained(state: &State) -> Selected {
+    let Some(subject) = state.subject() else { return Selected::default() };
+    let sorted = match state.subjects.order.by {
+        SubjectOrder::Name => "subject",
+        SubjectOrder::Sex => "sex",
+        SubjectOrder::Measurement(k) => MEASUREMENTS[k].label,
+    };
+    let known = MEASUREMENTS.iter().filter(|field| field.get(&subject.measurements).is_some()).count();
+    let what = format!("{}: {}, {known} measurements known", subject.name, text::sex(subject));
+    let names: Vec<&str> =
+        ["asked", "measured", "centile"].into_iter().chain(MEASUREMENTS.iter().map(|field| field.label)).collect();
+    Selected::new(what, &[sorted], &names)
+}
+
+/// Rows and panes that can be gone to.
+pub fn targets(state: &State, area: Rect) -> Vec<Target> {
+    let (subjects, selected) = (state.subjects(), state.subject().map(|row| row.id));
+    let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
+    if is_narrow(area) {
+        return jump::rows(0, area, 1, subjects.len(), at);
+    }
+    let [list, table, _] = panes(area);
+    let mut targets = jump::rows(0, jump::inside(list), 1, subjects.len(), at);
+    targets.push(jump::pane(table, 1));
+    targets
 }
 
 /// The list with its header; the name takes what the numbers leave.

@@ -9,10 +9,12 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
+use crate::overlays::explanation::Selected;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
 use study::{MEASUREMENTS, Part};
 
@@ -46,6 +48,14 @@ impl Page for SubjectsPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::subject_line(state).map(|line| (line, "the subject"))
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        draw::targets(state, area)
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        draw::explained(state)
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

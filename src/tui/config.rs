@@ -1,0 +1,84 @@
+//! Files of one's own in the config folder: where they lie, how they are read, and how what is wrong with one is told.
+
+use std::path::{Path, PathBuf};
+
+use toml::de::{DeTable, DeValue};
+
+/// Everything that is wrong with a file of one's own.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct ConfigError(Vec<String>);
+
+/// Where a file is looked for: `toile` in the config folder.
+#[must_use]
+pub fn path(env: &dyn Fn(&str) -> Option<String>, file: &str) -> Option<PathBuf> {
+    let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
+    Some(folder.join("toile").join(file))
+}
+
+/// What a file says; nothing where there is none.
+///
+/// # Errors
+/// That it cannot be read, or all that `take` finds wrong with it, each with its line.
+pub fn read<T: Default>(
+    path: Option<&Path>,
+    take: impl Fn(&[Entry<'_>], &mut Problems) -> T,
+) -> Result<T, ConfigError> {
+    let Some(path) = path.filter(|path| path.exists()) else { return Ok(T::default()) };
+    let text =
+        std::fs::read_to_string(path).map_err(|error| ConfigError(vec![format!("{}: {error}", path.display())]))?;
+    parse(&path.display().to_string(), &text, take)
+}
+
+/// What a text says, under the name of its file.
+///
+/// # Errors
+/// All that `take` finds wrong with it, each with its line.
+pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Problems) -> T) -> Result<T, ConfigError> {
+    let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
+    let (document, errors) = DeTable::parse_recoverable(text);
+    let told = errors.iter().map(|error| {
+        let at = error.span().unwrap_or_default().start;
+        (line(at), error.message().to_owned())
+    });
+    let mut problems = Problems(told.collect());
+    let entries: Vec<Entry<'_>> = document
+        .get_ref()
+        .iter()
+        .map(|(key, value)| Entry { name: key.get_ref(), value: value.get_ref(), line: line(key.span().start) })
+        .collect();
+    let taken = take(&entries, &mut problems);
+    let Problems(mut told) = problems;
+    told.sort();
+    told.dedup();
+    match told.is_empty() {
+        true => Ok(taken),
+        false => Err(ConfigError(told.into_iter().map(|(line, what)| format!("{name}:{line}: {what}")).collect())),
+    }
+}
+
+/// A line `name = value` of a file.
+pub struct Entry<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Value.
+    pub value: &'a DeValue<'a>,
+    /// Line of the file, the first is 1.
+    pub line: usize,
+}
+
+/// What is wrong with a file, each with its line.
+pub struct Problems(Vec<(usize, String)>);
+
+impl Problems {
+    /// Tells what is wrong with a line.
+    pub fn tell(&mut self, line: usize, what: String) {
+        self.0.push((line, what));
+    }
+
+    /// The value of a line, or nothing where that is wrong, which is told.
+    pub fn or_tell<T>(&mut self, entry: &Entry<'_>, value: Result<T, String>) -> Option<T> {
+        value.map_err(|what| self.tell(entry.line, format!("{}: {what}", entry.name))).ok()
+    }
+}

@@ -1,0 +1,132 @@
+//! What the numbers on screens are, in words. They stand in `docs/glossary.md`, and those of points of measure in
+//! `docs/fit.md`: one place for the program and for readers.
+
+use std::sync::LazyLock;
+
+/// The documents.
+const GLOSSARY: &str = include_str!("../../docs/glossary.md");
+const FIT: &str = include_str!("../../docs/fit.md");
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// Its names: its own first, then headings of screens and columns of SQL.
+    pub names: Vec<String>,
+    /// Its unit; empty where it is no number.
+    pub unit: String,
+    /// What it is and how it is measured.
+    pub about: String,
+    /// What is good or bad; empty where nothing is.
+    pub good: String,
+    /// The document that tells more; empty where none does.
+    pub more: String,
+}
+
+impl Term {
+    /// Its own name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.names[0]
+    }
+
+    /// Whether its names or words contain a text in small letters.
+    #[must_use]
+    pub fn contains(&self, text: &str) -> bool {
+        self.names.iter().chain([&self.about]).any(|words| words.to_lowercase().contains(text))
+    }
+}
+
+/// All terms, in the order of the documents.
+pub static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
+    let mut terms: Vec<Term> = GLOSSARY.lines().filter_map(term_of).collect();
+    let points = FIT.split("\n## ").find(|part| part.starts_with("Points of measure")).unwrap_or_default();
+    for mut point in points.lines().filter_map(point_of) {
+        // Levels of the body have names of points.
+        point.names.retain(|name| !terms.iter().any(|term| term.names.contains(name)));
+        terms.extend(Some(point).filter(|point| !point.names.is_empty()));
+    }
+    terms
+});
+
+/// The term of a name; where there is none, that of its part before a comma: `mean gap, chest`.
+#[must_use]
+pub fn term(name: &str) -> Option<&'static Term> {
+    let known = |name: &str| TERMS.iter().find(|term| term.names.iter().any(|one| one == name));
+    known(name).or_else(|| known(name.split_once(',')?.0))
+}
+
+/// The cells of a line of a table whose first has names between backquotes.
+fn cells(line: &str) -> Option<Vec<&str>> {
+    let row = line.strip_prefix("| `")?.strip_suffix('|')?;
+    Some(row.split('|').map(str::trim).collect())
+}
+
+/// The term of a line of the glossary.
+fn term_of(line: &str) -> Option<Term> {
+    let [names, unit, about, good, more] = cells(line)?.try_into().ok()?;
+    let names = names.split("`, `").map(|name| name.trim_matches('`').to_owned()).collect();
+    let file = more.split_once('(').map_or("", |(_, file)| file.trim_end_matches(')'));
+    let more = if file.is_empty() { String::new() } else { format!("docs/{file}") };
+    let plain = |text: &str| text.replace('`', "");
+    Some(Term { names, unit: unit.to_owned(), about: plain(about), good: plain(good), more })
+}
+
+/// The term of a line of the table of points of measure.
+fn point_of(line: &str) -> Option<Term> {
+    let [point, measured] = cells(line)?.try_into().ok()?;
+    let point = point.trim_matches('`');
+    let about = format!("A point of measure: {measured}.");
+    let mut names = vec![point.replace('_', " "), point.to_owned()];
+    names.dedup();
+    Some(Term { names, unit: "mm".to_owned(), about, good: String::new(), more: "docs/fit.md".to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use study::{FABRIC_NUMBERS, MEASUREMENTS};
+
+    #[test]
+    fn every_line_of_the_tables_is_a_term_and_no_name_is_two() {
+        let lines = GLOSSARY.lines().filter(|line| line.starts_with("| `")).count();
+        assert_eq!(GLOSSARY.lines().filter_map(term_of).count(), lines, "each has five cells");
+        let mut names: Vec<&str> = TERMS.iter().flat_map(|term| &term.names).map(String::as_str).collect();
+        let all = names.len();
+        names.sort_unstable();
+        for pair in names.windows(2) {
+            assert_ne!(pair[0], pair[1], "of {all} names");
+        }
+    }
+
+    #[test]
+    fn terms_are_found_by_any_name() {
+        let check = |name: &str, expect: Option<&str>| assert_eq!(term(name).map(Term::name), expect, "{name}");
+        check("L2D mm", Some("L2D"));
+        check("penetration_max_mm", Some("in body"));
+        check("mean gap, upper arm", Some("gap"));
+        check("half chest", Some("half chest"));
+        check("half_chest", Some("half chest"));
+        check("bending rigidity, warp", Some("bending rigidity, warp"));
+        check("no such thing", None);
+        assert_eq!(term("chi").map(|term| term.more.as_str()), Some("docs/drapes.md"));
+    }
+
+    #[test]
+    fn every_number_of_subjects_and_fabrics_has_a_term() {
+        let measurements = MEASUREMENTS.iter().map(|field| (field.key, field.label));
+        let label = |label: &'static str| label.split_once(" [").map_or(label, |(name, _)| name);
+        let fabrics = FABRIC_NUMBERS.iter().map(|field| (field.key, label(field.label)));
+        for (key, label) in measurements.chain(fabrics) {
+            assert!(term(key).is_some(), "{key}");
+            assert!(term(label).is_some(), "{label}");
+        }
+    }
+
+    #[test]
+    fn documents_that_tell_more_are_there() {
+        for term in TERMS.iter().filter(|term| !term.more.is_empty()) {
+            let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(&term.more);
+            assert!(file.is_file(), "{} of {}", term.more, term.name());
+        }
+    }
+}

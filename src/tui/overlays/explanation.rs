@@ -1,0 +1,129 @@
+//! What the numbers of a screen are: those that are selected first, then its other headings, then all of the glossary.
+
+use crossterm::event::KeyEvent;
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::{Clear, Paragraph};
+
+use crate::glossary::{TERMS, Term, term};
+use crate::widgets::layout::{is_narrow, middle};
+use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::text::{shortened, wrapped};
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::in_list;
+
+/// Columns of the names beside the words.
+const NAMES: u16 = 26;
+/// Lines of the names above the words, where there is no room beside them.
+const FEW: u16 = 4;
+
+/// What is selected, and the names of what it is of.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selected {
+    /// What is selected, with its numbers; empty where nothing is.
+    pub what: String,
+    /// Names in the glossary, the nearest to what is selected first. Those it does not have are left out.
+    pub names: Vec<String>,
+}
+
+impl Selected {
+    /// Something with its numbers, the names it is of, and the headings of its screen.
+    #[must_use]
+    pub fn new(what: String, names: &[&str], headings: &[&str]) -> Self {
+        Self { what, names: names.iter().chain(headings).map(|name| (*name).to_owned()).collect() }
+    }
+}
+
+/// A list of terms that what is typed narrows, one of them told.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Explanation {
+    what: String,
+    terms: Vec<&'static Term>,
+    text: String,
+    row: usize,
+}
+
+impl Explanation {
+    /// Of what is selected; its terms first.
+    #[must_use]
+    pub fn of(selected: Selected) -> Self {
+        let mut terms: Vec<&Term> = vec![];
+        for one in selected.names.iter().filter_map(|name| term(name)).chain(TERMS.iter()) {
+            if !terms.contains(&one) {
+                terms.push(one);
+            }
+        }
+        Self { what: selected.what, terms, text: String::new(), row: 0 }
+    }
+
+    /// The terms that contain what is typed: those of that name first.
+    fn rows(&self) -> Vec<&'static Term> {
+        let text = self.text.trim().to_lowercase();
+        let mut rows: Vec<&Term> = self.terms.iter().copied().filter(|term| term.contains(&text)).collect();
+        rows.sort_by_key(|term| !text.is_empty() && !term.names.iter().any(|name| name.to_lowercase() == text));
+        rows
+    }
+
+    /// Goes through the terms, or narrows them.
+    pub fn key(&mut self, event: &KeyEvent) {
+        in_list(&mut self.text, &mut self.row, event);
+        self.row = self.row.min(self.rows().len().saturating_sub(1));
+    }
+}
+
+/// Draws it over a screen.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme: Theme) {
+    let place = middle(area, area.width.min(100), area.height.min(24));
+    let title = format!("what is this: /{}▏", explanation.text);
+    let block =
+        pane(theme, title, true).title_bottom(Line::styled(" ↑↓ choose  type to search  Esc closes ", theme.legend()));
+    let inner = block.inner(place);
+    frame.render_widget(Clear, place);
+    frame.render_widget(block, place);
+    let head = u16::from(!explanation.what.is_empty());
+    let [top, below] = Layout::vertical([Constraint::Length(head), Constraint::Fill(1)]).areas(inner);
+    let what = shortened(&explanation.what, usize::from(top.width));
+    frame.render_widget(Line::styled(what, theme.bold()), top);
+    let parts = [Constraint::Length(if is_narrow(area) { FEW } else { NAMES }), Constraint::Fill(1)];
+    let [list, words] =
+        if is_narrow(area) { Layout::vertical(parts) } else { Layout::horizontal(parts).spacing(1) }.areas(below);
+    let rows = explanation.rows();
+    let first = first_shown(explanation.row, rows.len(), usize::from(list.height));
+    let name = |(k, term): (usize, &&Term)| {
+        let style = if k == explanation.row { theme.selected() } else { Style::new() };
+        Line::styled(shortened(&format!(" {} ", term.name()), usize::from(list.width)), style)
+    };
+    let names: Vec<Line<'_>> = rows.iter().enumerate().skip(first).take(usize::from(list.height)).map(name).collect();
+    frame.render_widget(Paragraph::new(names), list);
+    let told = rows
+        .get(explanation.row)
+        .map_or_else(|| vec![Line::raw("nothing of that name")], |term| told(term, theme, usize::from(words.width)));
+    frame.render_widget(Paragraph::new(told), words);
+}
+
+/// A term in words.
+fn told(term: &Term, theme: Theme, columns: usize) -> Vec<Line<'static>> {
+    let unit = match term.unit.as_str() {
+        "" => String::new(),
+        "1" => ", a number without unit".to_owned(),
+        unit => format!(", in {unit}"),
+    };
+    let also = term.names[1..].join(", ");
+    let parts = [
+        (format!("{}{unit}", term.name()), theme.bold()),
+        (term.about.clone(), Style::new()),
+        (labelled("good or bad: ", &term.good), theme.good()),
+        (labelled("also: ", &also), theme.dim()),
+        (labelled("more: ", &term.more), theme.dim()),
+    ];
+    let lines =
+        |(text, style): (String, Style)| wrapped(&text, columns).into_iter().map(move |line| Line::styled(line, style));
+    parts.into_iter().filter(|(text, _)| !text.is_empty()).flat_map(lines).collect()
+}
+
+/// A text under its name; nothing where it is empty.
+fn labelled(name: &str, text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!("{name}{text}") }
+}
