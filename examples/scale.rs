@@ -217,7 +217,7 @@ fn write_study(folder: &Path, people: usize) -> Result<()> {
 fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
     let off = if spec.simulator == Simulator::Fem { 0.02 } else { 0.005 };
     let chi = |no: u32| {
-        let spread = (spec.measurements.stature_m() * 1000.0 + f64::from(no) * 7.0).sin();
+        let spread = (spec.person.measurements.stature_m() * 1000.0 + f64::from(no) * 7.0).sin();
         Chi { no, l2d_m: 0.3, l3d_m: 0.3 * (1.0 + off * (1.0 + spread)) }
     };
     let chis: Vec<Chi> = (1..=LENGTHS).map(chi).collect();
@@ -240,7 +240,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
     let ease = Ease {
         level: "chest".into(),
         pattern_girth_m: 0.94,
-        body_girth_m: spec.measurements.stature_m() * 0.52,
+        body_girth_m: spec.person.measurements.stature_m() * 0.52,
         class: FitClass::Just,
         borderline: false,
     };

@@ -98,6 +98,10 @@ pub trait Monitor {
     fn cancelled(&self) -> bool {
         false
     }
+    /// Whether a garment that ends with open seams or another fault is put on again otherwise: it takes as long each time.
+    fn tries_again(&self) -> bool {
+        true
+    }
     /// Whether a live picture is wanted now; then [`Monitor::snapshot`] follows.
     fn wants_snapshot(&mut self) -> bool {
         false

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 112] = [
+const COMMANDS: [&str; 114] = [
     "",
     "run",
     "run show",

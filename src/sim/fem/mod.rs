@@ -106,6 +106,7 @@ pub fn simulate(
         earlier: Vec::new(),
     };
     let (settled, grip) = match dressing.dress(Grip::AtTheEnd, &mut run) {
+        Err(error) if !run.tries_again() => return Err(error),
         Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, Grip::Throughout),
         Err(torn @ SimError::Torn { .. }) => (dressing.resewn_or(torn, &RESEWN, &mut run)?, Grip::AtTheEnd),
         other => (other?, Grip::AtTheEnd),
@@ -116,7 +117,7 @@ pub fn simulate(
     let is_off = |drape: &Drape| rise_m(drape) > MOST_RISE_M;
     let came_off = is_off(&drape);
     for Start { placed, force, grip } in other_starts(&dressing, grip, &drape, came_off, params)? {
-        if !came_off && run.vertex_steps() > MOST_TRIED {
+        if !run.tries_again() || !came_off && run.vertex_steps() > MOST_TRIED {
             break;
         }
         match (Dressing { placed: &placed, force, ..dressing }).dress(grip, &mut run).map(&ended) {

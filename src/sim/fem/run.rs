@@ -111,6 +111,11 @@ impl<'a> Simulation<'a> {
         self.levels
     }
 
+    /// Whether a garment that ends with a fault is put on again otherwise.
+    pub fn tries_again(&self) -> bool {
+        self.monitor.tries_again()
+    }
+
     /// Iterations so far.
     pub fn iterations(&self) -> u32 {
         self.iteration

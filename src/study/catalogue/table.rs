@@ -16,7 +16,10 @@ use geom::units::significant;
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
 /// Columns that views have besides the values of an entry.
-const IGNORED: [&str; 4] = ["revision", "hash", "is_latest", "is_retired"];
+const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose"];
+/// Those of them that are no values of a table, but make somebody another body.
+const BODIES: [(&str, &str); 2] =
+    [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
 
 /// Reads a table: the rows that are right, and what is wrong with the others. Columns may be divided by commas, semicolons or tabs, empty
 /// cells are no values.
@@ -153,6 +156,10 @@ fn row<T: Entry>(
         .filter(|((column, cell), _)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
         .map(|((column, cell), of)| (column.to_owned(), of.value(cell)))
         .collect();
+    let is_given = |(column, _): &&(&str, &str)| cells().any(|(of, cell)| of == *column && !cell.is_empty());
+    if let Some((column, accepted)) = BODIES.iter().find(is_given) {
+        return Err(vec![format!("{name}: its `{column}` is in no table; {accepted}")]);
+    }
     let placed = |(key, problem): Given| match header.iter().position(|column| column == key) {
         Some(k) => format!("column {}: {problem}", k + 1),
         None => problem,

@@ -318,6 +318,9 @@ fn a_scan_is_a_subject_that_is_the_mesh_itself() {
     assert!(chest(&worn).zip(chest(&body)).is_some_and(|(a, b)| (a - b).abs() < 2e-3));
     let refused = bench.subject(Mode::Edit, "bo", &[("waist_girth_mm", "700")]).expect_err("it is measured");
     assert!(refused.contains("its body is a scan"), "{refused}");
+    let table = "name,sex,stature_mm,scan\nbo,m,1750,bo.obj\n";
+    let told = bench.import(Part::Subject, "people.csv", table).expect_err("its scan would be lost");
+    assert!(told.contains("its `scan` is in no table"), "{told}");
     // A study may name it, and exports it with its mesh.
     let text = "[[subject]]\nid = \"x\"\nlike = \"bo\"\n";
     let done = bench.import(Part::Subject, "study.toml", text).expect("good");

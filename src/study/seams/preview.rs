@@ -198,6 +198,10 @@ impl Monitor for Glance<'_> {
         self.is_enough || (self.is_stale)()
     }
 
+    fn tries_again(&self) -> bool {
+        self.care == Care::Trial
+    }
+
     fn wants_snapshot(&mut self) -> bool {
         true
     }

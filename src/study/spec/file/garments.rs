@@ -148,7 +148,9 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
     let known: BTreeMap<String, ()> = reader
         .tables(top, "subject", "subject")
         .iter()
-        .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(|id| (id.to_owned(), ())))
+        .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(str::to_owned))
+        .chain(subjects.iter().map(|subject| subject.id.clone()))
+        .map(|id| (id, ()))
         .collect();
     let mut wearers: Vec<String> = Vec::new();
     let mut seen = BTreeSet::new();
@@ -157,7 +159,7 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
             reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
         } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
             seen.insert(*name.get_ref());
-            wearers.push((*name.get_ref()).to_owned());
+            wearers.extend(subjects.iter().filter(|one| one.is_called(name.get_ref())).map(|one| one.id.clone()));
         }
     }
     if names.is_empty() {

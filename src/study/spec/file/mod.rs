@@ -80,6 +80,15 @@ pub struct Subject {
     pub person: Person,
 }
 
+impl Subject {
+    /// Whether a name is that of the subject, or of somebody of whom it is one pose.
+    #[must_use]
+    pub fn is_called(&self, name: &str) -> bool {
+        let of_pose = || self.person.pose.is_some_and(|pose| self.id == format!("{name} {pose}"));
+        self.id == name || of_pose()
+    }
+}
+
 /// Somebody who wears garments.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Person {

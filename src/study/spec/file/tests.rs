@@ -249,3 +249,34 @@ fn schedules_are_read_and_circles_refused() {
     study.limit(Limits { time_s: Some(5.0), memory_mb: None });
     assert_eq!(study.garments[2].schedule.limits, Limits { time_s: Some(5.0), memory_mb: Some(500) });
 }
+
+#[test]
+fn a_subject_stands_in_the_poses_that_it_names() {
+    let subjects = |keys: &str| {
+        let text = GOOD.replacen("like = \"male-ii\"", &format!("like = \"male-ii\"\n{keys}"), 1);
+        load(&text).map(|study| study.subjects)
+    };
+    let found = subjects("poses = [\"arms_15\", \"arms_60+legs_8\"]").expect("they can be stood in");
+    let names: Vec<&str> = found.iter().map(|subject| subject.id.as_str()).collect();
+    assert_eq!(names, ["ii arms_15", "ii arms_60+legs_8", "x"]);
+    let girth = |k: usize| found[k].person.body().expect("a body").girths.get(Dimension::ChestGirth);
+    assert!(found[0].person.pose != found[1].person.pose && girth(0) == girth(1), "the trunk stays as it is");
+    let text = GOOD.replacen("like = \"male-ii\"", "like = \"male-ii\"\nposes = [\"arms_15\", \"arms_60\"]", 1);
+    let worn = |names: &str| {
+        let worn = text.replacen("[[garment]]", &format!("[[garment]]\nsubjects = [{names}]"), 1);
+        load(&worn).expect("they are there").garments[0].subjects.join(", ")
+    };
+    assert_eq!(worn("\"ii\""), "ii arms_15, ii arms_60");
+    assert_eq!(worn("\"ii arms_60\", \"x\""), "ii arms_60, x");
+    // One pose leaves the name; each is an input of its own.
+    let one = subjects("pose = \"arms_60\"").expect("a pose");
+    assert_eq!(
+        (one[0].id.as_str(), one[0].person.pose.map(|pose| pose.to_string())),
+        ("ii", Some("arms_60".to_owned()))
+    );
+    let check = |pose: &str| {
+        let told = subjects(&format!("pose = \"{pose}\"")).expect_err("no pose");
+        assert!(told.contains(&format!("pose `{pose}`; accepted: arms_5 to arms_90, legs_0 to legs_30")), "{told}");
+    };
+    ["arms", "arms_120", "wings_3", "arms_x", "", "arms_30+"].into_iter().for_each(check);
+}

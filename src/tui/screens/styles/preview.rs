@@ -145,8 +145,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Some((_, Ok(seen))) => format!("on {} in {} · {view}", seen.subject, seen.fabric),
         _ => "on the body".to_owned(),
     };
-    let block = pane(state.theme, on, false)
-        .title_bottom(Line::styled(" v turns it  2 another body  9 cloth ", state.theme.legend()));
+    let block =
+        pane(state.theme, on, false).title_bottom(Line::styled(" v turns it  2 body  9 cloth ", state.theme.legend()));
     let [picture, told] = split(area, block.inner(area));
     frame.render_widget(block, area);
     let is_current = seen.is_some_and(|(request, _)| Some(request) == state.styles.preview.asked.as_ref());
