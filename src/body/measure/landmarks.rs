@@ -146,3 +146,9 @@ pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
     let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
     line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
 }
+
+/// The mesh mirrored at the plane `x = middle`: what is found on its right is the left of the body.
+pub(crate) fn mirrored(mesh: &TriMesh, middle: f64) -> TriMesh {
+    let positions = mesh.positions.iter().map(|p| V3::new(2.0 * middle - p.x, p.y, p.z)).collect();
+    TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }
+}

@@ -121,7 +121,7 @@ fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
 }
 
 fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
-    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist()).0);
+    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist_joint()).0);
     (elbow - shoulder).norm() + (wrist - elbow).norm()
 }
 

@@ -4,6 +4,7 @@ pub mod arm;
 pub mod girths;
 pub mod landmarks;
 pub mod lengths;
+mod shoulder;
 pub mod sites;
 mod slices;
 pub mod tape;

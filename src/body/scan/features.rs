@@ -22,7 +22,7 @@ pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let (sites, _) = sites::find_sites(&mesh, Some(sex))?;
     let girths = sites::girths_at(&mesh, &sites)?;
     let right = Half::find(&mesh, &sites, sites.shoulder[0])?;
-    let mirrored = mirrored(&mesh);
+    let mirrored = landmarks::mirrored(&mesh, 0.0);
     let left = Half::find(&mirrored, &sites, mirror(sites.shoulder[1]))?;
     let landmarks = landmarks(&mesh, &sites, &right, &left)?;
     let mut control = control_mesh(&mesh, &cuts(&mesh, sex, &sites, &landmarks, &right))?;
@@ -60,11 +60,6 @@ fn missing(part: &'static str, z: f64) -> BodyError {
 
 fn mirror(p: V3) -> V3 {
     V3::new(-p.x, p.y, p.z)
-}
-
-fn mirrored(mesh: &TriMesh) -> TriMesh {
-    let positions = mesh.positions.iter().copied().map(mirror).collect();
-    TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }
 }
 
 /// Gives a control mesh the left limbs of that of the mirrored body (which are its right ones, mirrored back).
