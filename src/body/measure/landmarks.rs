@@ -3,6 +3,7 @@
 use super::sites::{Sites, steps};
 use super::slices::{Sliced, Slices};
 use super::tape;
+use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
@@ -132,6 +133,20 @@ pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
 }
 
+/// Distance of the nipples from the median plane: constant, change with the chest's girth, both over stature, and what women have
+/// more. Least squares over 199 model bodies; 8 mm remain.
+const NIPPLES_OUT: [f64; 3] = [0.0065, 0.0836, 0.0092];
+
+/// The bust point of one side at height `z` of a bare mesh: the front of the chest where a chest of that girth has its nipples.
+pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2], sex: Sex) -> Option<V3> {
+    let [middle, stature] = frame;
+    let outline = tape::trunk_outline(mesh, z, middle)?;
+    let [constant, girth, woman] = NIPPLES_OUT;
+    let woman = if sex == Sex::Female { woman } else { 0.0 };
+    let x = middle + sign * ((constant + woman) * stature + girth * tape::girth(&outline));
+    Some(V3::new(x, tape::edge(&outline, x, 1.0)?, z))
+}
+
 /// Heights over stature between which the front neck point is searched.
 const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
@@ -145,6 +160,22 @@ pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
     let slope = (last.y - first.y) / (last.z - first.z);
     let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
     line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
+}
+
+/// Where the line over the shoulder bends from the neck into the shoulder: the point farthest below the chord from the side of
+/// the neck to the shoulder point.
+pub(crate) fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
+    let stature = sites.crown - sites.floor;
+    let neck = tape::trunk_outline(mesh, sites.neck.height, sites.middle)?;
+    let inner = neck.bounds().1.x - sites.middle;
+    let upper = tape::above(mesh, shoulder.z - 0.05 * stature);
+    let ceiling = sites.neck.height;
+    let line: Vec<V3> =
+        steps(sites.middle + inner * 0.97, shoulder.x, 40).filter_map(|x| shoulder_top(&upper, x, ceiling)).collect();
+    let (first, last) = (line.first()?, line.last()?);
+    let slope = (last.z - first.z) / (last.x - first.x);
+    let below = |p: &V3| first.z + slope * (p.x - first.x) - p.z;
+    line.iter().max_by(|a, b| below(a).total_cmp(&below(b))).copied()
 }
 
 /// The mesh mirrored at the plane `x = middle`: what is found on its right is the left of the body.
