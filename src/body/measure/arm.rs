@@ -24,7 +24,7 @@ const ELBOW: f64 = 0.364;
 const WRIST: [f64; 2] = [0.66, 0.82];
 
 /// The wrist's joint as a share of the line: constant, and change with the narrowest place (model bodies; 10 mm remain).
-const WRIST_JOINT: [f64; 2] = [0.318, 0.573];
+const WRIST_JOINT: [f64; 2] = [0.317, 0.573];
 
 /// A section across the arm.
 #[derive(Clone, Copy, Debug)]

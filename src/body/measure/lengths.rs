@@ -2,9 +2,9 @@
 
 use super::arm::Arm;
 use super::confidence::{self, Confidence};
-use super::landmarks;
-use super::sites::{self, Sites, steps};
-use super::slices::Slices;
+use super::neck_base;
+use super::sites::{self, Sites};
+use super::slices::{Slices, steps};
 use super::tailor::{self, Marks, Taken};
 use super::tape;
 use crate::{BodyError, Dimension, Girths, Sex};
@@ -88,7 +88,7 @@ const ANKLE: [f64; 2] = [0.10, 0.30];
 pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<Measured, BodyError> {
     let (sites, sex) = sites::find_sites(mesh, sex)?;
     let median = median_section(mesh, &sites);
-    let front_neck = landmarks::front_neck(mesh, &sites);
+    let front_neck = neck_base::front_neck(mesh, &sites);
     let marks = Marks::of_mesh(mesh, &sites, sex);
     let arm = marks.arm.as_ref();
     let leg = |range: [f64; 2]| leg_girths(mesh, &sites, range);

@@ -6,7 +6,7 @@
 
 use super::arm::Arm;
 use super::landmarks::{self, Side, median_point, shoulder_top};
-use super::sites::steps;
+use super::slices::steps;
 use super::tape::{self, Neck};
 use crate::Sex;
 use geom::{TriMesh, V3};

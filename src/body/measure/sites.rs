@@ -2,7 +2,7 @@
 
 use super::landmarks::crotch;
 use super::shoulder::Frame;
-use super::slices::{Sliced, Slices};
+use super::slices::{Sliced, Slices, steps};
 use super::tape::{self, Neck};
 use crate::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
@@ -260,11 +260,6 @@ fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64
     let joint = shoulder.z - 0.03 * stature;
     let root = high + along * ((joint - high.z) / along.z);
     Some((root + along * 0.088 * stature, along))
-}
-
-/// `count + 1` evenly spaced numbers from `from` to `to`.
-pub(crate) fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
-    (0..=count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count))
 }
 
 #[cfg(test)]

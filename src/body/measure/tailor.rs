@@ -3,7 +3,9 @@
 
 use super::arm::Arm;
 use super::landmarks::{self, Side, median_point};
-use super::sites::{Sites, steps};
+use super::neck_base;
+use super::sites::Sites;
+use super::slices::steps;
 use super::tape;
 use crate::{Body, Joint, Sex};
 use geom::section::{Outline, Plane, section};
@@ -53,7 +55,7 @@ impl Marks {
             waist: sites.waist,
             shoulder,
             back_neck: sites.back_neck,
-            side_neck: landmarks::side_neck(mesh, sites, shoulder),
+            side_neck: neck_base::side_neck(mesh, sites, shoulder),
             armpit,
             bust: bust[0].zip(bust[1]).map(|(right, left)| [right, left]),
             arm: armpit.and_then(|armpit| Arm::trace(mesh, shoulder, armpit, stature)),

@@ -1,6 +1,7 @@
 //! The tape on limbs whose axes are known.
 
-use crate::measure::sites::{Sites, steps};
+use crate::measure::sites::Sites;
+use crate::measure::slices::steps;
 use crate::measure::tape;
 use crate::shape::figure::Figure;
 use crate::{Dimension, Girths};

@@ -3,8 +3,8 @@
 //! Left and right are found each for itself: the left side is that of the mirrored mesh.
 
 use crate::measure::arm::Arm;
-use crate::measure::landmarks;
 use crate::measure::sites::{self, Sites};
+use crate::measure::{landmarks, neck_base};
 use crate::model::control::{ControlMesh, Layer};
 use crate::model::control_cut::{Cuts, control_mesh};
 use crate::shape::atlas::Atlas;
@@ -48,7 +48,7 @@ impl Half {
             .or_else(|| landmarks::armpit_of_spread(mesh, shoulder, stature))
             .ok_or_else(|| missing("armpit", sites.chest))?;
         let arm = Arm::trace(mesh, shoulder, armpit, stature).ok_or_else(|| missing("arm", armpit.z))?;
-        let side_neck = landmarks::side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
+        let side_neck = neck_base::side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
         Ok(Self { shoulder, side_neck, armpit, arm })
     }
 }
@@ -93,7 +93,7 @@ fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half)
         side_neck: [right.side_neck, mirror(left.side_neck)],
         shoulder: [right.shoulder, mirror(left.shoulder)],
         back_neck: sites.back_neck,
-        front_neck: landmarks::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
+        front_neck: neck_base::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
         armpit: [right.armpit, mirror(left.armpit)],
         bust: [bust(1.0)?, bust(-1.0)?],
         crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
