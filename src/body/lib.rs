@@ -27,9 +27,11 @@ mod testing;
 
 pub use error::BodyError;
 pub use files::import::{Imported, LengthUnit, import, write_obj};
+pub use measure::confidence::Confidence;
 pub use measure::girths::Girths;
 pub use measure::lengths::{Lengths, Measured, lengths};
 pub use measure::sites::measure;
+pub use measure::tailor::Taken;
 pub use model::build::build;
 pub use model::control::{ControlMesh, Layer, RING, Region};
 pub use model::control_file::{ControlFile, read_control, write_control};
@@ -156,10 +158,24 @@ impl Body {
         measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
     }
 
+    /// What a tailor takes on the body beside its girths.
+    #[must_use]
+    pub fn tailor(&self) -> Vec<Taken> {
+        measure::tailor::of_body(self)
+    }
+
     /// The tapes round chest, underbust, waist and hip, as bands on the skin to be drawn; metres.
     #[must_use]
     pub fn tapes(&self) -> TriMesh {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
         measure::tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
+    }
+
+    /// The lines along which a tailor measures, as bands to be drawn; metres.
+    #[must_use]
+    pub fn lines(&self) -> TriMesh {
+        let mut bands = TriMesh::default();
+        self.tailor().iter().for_each(|taken| measure::tape::draw(&mut bands, &taken.path));
+        bands
     }
 }

@@ -156,3 +156,9 @@ pub fn png(picture: &image::GrayImage) -> Vec<u8> {
     picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture in memory");
     bytes.into_inner()
 }
+
+/// The reference bodies beside the project, where they are.
+pub fn reference_bodies() -> Option<std::path::PathBuf> {
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
+    folder.is_dir().then(|| folder.to_path_buf())
+}

@@ -88,18 +88,18 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
         context.say(format_args!("{doubt}"));
     }
     context.say(format_args!("{}", judgement.mass));
-    print(context, &body.girths)
+    print(context, &bodies::read_body(&body))
 }
 
 /// Writes a body's files and prints its measurements.
 fn write(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     write_files(context, body, folder)?;
-    if context.json { Ok(output::json(&body.girths)?) } else { print(context, &body.girths) }
+    print(context, &bodies::read_body(body))
 }
 
 /// Writes mesh, picture, measurements and control mesh of a body.
 fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
-    let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
+    let document = serde_json::to_string_pretty(&bodies::read_body(body)).map_err(std::io::Error::from)?;
     let mut files = vec![
         ("body.obj".to_owned(), bodies::write_obj(&body.mesh).into_bytes()),
         ("body.png".to_owned(), bodies::body_picture(body, View::Quarter, PICTURE.0, PICTURE.1)?),
@@ -202,14 +202,26 @@ fn pictured(
     Ok(found.measurements)
 }
 
-/// Prints measurements: a table for reading, the contract's keys as JSON.
-fn print(context: &Context, girths: &impl serde::Serialize) -> Result<(), CliError> {
+/// Prints measurements: a table for reading, with the standard deviation and its reason where they are known; the contract's keys
+/// as JSON.
+fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError> {
     if context.json {
-        return Ok(output::json(girths)?);
+        return Ok(output::json(read)?);
     }
-    let document = serde_json::to_value(girths).map_err(std::io::Error::from)?;
+    let document = serde_json::to_value(read).map_err(std::io::Error::from)?;
     let tenth = |value: &Json| value.as_f64().map_or(Value::Null, |number| Value::Real((number * 10.0).round() / 10.0));
-    let rows =
-        document.as_object().into_iter().flatten().map(|(name, value)| vec![Value::Text(name.clone()), tenth(value)]);
-    context.print(&Table { columns: vec!["measurement".into(), "value".into()], rows: rows.collect() })
+    let confidence = &document["confidence"];
+    let row = |(name, value): (&String, &Json)| {
+        let mut row = vec![Value::Text(name.clone()), tenth(value)];
+        if confidence.is_object() {
+            let known = &confidence[name];
+            let sd = known.get("sd_mm").or_else(|| known.get("sd_deg")).map_or(Value::Null, tenth);
+            row.extend([sd, known["reason"].as_str().map_or(Value::Null, |text| Value::Text(text.to_owned()))]);
+        }
+        row
+    };
+    let rows = document.as_object().into_iter().flatten().filter(|(_, value)| !value.is_object()).map(row);
+    let columns = ["measurement", "value", "sd", "limited by"].map(str::to_owned);
+    let shown = if confidence.is_object() { columns.len() } else { 2 };
+    context.print(&Table { columns: columns[..shown].to_vec(), rows: rows.collect() })
 }

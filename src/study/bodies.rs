@@ -1,5 +1,6 @@
 //! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::{InFile, Result, StudyError};
@@ -22,9 +23,9 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
 /// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
 #[derive(Debug, serde::Serialize)]
 pub struct Judgement<'a> {
-    /// What the tape reads.
+    /// What is measured.
     #[serde(flatten)]
-    pub girths: &'a Girths,
+    pub read: Read<'a>,
     /// Measurements that few people alike have.
     pub doubts: Vec<Doubt>,
     /// Mass from the volume.
@@ -32,11 +33,29 @@ pub struct Judgement<'a> {
     pub mass: Mass,
 }
 
+/// What is measured on a body: the keys of `body measure`.
+#[derive(Debug, serde::Serialize)]
+pub struct Read<'a> {
+    /// What the tape reads.
+    #[serde(flatten)]
+    pub girths: &'a Girths,
+    /// What a tailor takes beside it, by key.
+    #[serde(flatten)]
+    pub tailor: BTreeMap<&'static str, Option<f64>>,
+}
+
+/// Everything that is measured on a body.
+#[must_use]
+pub fn read_body(body: &Body) -> Read<'_> {
+    let tailor = body.tailor().into_iter().map(|taken| (taken.key, taken.written)).collect();
+    Read { girths: &body.girths, tailor }
+}
+
 /// Judges a built body.
 #[must_use]
 pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
     Judgement {
-        girths: &body.girths,
+        read: read_body(body),
         doubts: body::plausibility(measurements),
         mass: Mass::of(body.girths.volume_l(), measurements.get(Dimension::Weight)),
     }
@@ -121,13 +140,17 @@ pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
 
-/// A picture of a body with the tapes of its girths as PNG bytes.
+/// A picture of a body with the tapes of its girths and a tailor's lines as PNG bytes.
 ///
 /// # Errors
 /// When the mesh cannot be drawn.
 pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
-    let tapes = body.tapes();
-    let layers = vec![Layer::new(&body.mesh, Material::form()), Layer::new(&tapes, Material::hybrid())];
+    let (tapes, lines) = (body.tapes(), body.lines());
+    let layers = vec![
+        Layer::new(&body.mesh, Material::form()),
+        Layer::new(&tapes, Material::hybrid()),
+        Layer::new(&lines, Material::fem()),
+    ];
     let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
     let picture =

@@ -1,8 +1,8 @@
 //! Points of a body mesh that can be told from its sections alone.
 
-use super::sites::{Sites, steps};
-use super::slices::{Sliced, Slices};
+use super::slices::{Sliced, Slices, steps};
 use super::tape;
+use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
@@ -132,17 +132,22 @@ pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
 }
 
-/// Heights over stature between which the front neck point is searched.
-const FRONT_NECK: [f64; 2] = [0.775, 0.855];
+/// Distance of the nipples from the median plane: constant, change with the chest's girth, both over stature, and what women have
+/// more. Least squares over 199 model bodies; 8 mm remain.
+const NIPPLES_OUT: [f64; 3] = [0.0065, 0.0836, 0.0092];
 
-/// The front neck point: where the front bends from the chest into the neck, farthest behind the chord between both.
-pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
-    let at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
-    let upper = tape::above(mesh, at(FRONT_NECK[0] - 0.05));
-    let heights = steps(at(FRONT_NECK[0]), at(FRONT_NECK[1]).min(sites.neck.height), 32);
-    let line: Vec<V3> = heights.filter_map(|z| median_point(&upper, z, sites.middle, Side::Front)).collect();
-    let (first, last) = (line.first()?, line.last()?);
-    let slope = (last.y - first.y) / (last.z - first.z);
-    let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
-    line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
+/// The bust point of one side at height `z` of a bare mesh: the front of the chest where a chest of that girth has its nipples.
+pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2], sex: Sex) -> Option<V3> {
+    let [middle, stature] = frame;
+    let outline = tape::trunk_outline(mesh, z, middle)?;
+    let [constant, girth, woman] = NIPPLES_OUT;
+    let woman = if sex == Sex::Female { woman } else { 0.0 };
+    let x = middle + sign * ((constant + woman) * stature + girth * tape::girth(&outline));
+    Some(V3::new(x, tape::edge(&outline, x, 1.0)?, z))
+}
+
+/// The mesh mirrored at the plane `x = middle`: what is found on its right is the left of the body.
+pub(crate) fn mirrored(mesh: &TriMesh, middle: f64) -> TriMesh {
+    let positions = mesh.positions.iter().map(|p| V3::new(2.0 * middle - p.x, p.y, p.z)).collect();
+    TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }
 }

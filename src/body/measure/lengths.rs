@@ -1,9 +1,11 @@
 //! Lengths along the surface and girths of the limbs, names after ISO 8559-1; the tape is taut and spans hollows.
 
 use super::arm::Arm;
-use super::landmarks;
-use super::sites::{self, Sites, steps};
-use super::slices::Slices;
+use super::confidence::{self, Confidence};
+use super::neck_base;
+use super::sites::{self, Sites};
+use super::slices::{Slices, steps};
+use super::tailor::{self, Marks, Taken};
 use super::tape;
 use crate::{BodyError, Dimension, Girths, Sex};
 use geom::section::{Plane, section};
@@ -23,6 +25,10 @@ pub struct Lengths {
     pub total_crotch_length_m: Option<f64>,
     /// Height of the greatest girth of the right calf.
     pub calf_level_m: Option<f64>,
+    /// Height of the middle of the right knee, as stature and crotch tell it.
+    pub knee_level_m: Option<f64>,
+    /// Girth round the right elbow, the arm straight.
+    pub elbow_girth_m: Option<f64>,
 }
 
 /// Girths and lengths together: one flat set of names, written in millimetres and litres.
@@ -32,10 +38,15 @@ pub struct Measured {
     pub girths: Girths,
     /// Lengths.
     pub lengths: Lengths,
+    /// What a tailor takes beside them.
+    pub tailor: Vec<Taken>,
+    /// How well each of them is known, by key.
+    pub confidence: Vec<Confidence>,
 }
 
-impl serde::Serialize for Measured {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+impl Measured {
+    /// Every key with its value, as it is written.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let lengths = &self.lengths;
         let lengths = [
             ("cervicale_height_mm", Some(lengths.cervicale_height_m)),
@@ -43,9 +54,26 @@ impl serde::Serialize for Measured {
             ("front_waist_length_mm", lengths.front_waist_length_m),
             ("total_crotch_length_mm", lengths.total_crotch_length_m),
             ("calf_level_mm", lengths.calf_level_m),
+            ("knee_level_mm", lengths.knee_level_m),
+            ("elbow_girth_mm", lengths.elbow_girth_m),
         ];
         let lengths = lengths.into_iter().map(|(key, length)| (key, length.map(mm)));
-        serializer.collect_map(self.girths.entries().chain(lengths))
+        let tailor = self.tailor.iter().map(|taken| (taken.key, taken.written));
+        self.girths.entries().chain(lengths).chain(tailor)
+    }
+}
+
+impl serde::Serialize for Measured {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut document = serde_json::Map::new();
+        document.extend(self.entries().map(|(key, value)| (key.to_owned(), value.into())));
+        let of = |known: &Confidence| {
+            let unit = known.key.rsplit('_').next().unwrap_or_default();
+            serde_json::json!({ format!("sd_{unit}"): known.sd, "reason": known.reason })
+        };
+        let confidence = self.confidence.iter().map(|known| (known.key.to_owned(), of(known))).collect();
+        document.insert("confidence".to_owned(), serde_json::Value::Object(confidence));
+        document.serialize(serializer)
     }
 }
 
@@ -58,30 +86,38 @@ const ANKLE: [f64; 2] = [0.10, 0.30];
 /// # Errors
 /// Those of [`crate::measure()`].
 pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<Measured, BodyError> {
-    let (sites, _) = sites::find_sites(mesh, sex)?;
+    let (sites, sex) = sites::find_sites(mesh, sex)?;
     let median = median_section(mesh, &sites);
-    let front_neck = landmarks::front_neck(mesh, &sites);
-    let arm = landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, sites.middle)
-        .and_then(|armpit| Arm::trace(mesh, sites.shoulder[0], armpit, sites.crown - sites.floor));
+    let front_neck = neck_base::front_neck(mesh, &sites);
+    let marks = Marks::of_mesh(mesh, &sites, sex);
+    let arm = marks.arm.as_ref();
     let leg = |range: [f64; 2]| leg_girths(mesh, &sites, range);
     let calf = leg(CALF).into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
     let ankle = leg(ANKLE).into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-    let wrist = arm.as_ref().and_then(|arm| {
+    let wrist = arm.and_then(|arm| {
         let plane = arm.across(arm.wrist());
         tape::girth_round(mesh, plane.origin, plane.normal())
     });
     girths.set(Dimension::CalfGirth, calf.map(|(_, girth)| girth));
     girths.set(Dimension::AnkleGirth, ankle.map(|(_, girth)| girth));
     girths.set(Dimension::WristGirth, wrist);
-    girths.set(Dimension::ArmLength, arm.as_ref().map(|arm| arm_length(arm, sites.shoulder[0])));
+    let [elbow, forearm] = arm.map_or([None; 2], |arm| tailor::elbow_and_forearm(mesh, arm));
+    let knee = tailor::knee_level(&marks);
+    girths.set(Dimension::KneeGirth, tape::leg_girth(mesh, knee, sites.middle));
+    girths.set(Dimension::ForearmGirth, forearm);
+    girths.set(Dimension::ArmLength, arm.map(|arm| arm_length(arm, sites.shoulder[0])));
     let lengths = Lengths {
         cervicale_height_m: sites.back_neck.z - sites.floor,
         back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
         front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
         total_crotch_length_m: crotch_length(&median, sites.waist),
         calf_level_m: calf.map(|(z, _)| z - sites.floor),
+        knee_level_m: Some(knee - sites.floor),
+        elbow_girth_m: elbow,
     };
-    Ok(Measured { girths, lengths })
+    let confidence = confidence::of(mesh, &sites, &marks);
+    let tailor = tailor::take(mesh, &marks);
+    Ok(Measured { girths, lengths, tailor, confidence })
 }
 
 /// The points of the median section of the trunk: forward and up.
@@ -121,7 +157,7 @@ fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
 }
 
 fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
-    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist()).0);
+    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist_joint()).0);
     (elbow - shoulder).norm() + (wrist - elbow).norm()
 }
 
@@ -130,12 +166,7 @@ fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)>
     let inseam = sites.crotch - sites.floor;
     let [low, high] = range.map(|share| sites.floor + share * inseam);
     let leg = Slices::new(mesh, low, high);
-    let girth = |z: f64| {
-        let legs = tape::right_limbs(&leg, z, sites.middle);
-        let inner = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))?;
-        Some((z, tape::girth(inner)))
-    };
-    steps(low, high, 40).filter_map(girth).collect()
+    steps(low, high, 40).filter_map(|z| Some((z, tape::leg_girth(&leg, z, sites.middle)?))).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Measuring any upright body mesh: the levels are found on the mesh, then the tape is laid.
 
-use super::landmarks::{Side, crotch, median_point, shoulder_top};
-use super::slices::{Sliced, Slices};
+use super::landmarks::crotch;
+use super::shoulder::Frame;
+use super::slices::{Sliced, Slices, steps};
 use super::tape::{self, Neck};
 use crate::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
@@ -24,6 +25,8 @@ pub(crate) struct Sites {
     /// Shoulder points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
+    /// Standard deviations of a shoulder point's distance from the median plane, and of the back neck point's height, metres.
+    pub upper_sd: [f64; 2],
     /// Middle of the right upper arm, and the direction of the arm.
     pub upper_arm: Option<(V3, V3)>,
 }
@@ -44,9 +47,6 @@ impl Sites {
 
 /// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]; it has no mark on the skin.
 const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
-
-/// Height of the back neck point over stature, men and women together [Gordon 2014].
-const CERVICALE: f64 = 0.8617;
 
 /// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist
 /// (else it is told from neck, hip and waist girth).
@@ -108,15 +108,14 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex
     let underbust = underbust_level(mesh, chest, stature, middle);
     let upper = tape::above(mesh, at(0.7));
     let neck = tape::neck(&upper, at(0.83), at(0.90), middle).ok_or_else(|| missing("neck", at(0.87)))?;
-    let back_neck =
-        median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
-    let shoulder = shoulder_points(&upper, low.z, stature, middle).ok_or_else(|| missing("shoulder", at(0.82)))?;
     let hip_girth = tape::trunk_girth(mesh, hip, middle).ok_or_else(|| missing("hip", hip))?;
     let about_waist = at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0);
     let waist_girth = tape::trunk_girth(mesh, about_waist, middle).ok_or_else(|| missing("waist", about_waist))?;
     let sex = sex.unwrap_or_else(|| likely_sex([neck.girth, hip_girth, waist_girth].map(|girth| girth / stature)));
     let waist = at(ISO_WAIST[usize::from(sex == Sex::Female)]);
-    let upper_arm = upper_arm(mesh, shoulder[0], low.z, stature, middle);
+    let frame = Frame { upper: &upper, mesh, floor: low.z, stature, middle, waist, neck: &neck, sex };
+    let found = frame.find().ok_or_else(|| missing("shoulder", at(0.82)))?;
+    let upper_arm = upper_arm(mesh, found.shoulder[0], low.z, stature, middle);
     let sites = Sites {
         floor: low.z,
         crown: high.z,
@@ -127,8 +126,9 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex
         underbust,
         chest,
         neck,
-        shoulder,
-        back_neck,
+        shoulder: found.shoulder,
+        back_neck: found.back_neck,
+        upper_sd: found.sd,
         upper_arm,
     };
     Ok((sites, sex))
@@ -246,27 +246,6 @@ pub(crate) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     falling[stop].0
 }
 
-/// Shoulder points: at their usual distance from the median plane, moved by a share of how far off the line over the
-/// shoulder turns from the slope of the trapezius to that of the arm. The bone that defines them does not show on the skin,
-/// and the turn alone was the poorer guide on the reference bodies.
-fn shoulder_points(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<[V3; 2]> {
-    /// Mean over stature of the six reference bodies.
-    const USUAL: f64 = 0.1148;
-    /// Fall per distance at the turn, and how much the turn counts.
-    const TURN: f64 = 0.70;
-    const SHARE: f64 = 0.25;
-    let ceiling = floor + 0.86 * stature;
-    let point = |sign: f64| {
-        let at = |x: f64| shoulder_top(mesh, middle + sign * x, ceiling);
-        let tops: Vec<V3> = steps(0.075 * stature, 0.16 * stature, 43).filter_map(at).collect();
-        let fall = |i: usize| (tops[i - 3].z - tops[i + 3].z) / (tops[i + 3].x - tops[i - 3].x).abs();
-        let turn = (3..tops.len().saturating_sub(3)).find(|&i| fall(i) > TURN);
-        let seen = turn.map_or(USUAL * stature, |i| (tops[i].x - middle).abs());
-        at(SHARE * seen + (1.0 - SHARE) * USUAL * stature)
-    };
-    Some([point(1.0)?, point(-1.0)?])
-}
-
 /// Middle of the right upper arm and the arm's direction, from the outlines of the hanging arm.
 fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<(V3, V3)> {
     let centre = |share: f64| {
@@ -281,11 +260,6 @@ fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64
     let joint = shoulder.z - 0.03 * stature;
     let root = high + along * ((joint - high.z) / along.z);
     Some((root + along * 0.088 * stature, along))
-}
-
-/// `count + 1` evenly spaced numbers from `from` to `to`.
-pub(crate) fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
-    (0..=count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count))
 }
 
 #[cfg(test)]

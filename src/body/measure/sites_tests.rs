@@ -1,12 +1,6 @@
 use super::*;
-use crate::testing::in_mm;
+use crate::testing::{in_mm, reference_bodies};
 use crate::{Measurements, build, import, write_obj};
-
-/// The reference bodies beside the project, where they are.
-fn reference_bodies() -> Option<std::path::PathBuf> {
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
-    folder.is_dir().then(|| folder.to_path_buf())
-}
 
 #[test]
 fn the_reference_bodies_measure_as_known() {

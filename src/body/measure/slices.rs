@@ -70,6 +70,11 @@ impl Sliced for Slices<'_> {
     }
 }
 
+/// `count + 1` evenly spaced numbers from `from` to `to`.
+pub(crate) fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
+    (0..=count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

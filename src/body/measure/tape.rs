@@ -37,6 +37,20 @@ pub(crate) fn right_limbs(mesh: &impl Sliced, z: f64, x: f64) -> Vec<Outline> {
     mesh.slice(z).into_iter().filter(|outline| is_right_limb(outline, x)).collect()
 }
 
+/// Girth of the right leg at a height.
+pub(crate) fn leg_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> {
+    let legs = right_limbs(mesh, z, middle);
+    legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x)).map(girth)
+}
+
+/// The foremost (`side` 1) or hindmost (-1) place of an outline at a distance from the median plane.
+pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
+    let next = outline.points.iter().cycle().skip(1);
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
+    let places = crossings.map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x));
+    places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
+}
+
 /// Whether an outline is of limb size and lies to the right of `x`.
 pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
     outline.bounds().0.x > x && hull::perimeter(&outline.points) > SMALLEST_PART
@@ -169,6 +183,24 @@ pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
         }));
     }
     bands
+}
+
+/// Adds a band along a line on the skin, to be drawn: upright where the line runs level, else across its direction.
+pub(crate) fn draw(bands: &mut TriMesh, path: &[V3]) {
+    let [half, _] = TAPE;
+    for pair in path.windows(2) {
+        let Some(along) = (pair[1] - pair[0]).try_normalize(1e-6) else { continue };
+        let level = V3::new(along.y, -along.x, 0.0).try_normalize(0.3).unwrap_or_else(V3::x);
+        let across = along.cross(&level).normalize();
+        let first = bands.positions.len();
+        for sides in [across, level] {
+            let shift = sides * half * 0.6;
+            bands.positions.extend([pair[0] - shift, pair[1] - shift, pair[1] + shift, pair[0] + shift]);
+        }
+        bands
+            .triangles
+            .extend([0, 4].map(|face| first + face).into_iter().flat_map(|a| [[a, a + 1, a + 2], [a, a + 2, a + 3]]));
+    }
 }
 
 /// Front and back extent of an outline.

@@ -62,6 +62,7 @@ pub(super) fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError>
         neck,
         shoulder: [V3::zeros(); 2],
         back_neck: V3::zeros(),
+        upper_sd: [0.0; 2],
         upper_arm: None,
     };
     held_sites(mesh, figure, &level)

@@ -1,10 +1,11 @@
 //! The tape on limbs whose axes are known.
 
-use crate::measure::sites::{Sites, steps};
+use crate::measure::sites::Sites;
+use crate::measure::slices::steps;
 use crate::measure::tape;
 use crate::shape::figure::Figure;
 use crate::{Dimension, Girths};
-use geom::section::{Outline, Plane, section};
+use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
 /// Half of the heights over stature among which the greatest calf and the smallest ankle are looked for.
@@ -45,7 +46,7 @@ impl LimbSites {
     pub fn read(&self, mesh: &TriMesh, girths: &mut Girths) {
         let h = self.stature;
         let shank = mesh.part(|p| p.z < self.knee + 0.03 * h && p.x > 0.0);
-        let leg = |z: f64| leg_girth(&shank, z);
+        let leg = |z: f64| tape::leg_girth(&shank, z, 0.0);
         girths.set(Dimension::KneeGirth, leg(self.knee));
         let calf = steps(self.calf - CALF_REACH * h, self.calf + CALF_REACH * h, 6).filter_map(leg);
         girths.set(Dimension::CalfGirth, calf.max_by(f64::total_cmp));
@@ -69,11 +70,4 @@ impl LimbSites {
         let (elbow, wrist) = (outside(self.elbow)?, outside(self.wrist)?);
         Some((elbow - self.shoulder).norm() + (wrist - elbow).norm())
     }
-}
-
-/// Girth of the leg at a height.
-fn leg_girth(legs: &TriMesh, z: f64) -> Option<f64> {
-    let inner = |outline: &Outline| outline.bounds().0.x;
-    let limbs = tape::right_limbs(legs, z, 0.0);
-    limbs.iter().min_by(|a, b| inner(a).total_cmp(&inner(b))).map(tape::girth)
 }

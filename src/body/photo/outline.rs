@@ -2,7 +2,8 @@
 
 use super::pictures::{Camera, refused};
 use super::silhouette::{Mask, Run};
-use crate::measure::sites::{CHEST, steps, usual_chest};
+use crate::measure::sites::{CHEST, usual_chest};
+use crate::measure::slices::steps;
 use crate::shape::sections::{Level, Section};
 use crate::{BodyError, Sex};
 

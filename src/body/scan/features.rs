@@ -3,9 +3,8 @@
 //! Left and right are found each for itself: the left side is that of the mirrored mesh.
 
 use crate::measure::arm::Arm;
-use crate::measure::landmarks;
 use crate::measure::sites::{self, Sites};
-use crate::measure::tape;
+use crate::measure::{landmarks, neck_base};
 use crate::model::control::{ControlMesh, Layer};
 use crate::model::control_cut::{Cuts, control_mesh};
 use crate::shape::atlas::Atlas;
@@ -22,9 +21,9 @@ pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let (sites, _) = sites::find_sites(&mesh, Some(sex))?;
     let girths = sites::girths_at(&mesh, &sites)?;
     let right = Half::find(&mesh, &sites, sites.shoulder[0])?;
-    let mirrored = mirrored(&mesh);
+    let mirrored = landmarks::mirrored(&mesh, 0.0);
     let left = Half::find(&mirrored, &sites, mirror(sites.shoulder[1]))?;
-    let landmarks = landmarks(&mesh, &sites, &right, &left)?;
+    let landmarks = landmarks(&mesh, sex, &sites, &right, &left)?;
     let mut control = control_mesh(&mesh, &cuts(&mesh, sex, &sites, &landmarks, &right))?;
     let of_left = control_mesh(&mirrored, &cuts(&mirrored, sex, &sites, &landmarks, &left))?;
     take_left(&mut control, &of_left);
@@ -49,7 +48,7 @@ impl Half {
             .or_else(|| landmarks::armpit_of_spread(mesh, shoulder, stature))
             .ok_or_else(|| missing("armpit", sites.chest))?;
         let arm = Arm::trace(mesh, shoulder, armpit, stature).ok_or_else(|| missing("arm", armpit.z))?;
-        let side_neck = side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
+        let side_neck = neck_base::side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
         Ok(Self { shoulder, side_neck, armpit, arm })
     }
 }
@@ -60,11 +59,6 @@ fn missing(part: &'static str, z: f64) -> BodyError {
 
 fn mirror(p: V3) -> V3 {
     V3::new(-p.x, p.y, p.z)
-}
-
-fn mirrored(mesh: &TriMesh) -> TriMesh {
-    let positions = mesh.positions.iter().copied().map(mirror).collect();
-    TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }
 }
 
 /// Gives a control mesh the left limbs of that of the mirrored body (which are its right ones, mirrored back).
@@ -89,32 +83,17 @@ fn take_left(control: &mut ControlMesh, of_left: &ControlMesh) {
     }
 }
 
-/// Where the line over the shoulder bends from the neck into the shoulder: the point farthest below the chord from the side of
-/// the neck to the shoulder point.
-fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
+fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half) -> Result<Landmarks, BodyError> {
     let stature = sites.crown - sites.floor;
-    let neck = tape::trunk_outline(mesh, sites.neck.height, 0.0)?;
-    let inner = neck.bounds().1.x;
-    let upper = tape::above(mesh, shoulder.z - 0.05 * stature);
-    let ceiling = sites.neck.height;
-    let line: Vec<V3> = sites::steps(inner * 0.97, shoulder.x, 40)
-        .filter_map(|x| landmarks::shoulder_top(&upper, x, ceiling))
-        .collect();
-    let (first, last) = (line.first()?, line.last()?);
-    let slope = (last.z - first.z) / (last.x - first.x);
-    let below = |p: &V3| first.z + slope * (p.x - first.x) - p.z;
-    line.iter().max_by(|a, b| below(a).total_cmp(&below(b))).copied()
-}
-
-fn landmarks(mesh: &TriMesh, sites: &Sites, right: &Half, left: &Half) -> Result<Landmarks, BodyError> {
-    let stature = sites.crown - sites.floor;
-    let bust =
-        |sign: f64| landmarks::bust_point(mesh, sites.chest, sign, stature).ok_or_else(|| missing("bust", sites.chest));
+    let bust = |sign: f64| {
+        landmarks::usual_bust_point(mesh, sites.chest, sign, [0.0, stature], sex)
+            .ok_or_else(|| missing("bust", sites.chest))
+    };
     Ok(Landmarks {
         side_neck: [right.side_neck, mirror(left.side_neck)],
         shoulder: [right.shoulder, mirror(left.shoulder)],
         back_neck: sites.back_neck,
-        front_neck: landmarks::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
+        front_neck: neck_base::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
         armpit: [right.armpit, mirror(left.armpit)],
         bust: [bust(1.0)?, bust(-1.0)?],
         crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
