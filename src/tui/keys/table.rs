@@ -139,7 +139,7 @@ pub const BINDINGS: &[Binding] = &[
         &[ch('o')],
         &[Styles],
         "piece",
-        "Ask what the piece is worn as; again: pieces left out",
+        "What the piece is; again: pieces that are left out",
     ),
     bind(
         Action::Import(Part::Style),

@@ -207,7 +207,9 @@ fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
         Ok(Previewed { subject: "male-i".into(), fabric: "poplin".into(), hung, remarks, took_ms: 400 })
     };
     bench.send(Message::Previewed(Box::new(first.clone()), seen(Hung::Draped, "red edges are in no seam")));
-    assert!(bench.screen().contains("✓ sewn and draped coarsely; red") && bench.screen().contains("on male-i · front"));
+    assert!(
+        bench.screen().contains("✓ sewn and draped coarsely; red") && bench.screen().contains("on male-i in poplin")
+    );
     bench.press("<Enter>x");
     let next = sewn(&bench).pop().expect("it is asked for again");
     assert!(next.number > first.number && next.size.seams.is_some());
