@@ -114,11 +114,9 @@ impl<'a> Settling<'a> {
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
         let mut system = self.system(self.contact(begin, &x, run), &x);
-        self.stand(&mut system, &mut x, run)?;
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);
-            system.contact.set_floor(self.around.floor_m);
             residual = self.frictionless(&mut system, &mut x, shape.is_passing, run)?;
         }
         if shapes.is_empty() {
@@ -130,8 +128,8 @@ impl<'a> Settling<'a> {
                 self.hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
             } else {
                 system.contact = self.contact(around.field, &x, run);
-                system.contact.set_floor(self.around.floor_m);
             }
+            self.stand(&mut system, &mut x, run)?;
             residual = self.hold(&mut system, &mut x, run)?;
         }
         let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
@@ -149,12 +147,12 @@ impl<'a> Settling<'a> {
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
         let mut system = self.system(self.contact(field, x, run), x);
-        self.stand(&mut system, x, run)?;
         let phase = Phase::easing(run.params(), level, run.levels(), tolerance);
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
 
-    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it.
+    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it. Until the cloth
+    /// has come to rest without friction there is none, so that what slides off the body is seen to.
     fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
         let floor_m = self.around.floor_m;
         let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;
