@@ -129,8 +129,11 @@ impl<'a> Settling<'a> {
             } else {
                 system.contact = self.contact(around.field, &x, run);
             }
-            self.stand(&mut system, &mut x, run)?;
             residual = self.hold(&mut system, &mut x, run)?;
+            if self.is_below_floor(&x) {
+                self.stand(&mut system, &mut x, run)?;
+                residual = self.hold(&mut system, &mut x, run)?;
+            }
         }
         let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
         let (positions, triangles) = (cloth.unweld(&x), cloth.triangles.clone());
@@ -151,8 +154,12 @@ impl<'a> Settling<'a> {
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
 
-    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it. Until the cloth
-    /// has come to rest without friction there is none, so that what slides off the body is seen to.
+    /// Whether cloth that the body holds reaches below the floor. What slides off the body is seen to first: a floor would catch it.
+    fn is_below_floor(&self, x: &[V3]) -> bool {
+        x.iter().any(|p| p.z < self.around.floor_m)
+    }
+
+    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it.
     fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
         let floor_m = self.around.floor_m;
         let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;

@@ -220,7 +220,7 @@ fn sixel_terminals_are_sent_one_string_with_all_pixels() {
 #[test]
 fn tmux_and_terminals_that_name_none_are_sent_half_blocks_in_frames() {
     for vars in
-        [&[("TERM", "xterm-kitty"), ("TMUX", "/tmp/tmux")][..], &[("TERM", "foot"), ("STY", "1")], &[("TERM", "xterm")]]
+        [&[("TERM", "xterm-kitty"), ("TMUX", "tmux,1,0")][..], &[("TERM", "foot"), ("STY", "1")], &[("TERM", "xterm")]]
     {
         let bytes = sent(vars);
         assert_eq!(strings(&bytes, '['), Vec::<&str>::new(), "no strings: {vars:?}");
