@@ -1,11 +1,16 @@
-//! `toile try`: one garment on one body.
+//! `toile try`: a garment, or an outfit, on one body.
+
+use std::path::PathBuf;
 
 use super::args::Try;
 use super::context::Context;
 use super::{CliError, End, Outcome, body, output};
 use geom::units::from_mm;
 use study::patterns::Unit;
-use study::{self, Attempt, Table, Tried, Value, files};
+use study::{self, Attempt, AttemptLayer, Table, Tried, Value, files};
+
+/// What stands for nothing.
+const NONE: &str = "-";
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
@@ -13,36 +18,67 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         body: arguments.body.body.clone(),
         body_unit: arguments.body.body_unit.map(Into::into),
         sex: arguments.body.sex.map(body::of),
-        pattern: arguments.pattern.clone(),
-        seams: arguments.seams.clone(),
-        size: arguments.size.clone(),
+        layers: layers(arguments)?,
         unit: arguments.unit.map(Unit::from),
         allowance_m: from_mm(arguments.allowance_mm),
         answers: arguments.answer.clone(),
         simulator: arguments.sim.into(),
-        fabric: arguments.fabric.clone(),
         edge_length_m: from_mm(arguments.edge_mm),
         repeat: arguments.repeat,
     };
     files::make_folder(&arguments.output)?;
     let mut phase_before = String::new();
-    let tried = study::attempt(&asked, &mut |phase, share| {
+    let all = study::attempt(&asked, &mut |phase, share| {
         if phase != phase_before {
             context.say(format_args!("{phase}, {:.0} %", 100.0 * share));
             phase.clone_into(&mut phase_before);
         }
     })?;
-    for path in files::write_files(&arguments.output, &tried.files)? {
-        context.say(format_args!("wrote {}", path.display()));
+    for tried in &all {
+        let whose = |said: &str| if all.len() > 1 { format!("{}: {said}", tried.garment) } else { said.to_owned() };
+        for path in files::write_files(&arguments.output, &tried.files)? {
+            context.say(format_args!("wrote {}", path.display()));
+        }
+        tried.notes.iter().for_each(|note| context.say(whose(note)));
+        tried.problems.iter().for_each(|problem| output::tell(&whose(problem)));
     }
-    for note in &tried.notes {
-        context.say(note);
+    match &all[..] {
+        [tried] if context.json => output::json(tried)?,
+        _ if context.json => output::json(&all)?,
+        _ => all.iter().try_for_each(|tried| show(context, tried))?,
     }
-    for problem in &tried.problems {
-        output::tell(problem);
-    }
-    show(context, &tried)?;
-    Ok(if tried.problems.is_empty() { End::Done } else { End::CheckFailed })
+    let is_good = all.iter().all(|tried| tried.problems.is_empty());
+    Ok(if is_good { End::Done } else { End::CheckFailed })
+}
+
+/// The garments that were asked for, the inner first: what is said once of several goes for all.
+fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
+    let count = arguments.pattern.len();
+    let of_each = |flag: &str, given: &[String]| match given.len() {
+        0 => Ok(vec![None; count]),
+        1 => Ok(vec![Some(given[0].clone()); count]),
+        n if n == count => Ok(given.iter().map(|one| (one != NONE).then(|| one.clone())).collect()),
+        n => Err(CliError::Usage(format!(
+            "{n} times {flag} for {count} patterns; accepted: one of each pattern, in their order ({NONE} for none)"
+        ))),
+    };
+    let seams = match &arguments.seams[..] {
+        [_] if count > 1 => Err(CliError::Usage(format!(
+            "one --seams for {count} patterns; accepted: one of each pattern, in their order ({NONE} for none)"
+        ))),
+        given => of_each("--seams", given),
+    }?;
+    let (sizes, fabrics) = (of_each("--size", &arguments.size)?, of_each("--fabric", &arguments.fabric)?);
+    let garments = arguments.pattern.iter().zip(seams).zip(sizes.into_iter().zip(fabrics));
+    let layer = |((pattern, seams), (size, fabric)): ((&PathBuf, Option<String>), (Option<String>, Option<String>))| {
+        AttemptLayer {
+            pattern: pattern.clone(),
+            seams: seams.map(PathBuf::from),
+            size,
+            fabric: fabric.unwrap_or_else(|| study::USUAL_FABRIC.to_owned()),
+        }
+    };
+    Ok(garments.map(layer).collect())
 }
 
 /// Rounded to a tenth.
@@ -52,9 +88,6 @@ fn tenths(number: f64) -> Value {
 
 /// The measurements as the last stage left them, what the garment lacks, then the summary; as JSON one document of all.
 fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
-    if context.json {
-        return Ok(output::json(tried)?);
-    }
     let mut columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
     if tried.chi_spread_max.is_some() {
         columns.push("chi_spread".to_owned());

@@ -1,4 +1,4 @@
-//! Where a surface crosses itself, and what it encloses.
+//! Where a surface crosses itself.
 
 use super::{TriMesh, V3};
 
@@ -19,19 +19,6 @@ pub fn self_crossings(mesh: &TriMesh) -> Vec<[usize; 2]> {
     }
     found.sort_unstable();
     found
-}
-
-/// How often the surface winds round a point: 1 inside a closed mesh that is turned outwards, 0 outside
-/// [van Oosterom & Strackee 1983: solid angles].
-#[must_use]
-pub fn winding_number(mesh: &TriMesh, point: V3) -> f64 {
-    let angle = |&[a, b, c]: &[usize; 3]| {
-        let [a, b, c] = [a, b, c].map(|vertex| mesh.positions[vertex] - point);
-        let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-        let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-        2.0 * a.dot(&b.cross(&c)).atan2(below)
-    };
-    mesh.triangles.iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
 
 fn bounds(mesh: &TriMesh, triangle: &[usize; 3]) -> (V3, V3) {
@@ -76,13 +63,5 @@ mod tests {
         let count = ball.positions.len();
         ball.positions[count / 2] *= -1.4;
         assert!(!self_crossings(&ball).is_empty());
-    }
-
-    #[test]
-    fn the_inside_is_told_from_the_outside() {
-        let ball = shapes::sphere(1.0, 8);
-        for (point, wound) in [(V3::zeros(), 1.0), (V3::new(0.9, 0.0, 0.1), 1.0), (V3::new(0.0, 1.2, 0.0), 0.0)] {
-            assert!((winding_number(&ball, point) - wound).abs() < 1e-9, "{point:?}");
-        }
     }
 }

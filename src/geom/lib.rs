@@ -14,6 +14,7 @@ pub mod shapes;
 pub mod surface;
 pub mod triangle;
 pub mod units;
+pub mod winding;
 
 pub use field::DistanceField;
 pub use mesh::TriMesh;

@@ -178,6 +178,12 @@ impl MaterialLine {
         self.arc_m.iter().zip(flat.iter().zip(&draped)).map(|(arc, (flat, draped))| arc * draped / flat).sum()
     }
 
+    /// The line in a garment whose vertices are called otherwise.
+    fn renumbered(&self, name: impl Fn(&usize) -> usize) -> Self {
+        let point = |point: &MaterialPoint| MaterialPoint { vertices: point.vertices.map(|v| name(&v)), ..*point };
+        Self { points: self.points.iter().map(point).collect(), ..self.clone() }
+    }
+
     /// The line after its cloth was drawn elsewhere.
     fn redrawn(&self, before: &[V2], after: &[V2]) -> Self {
         let chords = |rest: &[V2]| -> Vec<f64> {
@@ -295,7 +301,7 @@ pub struct Reinforcement {
 }
 
 /// A sewable garment of one size, meshed.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
     /// Style name.
     pub name: String,
@@ -345,6 +351,41 @@ impl Garment {
         let held = self.pieces.iter().rev().map(|piece| (piece, of(piece)));
         let (piece, points) = held.filter(|(_, points)| !points.is_empty()).max_by_key(|(_, points)| points.len())?;
         Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
+    }
+
+    /// Garments as one, sewn to each other nowhere: pieces, vertices and triangles in their order.
+    #[must_use]
+    pub fn beside(garments: &[&Self]) -> Self {
+        let names: Vec<&str> = garments.iter().map(|garment| garment.name.as_str()).collect();
+        let edge_length_m = garments.iter().map(|garment| garment.edge_length_m).fold(f64::MAX, f64::min);
+        let mut all = Self { name: names.join(" and "), edge_length_m, ..Self::default() };
+        for garment in garments {
+            let (vertex, triangle) = (all.rest.len(), all.triangles.len());
+            let moved = |v: &usize| v + vertex;
+            let laid = |runs: &[MaterialLine]| runs.iter().map(|run| run.renumbered(moved)).collect();
+            all.pieces.extend(garment.pieces.iter().map(|piece| PieceMesh {
+                vertices: piece.vertices.start + vertex..piece.vertices.end + vertex,
+                triangles: piece.triangles.start + triangle..piece.triangles.end + triangle,
+                edges:
+                    piece.edges.iter().map(|(name, edge)| (name.clone(), edge.iter().map(moved).collect())).collect(),
+                ..piece.clone()
+            }));
+            all.rest.extend(&garment.rest);
+            all.triangles.extend(garment.triangles.iter().map(|corners| corners.map(|v| v + vertex)));
+            let pairs = |seam: &SeamMesh| seam.pairs.iter().map(|pair| pair.map(|v| v + vertex)).collect();
+            all.seams.extend(garment.seams.iter().map(|seam| SeamMesh { pairs: pairs(seam), ..seam.clone() }));
+            let measured = |m: &Measurement| Measurement { runs: laid(&m.runs), ..m.clone() };
+            all.measurements.extend(garment.measurements.iter().map(measured));
+            let levels = garment.fit_levels.iter().map(|level| FitLevel { runs: laid(&level.runs), ..level.clone() });
+            all.fit_levels.extend(levels);
+            all.reinforcements.extend(
+                garment
+                    .reinforcements
+                    .iter()
+                    .map(|band| Reinforcement { vertices: band.vertices.iter().map(moved).collect(), ..band.clone() }),
+            );
+        }
+        all
     }
 
     /// The garment with its vertices elsewhere in their pieces' planes: arcs of measurements change as their chords do.

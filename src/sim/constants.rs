@@ -2,14 +2,21 @@
 
 use geom::constants::Constant;
 
-use crate::{cloth, contact, fem, hybrid, laboratory, placement, solver};
-use crate::{distortion, hands, levels, quality, sewing};
+use crate::{cloth, contact, fem, hybrid, laboratory, outfit, placement, solver};
+use crate::{cover, distortion, hands, levels, quality, sewing};
 
 /// All of them, in one order. A result stored with other ones is stale.
 #[must_use]
 pub fn constants() -> Vec<Constant> {
-    let own =
-        [distortion::CONSTANTS, hands::CONSTANTS, levels::CONSTANTS, quality::CONSTANTS, sewing::CONSTANTS].concat();
+    let own = [
+        cover::CONSTANTS,
+        distortion::CONSTANTS,
+        hands::CONSTANTS,
+        levels::CONSTANTS,
+        quality::CONSTANTS,
+        sewing::CONSTANTS,
+    ]
+    .concat();
     let rooms = [
         linalg::constants(),
         own,
@@ -21,6 +28,7 @@ pub fn constants() -> Vec<Constant> {
         hybrid::constants(),
         hybrid::features::constants(),
         laboratory::constants(),
+        outfit::constants(),
     ];
     rooms.concat()
 }

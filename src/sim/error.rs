@@ -21,6 +21,9 @@ pub enum SimError {
     /// A stiffness without an inverse.
     #[error("the stiffness of the drape is singular: part of the cloth is held by nothing; accepted: a drape at rest")]
     Singular,
+    /// What is to be worn over bounds no solid.
+    #[error("{0}; accepted: a body and layers whose surface can be told inside from outside")]
+    Solid(geom::surface::SurfaceError),
     /// No mesh was given.
     #[error("no garment mesh to simulate")]
     NoMesh,

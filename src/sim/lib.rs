@@ -6,6 +6,7 @@
 pub mod cloth;
 mod constants;
 pub mod contact;
+pub mod cover;
 pub mod distortion;
 pub mod drape;
 pub mod error;
@@ -15,6 +16,7 @@ pub mod hands;
 pub mod hybrid;
 pub mod laboratory;
 pub mod levels;
+pub mod outfit;
 pub mod placement;
 pub mod quality;
 pub mod sewing;

@@ -51,13 +51,13 @@ impl<'a> Sewn<'a> {
     /// force `F S F^T / J`, which is that of `S C / J`.
     #[must_use]
     pub fn tensions_n_m(&self) -> Vec<f64> {
-        let tension = |strain: Matrix2<f64>| {
+        let tension = |(triangle, strain): (usize, Matrix2<f64>)| {
             let c = Matrix2::identity() + strain * 2.0;
-            let stress = self.cloth.membrane.material.stress(Tensor::of(&strain)).matrix();
+            let stress = self.cloth.membrane.law(triangle).stress(Tensor::of(&strain)).matrix();
             let area_ratio = c.determinant().max(0.0).sqrt().max(1e-6);
             (greater_eigenvalue(&(stress * c)) / area_ratio).max(0.0)
         };
-        self.at_vertices(self.cloth.membrane.strains(&self.mesh.positions).into_iter().map(tension))
+        self.at_vertices(self.cloth.membrane.strains(&self.mesh.positions).into_iter().enumerate().map(tension))
     }
 
     /// Pressure at each vertex of the sewn cloth, kPa, never below 0: what a drape at rest needs besides its own forces and its
@@ -230,7 +230,7 @@ mod tests {
         let worn = Sewn::new(&tube, &fabric, &positions).expect("a tube");
         let (found, tension) = (worn.pressures_kpa(), worn.tensions_n_m());
         let strain = Tensor { weft: 0.5 * (STRETCH * STRETCH - 1.0), warp: 0.0, shear: 0.0 };
-        let hoop = STRETCH * worn.cloth.membrane.material.stress(strain).weft;
+        let hoop = STRETCH * worn.cloth.membrane.laws()[0].stress(strain).weft;
         let pressure = 1e-3 * hoop / (STRETCH * RADIUS);
         // Away from the free ends, whose vertices have less cloth above or below them.
         for v in 4 * 61..8 * 61 {

@@ -1,4 +1,4 @@
-//! One garment on one body, without a study: `toile try`.
+//! A garment, or an outfit, on one body, without a study: `toile try`.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -11,7 +11,7 @@ use crate::faults::{Fault, drape_faults};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
 use crate::run::outcome::{Measured, Outcome};
-use crate::run::pipeline::{Fitting, Meshes};
+use crate::run::pipeline::{Fitting, Meshes, sim_error};
 use crate::seams::{self, Question};
 use crate::spec::file::{read_body, read_fabric};
 use crate::spec::parameters::Parameters;
@@ -23,8 +23,9 @@ use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, MeasurementKind, Spot, Style};
 use render::export::{MeshFormat, Part};
-use render::{self, Camera, Frame, Layer, Material, Rgb, Scene};
+use render::{self, Camera, Frame, Material, Rgb, Scene};
 use sim::hybrid::Closure;
+use sim::outfit::{self, Layer};
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
 /// Least shortfall that is told as a problem, mm.
@@ -41,13 +42,9 @@ pub struct Attempt {
     pub body_unit: Option<LengthUnit>,
     /// Sex of the body, where known.
     pub sex: Option<Sex>,
-    /// DXF file, a folder of them, or a GarmentCode specification.
-    pub pattern: PathBuf,
-    /// Its seam file; without one a DXF pattern is sewn as proposed.
-    pub seams: Option<PathBuf>,
-    /// Size, where the pattern has several.
-    pub size: Option<String>,
-    /// Unit of the pattern, where its file names none.
+    /// What is worn, the inner first.
+    pub layers: Vec<AttemptLayer>,
+    /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
     /// Seam allowance of pieces without a sew line, m, where there is no seam file.
     pub allowance_m: f64,
@@ -55,12 +52,23 @@ pub struct Attempt {
     pub answers: Vec<(usize, char)>,
     /// Simulator.
     pub simulator: Simulator,
-    /// Fabric of the library, or a TOML file of one.
-    pub fabric: String,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
     /// Simulations by FEM-GS: the first as placed, each other from a start that differs a little.
     pub repeat: u32,
+}
+
+/// A garment to be tried on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttemptLayer {
+    /// DXF file, a folder of them, or a GarmentCode specification.
+    pub pattern: PathBuf,
+    /// Its seam file; without one a DXF pattern is sewn as proposed.
+    pub seams: Option<PathBuf>,
+    /// Size, where the pattern has several.
+    pub size: Option<String>,
+    /// Fabric of the library, or a TOML file of one.
+    pub fabric: String,
 }
 
 /// One measurement of a trial, with the columns of `v_chi`.
@@ -159,58 +167,134 @@ pub struct Tried {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Dresses a body in a garment; `progress` hears the phase and the share done.
+/// Dresses a body in a garment, or in several over each other; `progress` hears the phase and the share done. Returns what came of each,
+/// the inner first; the files are with the last.
 ///
 /// # Errors
 /// When an input cannot be used: the message says what would be. A drape that is not good is no error.
-pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Tried> {
+pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
+    check(asked)?;
+    let wardrobe = asked.layers.iter().map(|layer| Garb::of(asked, layer)).collect::<Result<Vec<_>>>()?;
+    let (body, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
+    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+    let parameters = Parameters::default();
+    let outfit =
+        Outfit { on: (&body, &field), wardrobe: &wardrobe, simulator: asked.simulator, parameters: &parameters };
+    let mut told = Told(progress);
+    let drapes = outfit.dress(&mut told)?;
+    let mut all = outfit.tried(asked, &drapes)?;
+    if let ([garb], [tried]) = (&wardrobe[..], &mut all[..])
+        && asked.repeat > 1
+    {
+        let again = |seed: u32| {
+            let mut parameters = Parameters::default();
+            parameters.set("fem.seed", seed.into()).map_err(StudyError::stage("sim"))?;
+            Outfit { parameters: &parameters, ..outfit }.dress(&mut told)
+        };
+        let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
+        spread(tried, garb.meshes.finest()?, &drapes.concat());
+    }
+    if let Some(last) = all.last_mut() {
+        last.files = files(asked.simulator, &body, &wardrobe, &drapes)?;
+    }
+    for tried in &mut all {
+        tried.notes.splice(0..0, guessed.iter().cloned());
+        tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
+    }
+    Ok(all)
+}
+
+/// What cannot be asked for.
+fn check(asked: &Attempt) -> Result<()> {
     if asked.repeat > 1 && asked.simulator != Simulator::Fem {
         return Err(StudyError::stage("sim")(
             "--repeat is for --sim fem: only that starts from a place that can be varied",
         ));
     }
-    let mut notes = Vec::new();
-    let fabric = fabric(&asked.fabric)?;
-    let style = style(asked, &mut notes)?;
-    let (body, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
-    notes.extend(guessed);
-    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
-    let meshes = Meshes::of(&style, asked.edge_length_m)?;
-    let fitting = Fitting {
-        body: &body,
-        field: &field,
-        style: &style,
-        meshes: &meshes,
-        fabric: &fabric,
-        simulator: asked.simulator,
-        parameters: &Parameters::default(),
-    };
-    let mut told = Told(progress);
-    let drape = fitting.simulate(&mut told)?;
-    let garment = meshes.finest()?;
-    let outcome = fitting.outcome(&drape)?;
-    notes.extend(outcome.warnings.iter().cloned());
-    let mut tried = Tried::new(asked, &style, &fabric, outcome);
-    tried.problems.splice(0..0, problems(&body, garment, &drape));
-    tried.notes = notes;
-    if asked.repeat > 1 {
-        let again = |seed: u32| {
-            let mut parameters = Parameters::default();
-            parameters.set("fem.seed", seed.into()).map_err(StudyError::stage("sim"))?;
-            Fitting { parameters: &parameters, ..fitting }.simulate(&mut told)
-        };
-        let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
-        spread(&mut tried, garment, &drapes);
+    if asked.layers.len() > 1 && (asked.simulator != Simulator::Fem || asked.repeat > 1) {
+        return Err(StudyError::stage("sim")(
+            "several garments are worn over each other with --sim fem and without --repeat",
+        ));
     }
-    tried.files = files(asked.simulator, &body, garment, &drape)?;
-    tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
-    Ok(tried)
+    Ok(())
+}
+
+/// A garment, read.
+struct Garb {
+    style: Style,
+    meshes: Meshes,
+    fabric: Fabric,
+    notes: Vec<String>,
+}
+
+impl Garb {
+    fn of(asked: &Attempt, layer: &AttemptLayer) -> Result<Self> {
+        let mut notes = Vec::new();
+        let fabric = fabric(&layer.fabric)?;
+        let style = style(asked, layer, &mut notes)?;
+        Ok(Self { meshes: Meshes::of(&style, asked.edge_length_m)?, style, fabric, notes })
+    }
+}
+
+/// What is worn, the inner first.
+#[derive(Clone, Copy)]
+struct Outfit<'a> {
+    on: (&'a Body, &'a DistanceField),
+    wardrobe: &'a [Garb],
+    simulator: Simulator,
+    parameters: &'a Parameters,
+}
+
+impl<'a> Outfit<'a> {
+    fn fitting(&self, on: (&'a Body, &'a DistanceField), garb: &'a Garb) -> Fitting<'a> {
+        Fitting {
+            body: on.0,
+            field: on.1,
+            style: &garb.style,
+            meshes: &garb.meshes,
+            fabric: &garb.fabric,
+            simulator: self.simulator,
+            parameters: self.parameters,
+        }
+    }
+
+    fn layers(&self) -> Vec<Layer<'a>> {
+        self.wardrobe.iter().map(|garb| Layer { garments: &garb.meshes.0, fabric: &garb.fabric }).collect()
+    }
+
+    fn dress(&self, monitor: &mut dyn Monitor) -> Result<Vec<Drape>> {
+        match self.wardrobe {
+            [garb] => Ok(vec![self.fitting(self.on, garb).simulate(monitor)?]),
+            _ => outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(sim_error),
+        }
+    }
+
+    /// What came of each garment, on what lies under it.
+    fn tried(&self, asked: &Attempt, drapes: &[Drape]) -> Result<Vec<Tried>> {
+        let layers = self.layers();
+        let mut all = Vec::new();
+        for (number, (garb, drape)) in self.wardrobe.iter().zip(drapes).enumerate() {
+            let under: Vec<Vec<V3>> = drapes[..number].iter().map(|drape| drape.positions.clone()).collect();
+            let solid = match number {
+                0 => None,
+                _ => Some(outfit::dressed(self.on, &layers[..number], &under).map_err(sim_error)?),
+            };
+            let on = solid.as_ref().map_or(self.on, |(body, field)| (body, field));
+            let outcome = self.fitting(on, garb).outcome(drape)?;
+            let notes = garb.notes.iter().chain(&outcome.warnings).cloned().collect();
+            let mut tried = Tried::new(asked, garb, outcome);
+            tried.problems.splice(0..0, problems(self.on.0, garb.meshes.finest()?, drape));
+            tried.notes = notes;
+            all.push(tried);
+        }
+        Ok(all)
+    }
 }
 
 impl Tried {
     /// What a simulation has measured; without the problems of its drape, notes and files.
-    fn new(asked: &Attempt, style: &Style, fabric: &Fabric, outcome: Outcome) -> Self {
+    fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
         let short = gap.iter().filter(|gap| gap.shortfall_mm > SHORTFALL_MM);
@@ -327,24 +411,24 @@ pub fn fabric(name: &str) -> Result<Fabric> {
 }
 
 /// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
-fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
-    let size = asked.size.as_deref();
-    if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
-        return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
+fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Result<Style> {
+    let size = layer.size.as_deref();
+    if layer.seams.is_some() || SourceFile::read_pattern(&layer.pattern)?.holds_seams() {
+        return patterns::style(&layer.pattern, layer.seams.as_deref(), size, asked.unit);
     }
-    let pattern = SourceFile::read_pattern(&asked.pattern)?;
+    let pattern = SourceFile::read_pattern(&layer.pattern)?;
     let (unit, allowance_m) = (asked.unit, asked.allowance_m);
     let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
     let (proposal, pieces) = seams::proposal(&pattern, &how)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
         StudyError::stage("pattern")(format!(
             "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
-            asked.pattern.display()
+            layer.pattern.display()
         ))
     })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().map(Question::to_string).chain(proposal.notes.iter().cloned()));
-    let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
+    let name = layer.pattern.file_stem().unwrap_or_default().to_string_lossy();
     let text = proposal.toml(&name);
     let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;
     if style.measurements.is_empty() {
@@ -368,35 +452,56 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     faults.into_iter().map(told).collect()
 }
 
-/// Four views of every stage as one picture each, and body and garment as meshes.
-fn files(simulator: Simulator, body: &Body, garment: &Garment, drape: &Drape) -> Result<Vec<(String, Vec<u8>)>> {
-    let mesh = |positions: &[V3]| TriMesh { positions: positions.to_vec(), triangles: garment.triangles.clone() };
-    let cloth = mesh(&drape.positions);
-    let material = match simulator {
-        Simulator::Fem => Material::fem(),
-        Simulator::Hybrid => Material::hybrid(),
+/// Four views of every stage as one picture each, and body and garments as meshes.
+fn files(simulator: Simulator, body: &Body, wardrobe: &[Garb], drapes: &[Drape]) -> Result<Vec<(String, Vec<u8>)>> {
+    let garments = wardrobe.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
+    let mesh = |garment: &Garment, positions: &[V3]| TriMesh {
+        positions: positions.to_vec(),
+        triangles: garment.triangles.clone(),
     };
-    let mut files = vec![("drape.png".to_owned(), four_views(body, &cloth, material)?)];
-    if let Some(popup) = drape.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup) {
-        let picture = four_views(body, &mesh(&popup.positions), Material::popup())?;
-        files.push(("popup.png".to_owned(), picture));
+    let cloths: Vec<TriMesh> =
+        garments.iter().zip(drapes).map(|(garment, drape)| mesh(garment, &drape.positions)).collect();
+    let materials: Vec<Material> = (0..cloths.len()).map(|number| material(simulator, number)).collect();
+    let mut files = vec![("drape.png".to_owned(), four_views(body, &cloths, &materials)?)];
+    for (garment, drape) in garments.iter().zip(drapes) {
+        if let Some(popup) = drape.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup) {
+            let picture = four_views(body, &[mesh(garment, &popup.positions)], &[Material::popup()])?;
+            files.push(("popup.png".to_owned(), picture));
+        }
     }
     let colours = |mesh: &TriMesh, colour: Rgb| vec![colour; mesh.positions.len()];
+    let names: Vec<String> = match garments.len() {
+        1 => vec!["garment".to_owned()],
+        count => (1..=count).map(|number| format!("layer_{number}")).collect(),
+    };
     let part = |name, mesh, colour, places| Part { name, mesh, colours: colours(mesh, colour), places, values: None };
-    let form = Material::form().front;
-    let parts =
-        [part("body", &body.mesh, form, None), part("garment", &cloth, material.front, Some(&garment.rest[..]))];
+    let mut parts = vec![part("body", &body.mesh, Material::form().front, None)];
+    for (number, garment) in garments.iter().enumerate() {
+        parts.push(part(&names[number], &cloths[number], materials[number].front, Some(&garment.rest[..])));
+    }
     files.push(("drape.glb".to_owned(), MeshFormat::Glb.write(&parts)));
     files.push(("drape.obj".to_owned(), MeshFormat::Obj.write(&parts)));
     Ok(files)
 }
 
+/// How a layer looks: the inner as its simulator's drapes do, each other in a colour of its own.
+fn material(simulator: Simulator, number: usize) -> Material {
+    match (number, simulator) {
+        (0, Simulator::Fem) => Material::fem(),
+        (0, Simulator::Hybrid) => Material::hybrid(),
+        (1, _) => Material::hybrid(),
+        _ => Material::popup(),
+    }
+}
+
 /// Cloth on a body from four sides, as a PNG file.
-fn four_views(body: &Body, cloth: &TriMesh, material: Material) -> Result<Vec<u8>> {
-    let layers = vec![Layer::new(&body.mesh, Material::form()), Layer::new(cloth, material)];
+fn four_views(body: &Body, cloths: &[TriMesh], materials: &[Material]) -> Result<Vec<u8>> {
+    let worn = cloths.iter().zip(materials).map(|(cloth, material)| render::Layer::new(cloth, *material));
+    let layers = [render::Layer::new(&body.mesh, Material::form())].into_iter().chain(worn).collect();
     let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let [width, height] = PICTURE;
-    let frame = Frame::enclosing([&body.mesh, cloth], f64::from(width) / f64::from(height));
+    let meshes = [&body.mesh].into_iter().chain(cloths);
+    let frame = Frame::enclosing(meshes, f64::from(width) / f64::from(height));
     let camera = |view| Camera::new(view, frame);
     render::from_all_sides(&scene, camera, PICTURE).map_err(StudyError::stage("render"))
 }

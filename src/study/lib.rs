@@ -40,7 +40,8 @@ pub use answers::reports::{ReportRow, reports};
 pub use answers::section::{CrossSection, CutAt, CutCloth, CutLine};
 pub use answers::worn::{Balance, FoldLine, GarmentWorn, LevelGap, RegionPressure, SizeWorn, WornPoint};
 pub use attempt::{
-    Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt, fabric as fabric_named,
+    Attempt, AttemptLayer, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt,
+    fabric as fabric_named,
 };
 pub use catalogue::{
     Deed, FabricRow, Imported, Mode, Part, Removed, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, SubjectRow,

@@ -2,7 +2,7 @@ use super::*;
 use crate::people::survey::Survey;
 use crate::testing::in_mm;
 use crate::{ControlMesh, Dimension, Joint, Layer, RING, Sex};
-use geom::{V2, crossing};
+use geom::{V2, crossing, winding};
 use std::sync::LazyLock;
 
 /// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
@@ -175,7 +175,7 @@ fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
         faults.push(format!("reaches from {} to {} m", low.z, high.z));
     }
     for (number, joint) in body.skeleton.joints.iter().enumerate() {
-        if (crossing::winding_number(mesh, *joint) - 1.0).abs() > 1e-6 {
+        if (winding::winding_number(mesh, *joint) - 1.0).abs() > 1e-6 {
             faults.push(format!("joint {number} at {joint:.3?} is not inside"));
         }
     }

@@ -11,15 +11,16 @@ use super::{BodyFile, JobLimits, PatternUnit, TrySimulator};
 pub struct Try {
     #[command(flatten)]
     pub body: BodyFile,
-    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON).
+    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON). Given several times, an outfit: the inner garment first.
+    #[arg(long, value_name = "FILE", required = true)]
+    pub pattern: Vec<PathBuf>,
+    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure. Of an outfit one for each pattern, `-` for
+    /// none.
     #[arg(long, value_name = "FILE")]
-    pub pattern: PathBuf,
-    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure.
-    #[arg(long, value_name = "FILE")]
-    pub seams: Option<PathBuf>,
-    /// Size, where the pattern has several.
+    pub seams: Vec<String>,
+    /// Size, where the pattern has several; of an outfit one for all, or one for each pattern.
     #[arg(long, value_name = "NAME")]
-    pub size: Option<String>,
+    pub size: Vec<String>,
     /// Unit of the pattern, where its file names none.
     #[arg(long, value_enum)]
     pub unit: Option<PatternUnit>,
@@ -32,9 +33,9 @@ pub struct Try {
     /// Simulator.
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
-    /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]].
+    /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]]; of an outfit one for all, or one for each pattern.
     #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
-    pub fabric: String,
+    pub fabric: Vec<String>,
     /// Edge length of the mesh, mm.
     #[arg(long, value_name = "MM", default_value_t = 15.0)]
     pub edge_mm: f64,

@@ -18,7 +18,6 @@
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
-use crate::Fabric;
 use geom::{V2, V3};
 use linalg::PairList;
 use linalg::quad::{self, Block};
@@ -70,6 +69,8 @@ impl Hinge {
 pub struct Plate {
     /// Rest area, m2.
     pub area: f64,
+    /// Bending rigidities along weft and warp, N m.
+    pub rigidities_nm: [f64; 2],
     /// Unit normals of the sides in (weft, warp).
     pub normals: [V2; 3],
     /// The hinge on each side; `None` at a free edge.
@@ -79,8 +80,8 @@ pub struct Plate {
 impl Plate {
     /// Quadratic form of the curvatures across the sides: energy per area is `k^T G k / 2`, N m. Curvature across a free
     /// edge has been eliminated.
-    fn form(&self, fabric: &Fabric) -> [[f64; 3]; 3] {
-        let [weft, warp] = [fabric.bending_weft_nm.sqrt(), fabric.bending_warp_nm.sqrt()];
+    fn form(&self) -> [[f64; 3]; 3] {
+        let [weft, warp] = self.rigidities_nm.map(f64::sqrt);
         let n = &self.normals;
         let mut form = [[0.0; 3]; 3];
         for e in 0..3 {
@@ -121,8 +122,8 @@ impl Plate {
 
     /// Entries of the stiffness above its diagonal: its hinges', each with each. Corners sewn into one vertex couple it to
     /// itself, which adds nothing.
-    fn push_terms(&self, hinges: &[Hinge], fabric: &Fabric, terms: &mut Vec<([usize; 2], f64)>) {
-        let form = self.form(fabric);
+    fn push_terms(&self, hinges: &[Hinge], terms: &mut Vec<([usize; 2], f64)>) {
+        let form = self.form();
         let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
         let mut order = [0, 1, 2];
         order.sort_by_key(|&e| own[e].map(|h| (h.vertices[0].min(h.vertices[1]), h.vertices[0].max(h.vertices[1]))));
@@ -179,10 +180,10 @@ impl Tangent {
         }
     }
 
-    fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric, sides: &PairList) -> Self {
+    fn new(hinges: &[Hinge], plates: &[Plate], sides: &PairList) -> Self {
         let mut stiffness = vec![0.0; hinges.len()];
         for plate in plates {
-            let form = plate.form(fabric);
+            let form = plate.form();
             for (e, hinge) in plate.hinges.iter().enumerate() {
                 if let Some(hinge) = *hinge {
                     stiffness[hinge] += ROLLED * plate.area * form[e][e];
@@ -247,13 +248,13 @@ fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
 impl Bending {
     /// Adds up the triangles, whose sides are `sides`.
     #[must_use]
-    pub fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric, sides: &PairList) -> Self {
+    pub fn new(hinges: &[Hinge], plates: &[Plate], sides: &PairList) -> Self {
         let mut terms = Vec::with_capacity(15 * plates.len());
         for plate in plates {
-            plate.push_terms(hinges, fabric, &mut terms);
+            plate.push_terms(hinges, &mut terms);
         }
         let (pairs, entries) = summed(&terms);
-        Self { pairs, entries, tangent: Tangent::new(hinges, plates, fabric, sides) }
+        Self { pairs, entries, tangent: Tangent::new(hinges, plates, sides) }
     }
 
     /// Bending energy, J.
@@ -294,6 +295,7 @@ impl Bending {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Fabric;
     use crate::cloth::PlateBuilder;
     use crate::laboratory::sheets::{hexagonal_sheet, jittered, shaken, sheet};
     use crate::testing::{check_forces, fabric};
@@ -301,10 +303,10 @@ mod tests {
     fn flat_bending(rest: &[V2], triangles: &[[usize; 3]], fabric: &Fabric) -> Bending {
         let mut builder = PlateBuilder::default();
         for &t in triangles {
-            builder.add(t, t.map(|v| rest[v]), V2::new(0.0, 1.0));
+            builder.add(t, t.map(|v| rest[v]), V2::new(0.0, 1.0), fabric);
         }
         let sides = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
-        builder.finish(fabric, &sides)
+        builder.finish(&sides)
     }
 
     fn bending(columns: usize, rows: usize, step: f64, fabric: &Fabric) -> (Bending, Vec<V2>) {

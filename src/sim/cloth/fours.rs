@@ -2,7 +2,7 @@
 
 use wide::f32x4;
 
-use super::law::{Orthotropic, Tensor};
+use super::law::{Fibre, Orthotropic, Tensor};
 use super::membrane::{Element, Foreseen};
 use geom::V3;
 use linalg::lanes::{Lanes, Number};
@@ -22,12 +22,14 @@ pub struct Four {
     areas: [f64; 4],
     /// Gradients of the second and third shape functions in weft and warp, 1/m: that of the first is their sum's negative.
     gradients: [[[f64; 4]; 2]; 2],
+    /// Number of their laws.
+    laws: u32,
 }
 
 impl Four {
-    /// Up to four triangles, each with what it has for slots.
-    pub fn new(elements: &[(Element, [u32; 3])]) -> Self {
-        let mut four = Self::default();
+    /// Up to four triangles, each with what it has for slots, and the number of their laws.
+    pub fn new(elements: &[(Element, [u32; 3])], laws: usize) -> Self {
+        let mut four = Self { laws: laws as u32, ..Self::default() };
         for (lane, (element, slots)) in elements.iter().enumerate() {
             four.areas[lane] = element.area;
             for k in 0..3 {
@@ -57,6 +59,18 @@ impl Four {
     #[inline(always)]
     fn lanes_of_gradients<S: Simd>(&self, simd: S) -> [[Lanes<S>; 2]; 2] {
         each!(corner of 2 => each!(axis of 2 => Lanes::of(simd, self.gradients[corner][axis])))
+    }
+
+    /// The law of each lane.
+    #[inline(always)]
+    fn law<S: Simd>(&self, simd: S, laws: &[Orthotropic<[f64; 4]>]) -> Orthotropic<Lanes<S>> {
+        let Orthotropic { weft, c12, warp, shear } = &laws[self.laws as usize];
+        Orthotropic {
+            weft: lanes_of_fibre(simd, weft),
+            c12: Lanes::of(simd, *c12),
+            warp: lanes_of_fibre(simd, warp),
+            shear: Lanes::of(simd, *shear),
+        }
     }
 
     #[inline(always)]
@@ -118,7 +132,7 @@ impl Four {
     fn push_couplings<S: Simd>(
         &self,
         simd: S,
-        law: &Orthotropic,
+        law: &Orthotropic<Lanes<S>>,
         strain: Tensor<Lanes<S>>,
         couplings: &mut Vec<[f32; 6]>,
     ) {
@@ -171,14 +185,14 @@ impl Four {
         &self,
         simd: S,
         fibres: &[Vectors<S>; 2],
-        law: &Orthotropic,
+        law: &Orthotropic<Lanes<S>>,
         slopes: [Lanes<S>; 2],
         tension: Option<Tensor<Lanes<S>>>,
         blocks: &mut [Block<f32x4>],
     ) {
         let area = self.lanes_of_areas(simd);
         let (c11, c22) = (slopes[0] * area, slopes[1] * area);
-        let (c12, shear) = (area * area.splat(law.c12), area * area.splat(law.shear));
+        let (c12, shear) = (area * law.c12, area * law.shear);
         let [g, h] = self.lanes_of_gradients(simd);
         let gradients = [each!(axis of 2 => area.splat(0.0) - g[axis] - h[axis]), g, h];
         let couplings = each!(k of 3 => {
@@ -242,6 +256,11 @@ fn dot<N: Number>(a: &[N; 3], b: &[N; 3]) -> N {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 
+#[inline(always)]
+fn lanes_of_fibre<S: Simd>(simd: S, fibre: &Fibre<[f64; 4]>) -> Fibre<Lanes<S>> {
+    Fibre { rest: Lanes::of(simd, fibre.rest), rise: Lanes::of(simd, fibre.rise), until: Lanes::of(simd, fibre.until) }
+}
+
 /// The tensors of up to four triangles, lane by lane; nothing where there are none.
 #[inline(always)]
 fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
@@ -266,8 +285,8 @@ fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
 
 /// The elastic energy somewhere, J, and what else is asked for there.
 pub struct Assembly<'a> {
-    /// Law of all.
-    pub law: &'a Orthotropic,
+    /// Laws of the fours, by their numbers.
+    pub laws: &'a [Orthotropic<[f64; 4]>],
     /// The triangles.
     pub fours: &'a [Four],
     /// Places of the vertices, m.
@@ -301,8 +320,9 @@ impl Kernel for Assembly<'_> {
             if has_arcs {
                 strain = strain + four.strain_of(simd, self.excess);
             }
-            energy = four.lanes_of_areas(simd).mul_add(self.law.energy(strain), energy);
-            let stress = self.law.stress(strain);
+            let law = four.law(simd, self.laws);
+            energy = four.lanes_of_areas(simd).mul_add(law.energy(strain), energy);
+            let stress = law.stress(strain);
             if let Some(forces) = &mut self.forces {
                 four.add_forces(simd, &fibres, stress, forces);
             }
@@ -314,7 +334,7 @@ impl Kernel for Assembly<'_> {
             if let Some(couplings) = &mut self.couplings
                 && has_arcs
             {
-                four.push_couplings(simd, self.law, strain, couplings);
+                four.push_couplings(simd, &law, strain, couplings);
             }
             if let Some(blocks) = &mut self.blocks {
                 let stress = match self.predicted {
@@ -328,7 +348,7 @@ impl Kernel for Assembly<'_> {
                     four.add_tensions(simd, tension, pulls);
                 }
                 let tension = Some(tension);
-                four.add_stiffness(simd, &fibres, self.law, self.law.tangents(strain), tension, blocks);
+                four.add_stiffness(simd, &fibres, &law, law.tangents(strain), tension, blocks);
             }
         }
         energy.numbers().iter().sum()
@@ -366,8 +386,8 @@ impl Kernel for Compression<'_> {
 /// The forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those foreseen there in first order, which
 /// it gives, and the stiffness of stretching alone at that end.
 pub struct Correction<'a> {
-    /// Law of all.
-    pub law: &'a Orthotropic,
+    /// Laws of the fours, by their numbers.
+    pub laws: &'a [Orthotropic<[f64; 4]>],
     /// The triangles.
     pub fours: &'a [Four],
     /// Places of the vertices before, m.
@@ -409,19 +429,20 @@ impl Kernel for Correction<'_> {
                 strain = strain + four.strain_of(simd, self.excess[0]);
                 change = change + four.strain_of(simd, self.excess[1]);
             }
-            let (stress, change) = (self.law.stress(strain), self.law.tangent(strain, change));
+            let law = four.law(simd, self.laws);
+            let (stress, change) = (law.stress(strain), law.tangent(strain, change));
             let end = each!(axis of 2 => each!(c of 3 => fibres[axis][c] + moved[axis][c]));
             let mut strain = green(&end);
             if has_arcs {
                 strain = strain + four.strain_of(simd, self.excess[2]);
             }
-            let excess = self.law.stress(strain) - (stress + change);
+            let excess = law.stress(strain) - (stress + change);
             four.add_forces(simd, &end, excess, self.forces);
             if has_arcs {
                 four.add_tensions(simd, excess, self.tensions);
-                four.push_couplings(simd, self.law, strain, self.couplings);
+                four.push_couplings(simd, &law, strain, self.couplings);
             }
-            four.add_stiffness(simd, &end, self.law, self.law.tangents(strain), None, self.blocks);
+            four.add_stiffness(simd, &end, &law, law.tangents(strain), None, self.blocks);
             let (stress, change) = (apart(stress), apart(change));
             self.foreseen.extend_from_slice(&each!(k of 4 => Foreseen { stress: stress[k], change: change[k] }));
         }

@@ -85,13 +85,13 @@ geom::constants! {
 /// 2011]; beyond that the stress goes on along its tangent. Compression keeps the modulus at rest. The stress is the
 /// derivative of an energy, once continuously differentiable, and its slope never falls below that at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fibre {
+pub struct Fibre<N = f64> {
     /// Modulus at rest, N/m.
-    pub rest: f64,
+    pub rest: N,
     /// Rise of the secant modulus with Green strain, N/m; 0 for a linear law.
-    pub rise: f64,
+    pub rise: N,
     /// Green strain up to which it rises.
-    pub until: f64,
+    pub until: N,
 }
 
 impl Fibre {
@@ -115,52 +115,54 @@ impl Fibre {
         let until = if self.until.is_finite() { self.until } else { SLACK };
         Self { rest: share * self.rest, rise: self.rise + 0.5 * (1.0 - share) * self.rest / until, until }
     }
+}
 
+impl<N: Number> Fibre<N> {
     /// Stress, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn stress<N: Number>(&self, strain: N) -> N {
+    pub fn stress(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
         let rising = within * beyond.mul_add(strain.splat(2.0), within);
-        strain.mul_add(strain.splat(self.rest), rising * strain.splat(self.rise))
+        strain.mul_add(self.rest, rising * self.rise)
     }
 
     /// Slope of the stress, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn tangent<N: Number>(&self, strain: N) -> N {
-        self.parts(strain).0.mul_add(strain.splat(2.0 * self.rise), strain.splat(self.rest))
+    pub fn tangent(&self, strain: N) -> N {
+        self.parts(strain).0.mul_add(strain.splat(2.0) * self.rise, self.rest)
     }
 
     /// Energy per area, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn energy<N: Number>(&self, strain: N) -> N {
+    pub fn energy(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
         let rising = within * (within * within * strain.splat(1.0 / 3.0) + beyond * (within + beyond));
-        (strain * strain).mul_add(strain.splat(0.5 * self.rest), rising * strain.splat(self.rise))
+        (strain * strain).mul_add(strain.splat(0.5) * self.rest, rising * self.rise)
     }
 
     /// The stretch within which the modulus rises, and what is beyond.
     #[inline(always)]
-    fn parts<N: Number>(&self, strain: N) -> (N, N) {
+    fn parts(&self, strain: N) -> (N, N) {
         let stretch = strain.max(strain.splat(0.0));
-        let within = stretch.min(strain.splat(self.until));
+        let within = stretch.min(self.until);
         (within, stretch - within)
     }
 }
 
 /// Membrane law in grain axes (1 weft, 2 warp).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orthotropic {
+pub struct Orthotropic<N = f64> {
     /// Along the weft.
-    pub weft: Fibre,
+    pub weft: Fibre<N>,
     /// Coupling entry, N/m.
-    pub c12: f64,
+    pub c12: N,
     /// Along the warp.
-    pub warp: Fibre,
+    pub warp: Fibre<N>,
     /// Shear: `S12 = shear * 2 E12`, N/m.
-    pub shear: f64,
+    pub shear: N,
 }
 
 impl Orthotropic {
@@ -186,44 +188,61 @@ impl Orthotropic {
         }
     }
 
+    /// Four laws, each number in a lane.
+    #[must_use]
+    pub fn packed(laws: [&Self; 4]) -> Orthotropic<[f64; 4]> {
+        let fibre = |of: fn(&Self) -> &Fibre| Fibre {
+            rest: laws.map(|law| of(law).rest),
+            rise: laws.map(|law| of(law).rise),
+            until: laws.map(|law| of(law).until),
+        };
+        Orthotropic {
+            weft: fibre(|law| &law.weft),
+            c12: laws.map(|law| law.c12),
+            warp: fibre(|law| &law.warp),
+            shear: laws.map(|law| law.shear),
+        }
+    }
+}
+
+impl<N: Number> Orthotropic<N> {
     /// Stress of a strain, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn stress<N: Number>(&self, strain: Tensor<N>) -> Tensor<N> {
-        let c12 = strain.weft.splat(self.c12);
+    pub fn stress(&self, strain: Tensor<N>) -> Tensor<N> {
         Tensor {
-            weft: strain.warp.mul_add(c12, self.weft.stress(strain.weft)),
-            warp: strain.weft.mul_add(c12, self.warp.stress(strain.warp)),
-            shear: strain.shear * strain.shear.splat(2.0 * self.shear),
+            weft: strain.warp.mul_add(self.c12, self.weft.stress(strain.weft)),
+            warp: strain.weft.mul_add(self.c12, self.warp.stress(strain.warp)),
+            shear: strain.shear * (strain.shear.splat(2.0) * self.shear),
         }
     }
 
     /// Slopes of the stresses along weft and warp at a strain, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn tangents<N: Number>(&self, strain: Tensor<N>) -> [N; 2] {
+    pub fn tangents(&self, strain: Tensor<N>) -> [N; 2] {
         [self.weft.tangent(strain.weft), self.warp.tangent(strain.warp)]
     }
 
     /// What a small change of strain adds to the stress, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn tangent<N: Number>(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
-        let ([weft, warp], c12) = (self.tangents(strain), strain.weft.splat(self.c12));
+    pub fn tangent(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
+        let [weft, warp] = self.tangents(strain);
         Tensor {
-            weft: weft.mul_add(change.weft, c12 * change.warp),
-            warp: warp.mul_add(change.warp, c12 * change.weft),
-            shear: change.shear * change.shear.splat(2.0 * self.shear),
+            weft: weft.mul_add(change.weft, self.c12 * change.warp),
+            warp: warp.mul_add(change.warp, self.c12 * change.weft),
+            shear: change.shear * (change.shear.splat(2.0) * self.shear),
         }
     }
 
     /// Energy per area of a strain, N/m.
     #[must_use]
     #[inline(always)]
-    pub fn energy<N: Number>(&self, strain: Tensor<N>) -> N {
+    pub fn energy(&self, strain: Tensor<N>) -> N {
         let along = self.weft.energy(strain.weft) + self.warp.energy(strain.warp);
-        let across = strain.weft * strain.warp * strain.weft.splat(self.c12);
-        along + across + strain.shear * strain.shear * strain.shear.splat(2.0 * self.shear)
+        let across = strain.weft * strain.warp * self.c12;
+        along + across + strain.shear * strain.shear * (strain.shear.splat(2.0) * self.shear)
     }
 }
 

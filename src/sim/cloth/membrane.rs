@@ -28,6 +28,8 @@ use linalg::simd;
 pub struct Element {
     /// Simulated vertices, counter-clockwise.
     vertices: [u32; 3],
+    /// Number of its law.
+    law: u32,
     /// Rest area, m2.
     pub area: f64,
     /// Gradients of the second and third shape functions in (weft, warp), 1/m: that of the first is their sum's negative.
@@ -44,7 +46,13 @@ impl Element {
         let area = 0.5 * dm.determinant();
         let inverse = dm.try_inverse().filter(|_| area > 0.0)?;
         let gradients = [inverse.row(0).transpose(), inverse.row(1).transpose()];
-        Some(Self { vertices: vertices.map(|v| v as u32), area, gradients })
+        Some(Self { vertices: vertices.map(|v| v as u32), law: 0, area, gradients })
+    }
+
+    /// The same triangle of the membrane's law of this number; without it, the first.
+    #[must_use]
+    pub fn of_law(self, number: usize) -> Self {
+        Self { law: number as u32, ..self }
     }
 
     /// The same triangle with its vertices called otherwise, not yet in a membrane.
@@ -101,12 +109,16 @@ impl Foreseen {
 /// The membrane of a garment.
 #[derive(Clone, Debug)]
 pub struct Membrane {
-    /// Material.
-    pub material: Orthotropic,
+    /// Laws, by their numbers.
+    laws: Vec<Orthotropic>,
     /// Triangles.
     pub elements: Vec<Element>,
     /// The same as they are met.
     fours: Vec<Four>,
+    /// The laws of four triangles, each once.
+    mixtures: Vec<[u32; 4]>,
+    /// The same as they are met.
+    packed: Vec<Orthotropic<[f64; 4]>>,
     /// Pairs of vertices that share a triangle.
     pub pairs: PairList,
     /// Pairs of the sides of each triangle.
@@ -127,9 +139,9 @@ pub struct Bowed {
 }
 
 impl Membrane {
-    /// Collects the elements of a garment.
+    /// Collects the elements of a garment, and their laws by their numbers.
     #[must_use]
-    pub fn new(material: Orthotropic, elements: Vec<Element>) -> Self {
+    pub fn new(laws: Vec<Orthotropic>, elements: Vec<Element>) -> Self {
         let sides = [[0, 1], [1, 2], [2, 0]];
         let pairs = PairList::new(elements.iter().flat_map(|e| sides.map(|s| s.map(|k| e.vertices()[k]))));
         let with_slots = |element: &Element| {
@@ -142,9 +154,39 @@ impl Membrane {
             (*element, slots)
         };
         let with_slots: Vec<(Element, [u32; 3])> = elements.iter().map(with_slots).collect();
-        let fours = with_slots.chunks(4).map(Four::new).collect();
+        let mut mixtures: Vec<[u32; 4]> = Vec::new();
+        let four = |elements: &[(Element, [u32; 3])]| {
+            let mixture = [0, 1, 2, 3].map(|lane| elements.get(lane).unwrap_or(&elements[0]).0.law);
+            let known = mixtures.iter().position(|known| *known == mixture);
+            let number = known.unwrap_or_else(|| {
+                mixtures.push(mixture);
+                mixtures.len() - 1
+            });
+            Four::new(elements, number)
+        };
+        let fours = with_slots.chunks(4).map(four).collect();
         let sides = with_slots.iter().map(|(_, slots)| slots.map(|slot| slot >> 1)).collect();
-        Self { material, elements, fours, pairs, sides, arcs: Arcs::default() }
+        let packed = packed(&laws, &mixtures);
+        Self { laws, elements, fours, mixtures, packed, pairs, sides, arcs: Arcs::default() }
+    }
+
+    /// The same triangles with other laws.
+    #[must_use]
+    pub fn with_laws(self, change: impl Fn(&Orthotropic) -> Orthotropic) -> Self {
+        let laws: Vec<Orthotropic> = self.laws.iter().map(change).collect();
+        Self { packed: packed(&laws, &self.mixtures), laws, ..self }
+    }
+
+    /// Its laws, by their numbers.
+    #[must_use]
+    pub fn laws(&self) -> &[Orthotropic] {
+        &self.laws
+    }
+
+    /// Law of a triangle.
+    #[must_use]
+    pub fn law(&self, triangle: usize) -> &Orthotropic {
+        &self.laws[self.elements[triangle].law as usize]
     }
 
     /// The same with its sides as arcs.
@@ -224,7 +266,7 @@ impl Membrane {
 
     fn assembly<'a>(&'a self, x: &'a [V3], bent: &'a Bent) -> Assembly<'a> {
         Assembly {
-            law: &self.material,
+            laws: &self.packed,
             fours: &self.fours,
             x,
             excess: &bent.excess,
@@ -255,14 +297,14 @@ impl Membrane {
     ) -> (Vec<Foreseen>, Bowed) {
         let mut foreseen = Vec::with_capacity(4 * self.fours.len());
         let mut couplings = Vec::with_capacity(4 * self.fours.len());
-        let (law, fours) = (&self.material, &self.fours[..]);
+        let (laws, fours) = (&self.packed[..], &self.fours[..]);
         let start = self.arcs.bent(x);
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
         let bent = self.arcs.bent(&end);
         let changes: Vec<f64> = self.arcs.changes(&start, d).iter().map(|half| 2.0 * half).collect();
         let mut tensions = vec![0.0; changes.len()];
         simd::dispatch(Correction {
-            law,
+            laws,
             fours,
             x,
             d,
@@ -279,6 +321,11 @@ impl Membrane {
         tensions.fill(0.0);
         (foreseen, Bowed { bent, tensions, couplings })
     }
+}
+
+/// The laws of each mixture.
+fn packed(laws: &[Orthotropic], mixtures: &[[u32; 4]]) -> Vec<Orthotropic<[f64; 4]>> {
+    mixtures.iter().map(|mixture| Orthotropic::packed(mixture.map(|law| &laws[law as usize]))).collect()
 }
 
 #[cfg(test)]
@@ -310,7 +357,7 @@ mod tests {
     fn membrane_of(fabric: &Fabric, grain: V2) -> (Membrane, Vec<V3>) {
         let (rest, triangles) = sheet(3, 3, 0.02);
         let elements = triangles.iter().map(|t| Element::new(*t, t.map(|v| rest[v]), grain).expect("has area"));
-        let membrane = Membrane::new(Orthotropic::of(fabric), elements.collect());
+        let membrane = Membrane::new(vec![Orthotropic::of(fabric)], elements.collect());
         (membrane, rest.iter().map(|p| V3::new(p.x, p.y, 0.3)).collect())
     }
 
@@ -395,7 +442,7 @@ mod tests {
             };
             let mut expected = vec![V3::zeros(); x.len()];
             let stresses: Vec<Tensor> =
-                membrane.elements.iter().map(|e| membrane.material.stress(strain(e, &x))).collect();
+                membrane.elements.iter().map(|e| membrane.laws[0].stress(strain(e, &x))).collect();
             membrane.add_compression(&stresses, &d, 1.0, &mut expected);
             let left_out = expected.iter().map(V3::norm).fold(0.0, f64::max);
             let mut blocks = membrane.blocks();
@@ -426,7 +473,7 @@ mod tests {
                 let (mut forces, mut blocks) = (vec![V3::zeros(); x.len()], membrane.blocks());
                 let (predicted, _) = membrane.assemble_towards(&x, &d, &mut forces, &mut blocks);
                 let off = |(e, p): (&Element, &Foreseen)| {
-                    (membrane.material.stress(strain(e, &end)) - p.after(1.0)).matrix().norm()
+                    (membrane.laws[0].stress(strain(e, &end)) - p.after(1.0)).matrix().norm()
                 };
                 membrane.elements.iter().zip(&predicted).map(off).fold(0.0, f64::max)
             };

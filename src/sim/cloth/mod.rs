@@ -25,6 +25,23 @@ use gathers::Gathers;
 use law::Orthotropic;
 use membrane::{Element, Membrane};
 
+/// Coulomb coefficients of a fabric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// On the body and the floor.
+    pub body: f64,
+    /// On other cloth.
+    pub cloth: f64,
+}
+
+impl Friction {
+    /// Those of a fabric.
+    #[must_use]
+    pub fn of(fabric: &Fabric) -> Self {
+        Self { body: fabric.friction_body, cloth: fabric.friction_self }
+    }
+}
+
 /// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
 pub struct Cloth {
@@ -36,6 +53,8 @@ pub struct Cloth {
     pub masses: Vec<f64>,
     /// Rest areas that belong to the vertices, m2.
     pub areas: Vec<f64>,
+    /// Coulomb coefficients of the vertices.
+    pub frictions: Vec<Friction>,
     /// Membrane.
     pub membrane: Membrane,
     /// Bending.
@@ -50,36 +69,50 @@ impl Cloth {
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
     pub fn new(garment: &Garment, fabric: &Fabric, vertex_of: Vec<usize>) -> Result<Self, SimError> {
+        Self::of_layers(garment, &[(garment.pieces.len(), fabric)], vertex_of)
+    }
+
+    /// Sets up garments together, of which each has so many of the pieces, in their order, and its own fabric.
+    ///
+    /// # Errors
+    /// When a triangle of the pattern mesh has no area.
+    pub fn of_layers(garment: &Garment, layers: &[(usize, &Fabric)], vertex_of: Vec<usize>) -> Result<Self, SimError> {
         let count = vertex_of.iter().max().map_or(0, |m| m + 1);
         let mut elements = Vec::with_capacity(garment.triangles.len());
-        let mut areas = vec![0.0; count];
+        let (mut areas, mut densities) = (vec![0.0; count], vec![0.0; count]);
+        let mut frictions = vec![Friction { body: 0.0, cloth: 0.0 }; count];
         let mut plates = PlateBuilder::default();
         let gathers = Gathers::of(garment);
-        for piece in &garment.pieces {
+        let of_pieces = layers.iter().enumerate().flat_map(|(law, (pieces, fabric))| vec![(law, *fabric); *pieces]);
+        for (piece, (law, fabric)) in garment.pieces.iter().zip(of_pieces) {
             for t in piece.triangles.clone() {
                 let corners = garment.triangles[t];
                 let vertices = corners.map(|v| vertex_of[v]);
                 let drawn = corners.map(|v| garment.rest[v]);
                 let rest = gathers.shape(corners, drawn);
                 let element = Element::new(vertices, rest, piece.grain)
-                    .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?;
+                    .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?
+                    .of_law(law);
                 // What is gathered weighs what was cut.
                 let area = 0.5 * (drawn[1] - drawn[0]).perp(&(drawn[2] - drawn[0]));
                 for v in vertices {
                     areas[v] += area / 3.0;
+                    (densities[v], frictions[v]) = (fabric.density_kg_m2, Friction::of(fabric));
                 }
-                plates.add(vertices, rest, piece.grain);
+                plates.add(vertices, rest, piece.grain, fabric);
                 elements.push(element);
             }
         }
-        let membrane = Membrane::new(Orthotropic::of(fabric), elements);
+        let laws = layers.iter().map(|(_, fabric)| Orthotropic::of(fabric));
+        let membrane = Membrane::new(laws.collect(), elements);
         let arcs = Arcs::new(&plates.laid, &plates.plates, &plates.hinges, &membrane.pairs, count);
         let membrane = membrane.with_arcs(arcs);
         Ok(Self {
             triangles: membrane.elements.iter().map(Element::vertices).collect(),
-            masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
+            masses: areas.iter().zip(&densities).map(|(area, density)| area * density).collect(),
             areas,
-            bending: plates.finish(fabric, &membrane.pairs),
+            frictions,
+            bending: plates.finish(&membrane.pairs),
             membrane,
             bands: Bands::new(garment, &gathers, &vertex_of),
             vertex_of,
@@ -89,7 +122,7 @@ impl Cloth {
     /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before.
     #[must_use]
     pub fn slackened(mut self, share: f64) -> Self {
-        self.membrane.material = self.membrane.material.slackened(share);
+        self.membrane = self.membrane.with_laws(|law| law.slackened(share));
         self
     }
 
@@ -137,7 +170,7 @@ struct PlateBuilder {
 
 impl PlateBuilder {
     /// Adds a triangle with rest corners `rest`, counter-clockwise, and the unit warp direction `grain`.
-    fn add(&mut self, vertices: [usize; 3], rest: [V2; 3], grain: V2) {
+    fn add(&mut self, vertices: [usize; 3], rest: [V2; 3], grain: V2, fabric: &Fabric) {
         let plate = self.plates.len();
         let weft = V2::new(grain.y, -grain.x);
         let normal = |k: usize| {
@@ -148,7 +181,9 @@ impl PlateBuilder {
         let area = 0.5 * (rest[1] - rest[0]).perp(&(rest[2] - rest[0]));
         let local = rest.map(|p| V2::new(p.dot(&weft), p.dot(&grain)));
         self.laid.push(Laid { vertices, rest: local, across: [None; 3] });
-        self.plates.push(Plate { area, normals: [normal(0), normal(1), normal(2)], hinges: [None; 3] });
+        let rigidities_nm = [fabric.bending_weft_nm, fabric.bending_warp_nm];
+        let normals = [normal(0), normal(1), normal(2)];
+        self.plates.push(Plate { area, rigidities_nm, normals, hinges: [None; 3] });
         for k in 0..3 {
             let order = [k, (k + 1) % 3, (k + 2) % 3];
             let [a, b, opposite] = order.map(|m| vertices[m]);
@@ -169,8 +204,8 @@ impl PlateBuilder {
         }
     }
 
-    fn finish(&self, fabric: &Fabric, sides: &PairList) -> Bending {
-        Bending::new(&self.hinges, &self.plates, fabric, sides)
+    fn finish(&self, sides: &PairList) -> Bending {
+        Bending::new(&self.hinges, &self.plates, sides)
     }
 }
 

@@ -70,7 +70,7 @@ impl Cloth {
             let element = &self.membrane.elements[*t];
             element.renamed(element.vertices().map(name))
         };
-        let membrane = Membrane::new(self.membrane.material, part.triangles.iter().map(renamed).collect());
+        let membrane = Membrane::new(self.membrane.laws().to_vec(), part.triangles.iter().map(renamed).collect());
         let arcs = self.membrane.arcs.part(&self.membrane.pairs, &membrane.pairs, &part.vertices, name);
         let membrane = membrane.with_arcs(arcs);
         let numbers = part.triangles.clone();
@@ -79,6 +79,7 @@ impl Cloth {
             triangles: membrane.elements.iter().map(Element::vertices).collect(),
             masses: part.of(&self.masses),
             areas: part.of(&self.areas),
+            frictions: part.of(&self.frictions),
             bending: self.bending.part(part, [&self.membrane.pairs, &membrane.pairs]),
             membrane,
             bands: self.bands.part(part),

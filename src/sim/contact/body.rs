@@ -88,8 +88,8 @@ pub struct BodyContact<'a> {
     anchors: Vec<Option<V3>>,
     /// By itself, since it is all that is asked of most samples.
     seen: Vec<Seen>,
-    /// Coulomb coefficient; `None` while friction is off.
-    friction: Option<f64>,
+    /// Coulomb coefficients of the vertices; `None` while friction is off.
+    friction: Option<Vec<f64>>,
     /// Whether friction holds beyond its limit.
     holds_fast: bool,
     touching: Vec<Touch>,
@@ -130,7 +130,7 @@ impl<'a> BodyContact<'a> {
             vertices: part.vertices.len(),
             anchors: of_whole().map(|&k| self.anchors[k]).collect(),
             seen: of_whole().map(|&k| self.seen[k]).collect(),
-            friction: self.friction,
+            friction: self.friction.as_ref().map(|friction| part.of(friction)),
             holds_fast: self.holds_fast,
             touching: Vec::new(),
         }
@@ -185,9 +185,9 @@ impl<'a> BodyContact<'a> {
         depths.map(|(depth, _)| depth).fold(0.0, f64::max)
     }
 
-    /// Switches friction on with a Coulomb coefficient, or off. Anchors are set where the cloth now lies.
-    pub fn set_friction(&mut self, coefficient: Option<f64>) {
-        self.friction = coefficient;
+    /// Switches friction on, with a Coulomb coefficient of each vertex. Anchors are set where the cloth now lies.
+    pub fn set_friction(&mut self, coefficients: impl Iterator<Item = f64>) {
+        self.friction = Some(coefficients.collect());
         self.anchors.fill(None);
     }
 
@@ -412,7 +412,8 @@ impl<'a> BodyContact<'a> {
 
     fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
         let sample = &self.samples[touch.sample];
-        let limit = self.friction? * sample.area_m2 * touch.push.pressure_n_m2 * touch.gradient.norm();
+        let coefficient = self.friction.as_ref()?[sample.point.vertices[0]];
+        let limit = coefficient * sample.area_m2 * touch.push.pressure_n_m2 * touch.gradient.norm();
         let anchor = self.anchors[touch.sample]?;
         let normal = touch.gradient.try_normalize(0.0)?;
         let slip = across(&(sample.point.at(x) - anchor), &normal);

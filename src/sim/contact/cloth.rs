@@ -144,9 +144,9 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Switches friction of layers on each other on, with a Coulomb coefficient, or off. They are held where they now lie.
-    pub fn set_friction(&mut self, coefficient: Option<f64>) {
-        self.rub = coefficient.map(Rub::new);
+    /// Switches friction of layers on each other on, with a Coulomb coefficient of each vertex. They are held where they now lie.
+    pub fn set_friction(&mut self, coefficients: impl Iterator<Item = f64>) {
+        self.rub = Some(Rub::new(coefficients.collect()));
     }
 
     /// From now on friction holds layers on each other, whatever that takes.
@@ -209,7 +209,7 @@ impl<'a> ClothContact<'a> {
             made: None,
             room_m: self.room_m,
             untangling: Untangling::new(0.0, 0),
-            rub: self.rub.as_ref().map(|rub| rub.part(|p| p.renamed(|vertices| part.names(vertices)))),
+            rub: self.rub.as_ref().map(|rub| rub.part(part)),
         }
     }
 

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::distance::Primitives;
 use super::friction::{Friction, Hold, across};
+use crate::cloth::part::Part;
 use geom::V3;
 use linalg::Contact4;
 
@@ -42,7 +43,8 @@ struct Touch {
 
 /// Friction between layers of one cloth.
 pub struct Rub {
-    coefficient: f64,
+    /// Coulomb coefficients of the vertices; that of two is their mean.
+    coefficients: Vec<f64>,
     is_fast: bool,
     /// How far what touched is from where it is held, m.
     held: BTreeMap<Primitives, V3>,
@@ -50,17 +52,19 @@ pub struct Rub {
 }
 
 impl Rub {
-    /// Friction with a Coulomb coefficient, from where the cloth now lies.
+    /// Friction with a Coulomb coefficient of each vertex, from where the cloth now lies.
     #[must_use]
-    pub fn new(coefficient: f64) -> Self {
-        Self { coefficient, is_fast: false, held: BTreeMap::new(), touching: Vec::new() }
+    pub fn new(coefficients: Vec<f64>) -> Self {
+        Self { coefficients, is_fast: false, held: BTreeMap::new(), touching: Vec::new() }
     }
 
-    /// The friction of a part of the cloth; `renamed` calls primitives as they are called there.
+    /// The friction of a part of the cloth.
     #[must_use]
-    pub fn part(&self, renamed: impl Fn(Primitives) -> Option<Primitives>) -> Self {
+    pub fn part(&self, part: &Part) -> Self {
+        let renamed = |primitives: Primitives| primitives.renamed(|vertices| part.names(vertices));
         let held = self.held.iter().filter_map(|(primitives, held)| Some((renamed(*primitives)?, *held)));
-        Self { held: held.collect(), touching: Vec::new(), ..*self }
+        let coefficients = part.of(&self.coefficients);
+        Self { coefficients, is_fast: self.is_fast, held: held.collect(), touching: Vec::new() }
     }
 
     /// Takes over how a part has come to be held; `renamed` calls its primitives as they are called here.
@@ -77,7 +81,9 @@ impl Rub {
     pub fn begin(&mut self, x: &[V3], pressed: impl Iterator<Item = Pressed>) {
         self.touching.clear();
         for pressed in pressed {
-            let limit_n = self.coefficient * pressed.force_n;
+            // The first vertex is of the one primitive, the last of the other.
+            let [one, _, _, other] = pressed.primitives.vertices().map(|v| self.coefficients[v]);
+            let limit_n = 0.5 * (one + other) * pressed.force_n;
             if limit_n <= 0.0 {
                 continue;
             }

@@ -1,7 +1,7 @@
 //! The exact surface of the body, for questions that the blurred field cannot answer.
 
-use geom::crossing::winding_number;
 use geom::surface::SurfaceError;
+use geom::winding::winding_number;
 use geom::{Surface, TriMesh, V3};
 
 /// A body's surface.

@@ -49,7 +49,7 @@ fn friction_forgets_how_deep_a_contact_was_before() {
     // Pressed in at the pole by steps, then moved along the ball, whose normal turns.
     let held = |heights_m: &[f64]| {
         let mut contact = BodyContact::new(&field, ContactParams::default(), &[1e-4]);
-        contact.set_friction(Some(0.3));
+        contact.set_friction(std::iter::once(0.3));
         let mut assembled = |x: &[V3]| {
             let (mut forces, mut diagonal) = (vec![V3::zeros()], vec![nalgebra::Matrix3::zeros()]);
             contact.assemble(x, &mut forces, &mut diagonal);

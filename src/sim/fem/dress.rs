@@ -32,6 +32,9 @@ geom::constants! {
     const EASED: f64 = 0.1;
     /// Residual without friction of all the stiffness, from which on friction holds.
     const RESTED: f64 = 0.02;
+    /// Room between sole and floor, m: what contact keeps off either, and as much again. Without it cloth under a heel is pushed up by the one
+    /// and down by the other for ever.
+    const SOLE_M: f64 = 3e-3;
     /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
     /// drawn out of shape.
     const DRAWN: f64 = 0.1;
@@ -165,7 +168,7 @@ impl Dressing<'_> {
         let field = folded.as_ref().unwrap_or(around.field);
         let mut contact = BodyContact::new(field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
         if grip != Grip::AtTheEnd {
-            contact.set_friction(Some(self.fabric.friction_body));
+            contact.set_friction(cloth.frictions.iter().map(|friction| friction.body));
         }
         let springs = Springs::new(garment, params.sewing.seam_stiffness_n_m, self.force * params.sewing.seam_cap_n);
         let sewn = springs.pairs.clone();
@@ -200,7 +203,7 @@ impl Dressing<'_> {
                 None => cloth.weld(sewn),
                 Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
             };
-            let settling = Settling { around, garment, cloth: &cloth, fabric: self.fabric, level, grip };
+            let settling = Settling { around, garment, cloth: &cloth, level, grip };
             let is_finest = level + 1 == self.garments.len();
             for share in shares.iter().filter(|_| is_finest) {
                 let slack = cloth.clone().slackened(*share);
@@ -230,9 +233,9 @@ impl Dressing<'_> {
     }
 }
 
-/// Height of the floor that a body stands on, m: its lowest point.
+/// Height of the floor that a body stands on, m: so far below its lowest point that cloth under a sole has room.
 pub fn floor_m(body: &Body) -> f64 {
-    body.mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min)
+    body.mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min) - SOLE_M
 }
 
 /// Length of the longest piece along its grain, m.

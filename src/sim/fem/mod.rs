@@ -6,6 +6,7 @@ pub mod response;
 mod run;
 mod settle;
 mod start;
+mod together;
 
 pub use dress::floor_m;
 pub use params::{Params, Sewing, level_edges};
@@ -208,6 +209,7 @@ pub(crate) fn constants() -> Vec<Constant> {
         run::CONSTANTS,
         settle::CONSTANTS,
         start::CONSTANTS,
+        together::CONSTANTS,
     ]
     .concat()
 }

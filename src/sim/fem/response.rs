@@ -78,7 +78,7 @@ impl<'a> Response<'a> {
         let Params { contact, self_contact, .. } = *params;
         let around = Around { skin, field, floor_m, hands: None, contact, self_contact };
         let taken_up = |around| {
-            let settling = Settling { around, garment, cloth, fabric, level: 0, grip: Grip::AtTheEnd };
+            let settling = Settling { around, garment, cloth, level: 0, grip: Grip::AtTheEnd };
             let mut x = cloth.weld(positions);
             let system = settling.taken_up(&mut x, is_held, &mut Simulation::new(params, &mut Silent, 0))?;
             Ok((system, x))

@@ -1,12 +1,12 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
 
 use super::run::{Phase, Simulation};
+use crate::SimError;
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::hands::{Hands, Shape};
 use crate::solver::System;
 use crate::solver::braces::Braces;
-use crate::{Fabric, SimError};
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
@@ -94,8 +94,6 @@ pub struct Settling<'a> {
     pub garment: &'a Garment,
     /// The same, sewn.
     pub cloth: &'a Cloth,
-    /// What it is made of.
-    pub fabric: &'a Fabric,
     /// Its number, coarsest first.
     pub level: usize,
     /// When friction begins.
@@ -241,7 +239,7 @@ impl<'a> Settling<'a> {
             self.hold_out(&mut contact, x, false);
         }
         if self.grip != Grip::AtTheEnd {
-            contact.set_friction(Some(self.fabric.friction_body));
+            contact.set_friction(self.cloth.frictions.iter().map(|friction| friction.body));
         }
         contact
     }
@@ -257,7 +255,7 @@ impl<'a> Settling<'a> {
     /// further than what presses points in is out of balance: the next round moves it again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
-        system.set_friction(self.fabric);
+        system.set_friction();
         let (mut residual, mut tolerance) = (f64::MAX, params.tolerance.max(HELD));
         for round in 0..HOLDING_ROUNDS {
             residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level, tolerance))?;

@@ -101,7 +101,7 @@ pub fn over_sphere(fabric: &Fabric, sphere: &DistanceField) -> Result<OverSphere
     let place = |p: &V2| V3::new(p.x - 0.5, p.y - 0.5, radius + params.offset_m);
     let Specimen { cloth, mut positions, .. } = Specimen::new(sheet(cells, cells, 1.0 / cells as f64), fabric, place)?;
     let mut contact = BodyContact::new(sphere, params, &cloth.areas);
-    contact.set_friction(Some(fabric.friction_body));
+    contact.set_friction(std::iter::repeat_n(fabric.friction_body, cloth.len()));
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
     // It falls by half a metre: as far in a step as contact allows, and so there is more to correct.

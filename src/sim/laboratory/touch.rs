@@ -24,7 +24,7 @@ pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64
     let field = incline(angle_rad);
     let contact = ContactParams::default();
     let mut system = System::new(&cloth, BodyContact::new(&field, contact, &cloth.areas), None);
-    system.contact.set_friction(Some(friction));
+    system.contact.set_friction(std::iter::repeat_n(friction, cloth.len()));
     let (turn, middle) = (Rotation3::from_axis_angle(&V3::x_axis(), angle_rad), 0.5 * columns as f64 * edge);
     let laid = |p: &V2| turn * V3::new(p.x - middle, p.y - middle, 0.9 * contact.offset_m);
     let start: Vec<V3> = sheet.rest.iter().map(laid).collect();
@@ -47,12 +47,13 @@ pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Resul
     // Apart in the pattern; worn, no vertex lies above another.
     rest.extend(upper.iter().map(|p| p + V2::new(0.5, 0.0)));
     let sheets = garment((rest, triangles));
-    let cloth = Cloth::new(&sheets, fabric, unsewn(&sheets))?;
+    // The slope holds the lower sheet however steep it is.
+    let rough = Fabric { friction_body: 5.0, friction_self: friction, ..fabric.clone() };
+    let cloth = Cloth::new(&sheets, &rough, unsewn(&sheets))?;
     let field = incline(angle_rad);
     let mut system = System::new(&cloth, BodyContact::new(&field, contact, &cloth.areas), None);
     system.self_contact = Some(ClothContact::new(between, &cloth.triangles, &cloth.areas));
-    // The slope holds the lower sheet however steep it is.
-    system.set_friction(&Fabric { friction_body: 5.0, friction_self: friction, ..fabric.clone() });
+    system.set_friction();
     let turn = Rotation3::from_axis_angle(&V3::x_axis(), angle_rad);
     let laid = |(v, p): (usize, &V2)| {
         let height = 0.9 * contact.offset_m;
@@ -134,7 +135,7 @@ pub fn pressed_tube(fabric: &Fabric, radius_m: f64, share: f64, edge_m: f64) -> 
     // The law at the girth that the tube has, and at the length that it is left with along its axis.
     let girth = std::f64::consts::TAU * radius / girth_m;
     let strain = Tensor { weft: 0.5 * (girth * girth - 1.0), warp: along, shear: 0.0 };
-    let tension = cloth.membrane.material.stress(strain).weft * girth / (1.0 + 2.0 * along).sqrt();
+    let tension = cloth.membrane.laws()[0].stress(strain).weft * girth / (1.0 + 2.0 * along).sqrt();
     let grown = girth * (1.0 + 2.0 * along).sqrt();
     let pressing = mean(&|v| forces[v].xy().dot(&x[v].xy().normalize())) / (mean(&|v| cloth.areas[v]) * grown);
     Ok(Pressed { pressure_pa: pressing, tension_over_radius_pa: tension / radius, radius_m: radius })

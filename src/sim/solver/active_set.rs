@@ -35,6 +35,7 @@ pub fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     let is_whole = moved.len() < LEAST_VERTICES
         || system.springs.is_some()
         || system.walls.is_some()
+        || system.cover.is_some()
         || system.braces.is_some()
         || !system.held.is_empty()
         || system.linear.is_exact()
@@ -144,7 +145,7 @@ mod tests {
         // A contact has areas of its own.
         let areas: Vec<f64> = cloth.areas.iter().map(|area| 0.3 * area).collect();
         system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &areas));
-        system.contact.set_friction(Some(0.3));
+        system.contact.set_friction(std::iter::repeat_n(0.3, cloth.len()));
         system.assemble(&flat, None);
         for middle in [V3::new(0.0, 0.0, 0.06), V3::new(0.0, -0.1, 0.06)] {
             let free = near(&flat, middle, 0.04);

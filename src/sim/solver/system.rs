@@ -4,13 +4,13 @@ use nalgebra::Matrix3;
 use wide::f32x4;
 
 use super::braces::Braces;
-use crate::Fabric;
 use crate::cloth::Cloth;
 use crate::cloth::bending::Bending;
 use crate::cloth::law::Tensor;
 use crate::cloth::membrane::{Bowed, Foreseen, Membrane};
 use crate::cloth::part::Part;
 use crate::contact::{BodyContact, ClothContact};
+use crate::cover::Cover;
 use crate::sewing::Springs;
 use crate::walls::Walls;
 use geom::V3;
@@ -63,6 +63,8 @@ pub struct System<'a> {
     pub springs: Option<Springs>,
     /// Walls between the cloth of limbs, until the seams are welded.
     pub walls: Option<Walls>,
+    /// What is worn over the cloth, which keeps within it.
+    pub cover: Option<&'a Cover>,
     /// What holds the cloth up by its top edge.
     pub braces: Option<Braces>,
     /// Vertices that do not move.
@@ -85,17 +87,19 @@ impl<'a> System<'a> {
             self_contact: None,
             springs,
             walls: None,
+            cover: None,
             braces: None,
             held: Vec::new(),
             linear: LinearSolver::default(),
         }
     }
 
-    /// Switches friction on with the coefficients of a fabric. Anchors are set where the cloth now lies.
-    pub fn set_friction(&mut self, fabric: &Fabric) {
-        self.contact.set_friction(Some(fabric.friction_body));
+    /// Switches friction on with the coefficients of the cloth. Anchors are set where it now lies.
+    pub fn set_friction(&mut self) {
+        let frictions = &self.cloth.frictions;
+        self.contact.set_friction(frictions.iter().map(|friction| friction.body));
         if let Some(contact) = &mut self.self_contact {
-            contact.set_friction(Some(fabric.friction_self));
+            contact.set_friction(frictions.iter().map(|friction| friction.cloth));
         }
     }
 
@@ -275,10 +279,15 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Vertices on the wrong side of a wall, how far, m, and the way back.
+    /// Vertices on the wrong side of a wall or of what covers them, how far, m, and the way back.
     fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = (usize, f64, V3)> {
-        let walls = self.walls.iter();
-        walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
+        let beyond = move |(v, p): (usize, &V3)| {
+            let walls = self.walls.iter().filter_map(move |walls| walls.trespass(v, p));
+            let covers = self.cover.iter().filter_map(move |cover| cover.trespass(v, p));
+            walls.chain(covers).map(move |(depth, back)| (v, depth, back)).collect::<Vec<_>>()
+        };
+        let is_free = self.walls.is_none() && self.cover.is_none();
+        x.iter().enumerate().filter(move |_| !is_free).flat_map(beyond)
     }
 }
 

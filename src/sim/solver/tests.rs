@@ -26,7 +26,7 @@ fn all_forces_together_are_the_energys() {
     let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
     let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
     let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-    system.contact.set_friction(Some(0.3));
+    system.contact.set_friction(std::iter::repeat_n(0.3, cloth.len()));
     let flat: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x - 0.04, p.y - 0.04, 0.06)).collect();
     system.assemble(&flat, None);
     let x = shaken(&flat, 3e-4, 7);

@@ -305,7 +305,7 @@ fn braced(force_n: f64) -> String {
 }
 
 /// A simulator's error; being told to stop is an interruption.
-fn sim_error(error: SimError) -> StudyError {
+pub(crate) fn sim_error(error: SimError) -> StudyError {
     match error {
         SimError::Cancelled => StudyError::Interrupted,
         other => StudyError::stage("sim")(other),

@@ -1,0 +1,134 @@
+//! How often a surface winds round a point: exact for one point, and by far fields for many.
+//!
+//! The number of a surface with openings is no whole one. It says all the same how far the surface goes round a point: about 1 behind
+//! cloth that hangs about a body, about 0 before it, and in between across an opening [Jacobson 2013]. Seen from far, a part of a
+//! surface is a dipole [Barill 2018].
+
+use std::f64::consts::PI;
+
+use super::{TriMesh, V3};
+
+/// Triangles that are not parted further.
+const LEAF: usize = 8;
+/// Distance over the radius of a part from which on it is a dipole: the error is then below 1 % of what it adds.
+const FAR: f64 = 2.5;
+
+/// How often a surface winds round a point: 1 inside a closed mesh that is turned outwards, 0 outside
+/// [van Oosterom & Strackee 1983: solid angles].
+#[must_use]
+pub fn winding_number(mesh: &TriMesh, point: V3) -> f64 {
+    let angle = |triangle: &[usize; 3]| solid_angle(triangle.map(|vertex| mesh.positions[vertex]), point);
+    mesh.triangles.iter().map(angle).sum::<f64>() / (4.0 * PI)
+}
+
+/// Solid angle of a triangle from a point, positive from behind.
+fn solid_angle(corners: [V3; 3], point: V3) -> f64 {
+    let [a, b, c] = corners.map(|corner| corner - point);
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+    let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
+    2.0 * a.dot(&b.cross(&c)).atan2(below)
+}
+
+/// A part of the surface.
+struct Part {
+    centre: V3,
+    radius_m: f64,
+    /// Sum of its triangles' normals times their areas, m2.
+    dipole_m2: V3,
+    /// Its triangles.
+    from: usize,
+    to: usize,
+    /// What it is parted into: the next part, and this one.
+    second: Option<usize>,
+}
+
+/// A surface prepared for many questions.
+pub struct Winding {
+    triangles: Vec<[V3; 3]>,
+    parts: Vec<Part>,
+}
+
+impl Winding {
+    /// Prepares a mesh, which may have openings.
+    #[must_use]
+    pub fn new(mesh: &TriMesh) -> Self {
+        let triangles = mesh.triangles.iter().map(|triangle| triangle.map(|vertex| mesh.positions[vertex]));
+        let mut winding = Self { triangles: triangles.collect(), parts: Vec::new() };
+        if !winding.triangles.is_empty() {
+            winding.split(0, winding.triangles.len());
+        }
+        winding
+    }
+
+    /// Adds the part of some triangles, and what it is parted into; returns its number.
+    fn split(&mut self, from: usize, to: usize) -> usize {
+        let own = &mut self.triangles[from..to];
+        let middle = |corners: &[V3; 3]| corners.iter().sum::<V3>() / 3.0;
+        let centre = own.iter().map(middle).sum::<V3>() / own.len() as f64;
+        let radius_m = own.iter().flatten().map(|p| (p - centre).norm()).fold(0.0, f64::max);
+        let dipole_m2 = own.iter().map(|[a, b, c]| (b - a).cross(&(c - a)) * 0.5).sum();
+        let number = self.parts.len();
+        let spread: V3 =
+            own.iter().map(|corners| (middle(corners) - centre).component_mul(&(middle(corners) - centre))).sum();
+        let half = own.len() / 2;
+        let is_parted = own.len() > LEAF;
+        if is_parted {
+            own.select_nth_unstable_by(half, |a, b| middle(a)[spread.imax()].total_cmp(&middle(b)[spread.imax()]));
+        }
+        self.parts.push(Part { centre, radius_m, dipole_m2, from, to, second: None });
+        if is_parted {
+            self.split(from, from + half);
+            self.parts[number].second = Some(self.split(from + half, to));
+        }
+        number
+    }
+
+    /// How often it winds round a point, to a hundredth.
+    #[must_use]
+    pub fn number(&self, point: V3) -> f64 {
+        let mut angle = 0.0;
+        let mut open: Vec<usize> = if self.parts.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(number) = open.pop() {
+            let Part { centre, radius_m, dipole_m2, from, to, second } = self.parts[number];
+            let (way, far_m) = (centre - point, FAR * radius_m);
+            if way.norm_squared() > far_m * far_m {
+                angle += dipole_m2.dot(&way) / way.norm().powi(3);
+            } else if let Some(second) = second {
+                open.extend([number + 1, second]);
+            } else {
+                angle += self.triangles[from..to].iter().map(|corners| solid_angle(*corners, point)).sum::<f64>();
+            }
+        }
+        angle / (4.0 * PI)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+
+    #[test]
+    fn the_inside_is_told_from_the_outside() {
+        let ball = shapes::sphere(1.0, 8);
+        for (point, wound) in [(V3::zeros(), 1.0), (V3::new(0.9, 0.0, 0.1), 1.0), (V3::new(0.0, 1.2, 0.0), 0.0)] {
+            assert!((winding_number(&ball, point) - wound).abs() < 1e-9, "{point:?}");
+        }
+    }
+
+    #[test]
+    fn far_parts_are_dipoles_to_a_hundredth() {
+        let whole = shapes::sphere(1.0, 24);
+        let cup = TriMesh { triangles: whole.triangles[..1500].to_vec(), ..whole.clone() };
+        for mesh in [whole, cup] {
+            let winding = Winding::new(&mesh);
+            for k in 0..200 {
+                let turn = f64::from(k);
+                let point = V3::new((0.7 * turn).sin(), (1.1 * turn).cos(), (0.3 * turn).sin()) * (0.1 + 0.01 * turn);
+                let error = winding.number(point) - winding_number(&mesh, point);
+                assert!(error.abs() < 0.01, "{point:?} errs by {error}");
+            }
+        }
+        assert_eq!(Winding::new(&TriMesh::default()).number(V3::zeros()), 0.0);
+    }
+}

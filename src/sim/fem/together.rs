@@ -1,0 +1,90 @@
+//! Layers of an outfit that come to rest together.
+
+use super::dress::floor_m;
+use super::params::Params;
+use super::run::Simulation;
+use super::settle::{Around, Grip, Settled, Settling};
+use crate::cloth::Cloth;
+use crate::contact::Skin;
+use crate::outfit::{Layer, Wear, parted};
+use crate::quality::{self, top_m};
+use crate::{Drape, Monitor, SimError, sewing};
+use body::Body;
+use geom::{DistanceField, V3};
+use pattern::Garment;
+
+geom::constants! {
+    "fem.together",
+    /// How far the top of a layer may come down when the layers come to rest together, m.
+    const MOST_DESCENT_M: f64 = 0.25;
+}
+
+impl Wear for Params {
+    fn alone(
+        &self,
+        (body, field): (&Body, &DistanceField),
+        layer: Layer,
+        room_m: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Drape, SimError> {
+        let mut params = *self;
+        params.contact.offset_m += room_m;
+        super::simulate(body, field, layer.garments, layer.fabric, &params, monitor)
+    }
+
+    fn together(
+        &self,
+        (body, field): (&Body, &DistanceField),
+        layers: &[Layer],
+        drapes: Vec<Drape>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Vec<Drape>, SimError> {
+        let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<&Garment>, _>>()?;
+        let all = Garment::beside(&garments);
+        let fabrics: Vec<_> =
+            layers.iter().zip(&garments).map(|(layer, own)| (own.pieces.len(), layer.fabric)).collect();
+        let cloth = Cloth::of_layers(&all, &fabrics, sewing::welded(&all))?;
+        let start: Vec<V3> = drapes.iter().flat_map(|drape| drape.positions.iter().copied()).collect();
+        let skin = Skin::new(&body.mesh).ok();
+        let Params { contact, self_contact, .. } = *self;
+        let around = Around { skin: skin.as_ref(), field, floor_m: floor_m(body), hands: None, contact, self_contact };
+        let mut run = Simulation::new(self, monitor, 1);
+        let mut settled = |grip| {
+            let settling = Settling { around, garment: &all, cloth: &cloth, level: run.levels(), grip };
+            settling.settle(cloth.weld(&start), &mut run)
+        };
+        let mut lies = settled(Grip::AtTheEnd)?;
+        if slid(&garments, &drapes, &lies).is_some() {
+            lies = settled(Grip::Throughout)?;
+        }
+        if let Some((garment, descent_m)) = slid(&garments, &drapes, &lies) {
+            return Err(SimError::SlidOff { garment: garment.name.clone(), descent_m });
+        }
+        let (iterations, history) = (run.iterations(), run.into_history());
+        let crossings = quality::self_crossings(&lies.sewn, &lies.triangles);
+        let ended = |((drape, garment), positions): ((Drape, &&Garment), Vec<V3>)| Drape {
+            converged: lies.residual <= self.tolerance,
+            iterations: drape.iterations + iterations,
+            residual: lies.residual,
+            penetration_max_m: quality::penetration_by_field_m(skin.as_ref(), field, garment, &positions),
+            seam_gap_max_m: quality::seam_gap_m(garment, &positions),
+            self_crossings: crossings,
+            positions,
+            history: drape.history.into_iter().chain(history.iter().copied()).collect(),
+            ..drape
+        };
+        let lying = parted(&garments, &lies.positions);
+        Ok(drapes.into_iter().zip(&garments).zip(lying).map(ended).collect())
+    }
+}
+
+/// The layer that has come down farthest, and how far, m, where one has come off.
+fn slid<'a>(garments: &[&'a Garment], drapes: &[Drape], lies: &Settled) -> Option<(&'a Garment, f64)> {
+    let after = parted(garments, &lies.positions);
+    let descents = garments
+        .iter()
+        .zip(drapes)
+        .zip(&after)
+        .map(|((garment, drape), after)| (*garment, top_m(garment, &drape.positions) - top_m(garment, after)));
+    descents.max_by(|one, other| one.1.total_cmp(&other.1)).filter(|(_, descent_m)| *descent_m > MOST_DESCENT_M)
+}

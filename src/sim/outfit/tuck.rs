@@ -1,0 +1,67 @@
+//! Layers that are drawn within what is to be worn over them.
+
+use super::Layer;
+use crate::cloth::Cloth;
+use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, contact_areas};
+use crate::cover::Cover;
+use crate::solver::{StepParams, Stepper, System};
+use crate::{Monitor, SimError, sewing};
+use body::Body;
+use geom::{DistanceField, V3};
+use pattern::Garment;
+
+geom::constants! {
+    "outfit.tuck",
+    /// Most steps in which a layer is drawn in.
+    const STEPS: u32 = 120;
+    /// Residual at which it lies within.
+    const LIES: f64 = 1.0;
+}
+
+/// Where the vertices of layers come to lie within a cover, from `positions`, m, each layer by itself in the end; as they are where
+/// nothing of them is beyond it.
+///
+/// # Errors
+/// When a mesh is degenerate, or the monitor cancels.
+pub fn tucked(
+    (_, field): (&Body, &DistanceField),
+    layers: &[Layer],
+    positions: &[&[V3]],
+    cover: Cover,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Vec<V3>>, SimError> {
+    let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<&Garment>, _>>()?;
+    let garment = Garment::beside(&garments);
+    let fabrics: Vec<_> = layers.iter().zip(&garments).map(|(layer, own)| (own.pieces.len(), layer.fabric)).collect();
+    let cloth = Cloth::of_layers(&garment, &fabrics, sewing::welded(&garment))?;
+    let cover = cover.over(&garment, &cloth.vertex_of);
+    let mut x = cloth.weld(&positions.concat());
+    let between = ClothContactParams::default();
+    let areas = contact_areas(&garment, &cloth.vertex_of, &cloth.areas, 2.0 * between.thickness_m);
+    let contact = BodyContact::new(field, ContactParams::default(), &cloth.areas);
+    let mut system = System::new(&cloth, contact, None);
+    system.self_contact = Some(ClothContact::new(between, &cloth.triangles, areas));
+    system.cover = Some(&cover);
+    let mut stepper = Stepper::new(StepParams::default());
+    let is_pierced = cover.is_pierced(&x);
+    for _ in 0..if is_pierced { STEPS } else { 0 } {
+        if monitor.cancelled() {
+            return Err(SimError::Cancelled);
+        }
+        if stepper.step(&mut system, &mut x, 0.0).residual < LIES {
+            break;
+        }
+    }
+    Ok(parted(&garments, &cloth.unweld(&x)))
+}
+
+/// What belongs to each of some garments of what belongs to all.
+pub fn parted<T: Copy>(garments: &[&Garment], all: &[T]) -> Vec<Vec<T>> {
+    let mut rest = all;
+    let own = |garment: &&Garment| {
+        let (own, others) = rest.split_at(garment.rest.len());
+        rest = others;
+        own.to_vec()
+    };
+    garments.iter().map(own).collect()
+}
