@@ -25,8 +25,9 @@ geom::constants! {
     const END: f64 = 0.4;
     /// Length of the wrist whose half width a folded hand is measured by, m.
     const WRIST_M: f64 = 0.02;
-    /// Half width of a folded hand over that of the wrist: a narrow hem on the coarsest mesh has four corners or three, and closes only
-    /// about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's girth).
+    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three,
+    /// and closes only about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's
+    /// girth).
     const FOLDED: f64 = 0.65;
     /// Half width of a folded hand's end over that where it begins.
     const NARROWING: f64 = 0.5;

@@ -1,8 +1,8 @@
 //! Toile from outside: the program as its users call it, and the rules that the sources keep.
 //!
-//! `structure` and `tidy` read the sources; `cli`, `bad_input` and `run` start the real program in folders of their own,
-//! `workbench` in a pseudo-terminal. Tests that need
-//! the sample data beside the project say so and pass where it is not there.
+//! `structure` and `tidy` read the sources, `words` the documents as well. `cli`, `bad_input` and `run` start the real
+//! program in folders of their own, `workbench` in a pseudo-terminal. Tests that need the sample data beside the project
+//! say so and pass where it is not there.
 
 mod bad_input;
 mod chance;
@@ -23,4 +23,5 @@ mod structure;
 mod tidy;
 mod together;
 mod wardrobe;
+mod words;
 mod workbench;

@@ -9,8 +9,9 @@ use nalgebra::{Rotation2, UnitQuaternion};
 /// A body whose long axis leans less than this from an axis of its file stands along that axis, radians.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// A body that leans less than the first from the upright axis of its file, or less than the second where the file has none, is
-/// left as it is; one that would lean more than [`SOLES`] by its soles does not stand on them (raised heels), radians.
+/// A body that leans less than the first from the upright axis of its file, or less than the second where the file has
+/// none, is left as it is, radians. One that would lean more than [`SOLES`] by its soles does not stand on them (raised
+/// heels).
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 

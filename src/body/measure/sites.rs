@@ -206,9 +206,10 @@ pub(crate) fn usual_chest(stature: f64, crotch: f64) -> f64 {
     NIPPLES[0] * stature + NIPPLES[1] * crotch
 }
 
-/// The level of the nipples, which leave no mark that a scan keeps: half way between the height at which the front stands out
-/// most from the chord between ribs and collar bones (a hanging breast or a muscle has that elsewhere) and the height that
-/// proportions tell, which err alike; at most where the arms are still apart from the trunk.
+/// The level of the nipples, which leave no mark that a scan keeps. It is half way between two heights, which err
+/// alike. One is that at which the front stands out most from the chord between ribs and collar bones (a hanging breast
+/// or a muscle has that elsewhere). The other is that which proportions tell. It lies at most where the arms are still
+/// apart from the trunk.
 pub(crate) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let trunk = Slices::new(mesh, low, high);

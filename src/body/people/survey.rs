@@ -7,11 +7,11 @@ use nalgebra::{DMatrix, DVector};
 /// Natural logarithms of the dimensions (m, kg) of one sex as a normal distribution: a dimension given others follows from it
 /// by conditioning. Logarithms, since girths then grow with the root of the mass and never turn negative.
 ///
-/// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. The survey's own dimensions were
-/// turned into those of ISO 8559-1 by constant factors: waist at the navel by 0.997 (men) and 0.968 (women), biacromial
-/// breadth to tape over the nape by 1.066 and 1.115 (means of three reference bodies of each sex), flexed upper arm and
-/// forearm to relaxed by 0.92 and 0.95, lower thigh to knee by 0.93. Under-bust from chest and waist: least squares over 80
-/// model bodies of each sex (MakeHuman, CC0-1.0).
+/// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. The survey's own dimensions
+/// were turned into those of ISO 8559-1 by constant factors. They are 0.997 (men) and 0.968 (women) from waist at the
+/// navel, 0.92 and 0.95 from flexed upper arm and forearm to relaxed, 0.93 from lower thigh to knee. From biacromial
+/// breadth to tape over the nape they are 1.066 and 1.115 (means of three reference bodies of each sex). Under-bust
+/// from chest and waist: least squares over 80 model bodies of each sex (MakeHuman, CC0-1.0).
 pub(crate) struct Survey {
     mean: [f64; COUNT],
     sd: [f64; COUNT],

@@ -142,9 +142,9 @@ impl<'a> Figure<'a> {
         ]
     }
 
-    /// Sections of the trunk at their girths: the asked ones at hip, waist and chest. Between hip and waist, and above the chest,
-    /// the mean body's departure from a straight course; between waist and chest its share of their difference, so that ribs
-    /// do not draw in under the chest of somebody who has no waist.
+    /// Sections of the trunk at their girths: the asked ones at hip, waist and chest. Between hip and waist, and above
+    /// the chest, they have the mean body's departure from a straight course. Between waist and chest they have its
+    /// share of their difference, so that ribs do not draw in under the chest of somebody who has no waist.
     pub fn trunk_sections(&self) -> Vec<Station> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;

@@ -129,8 +129,9 @@ pub enum Command {
     Size(Catalogue<SizeValues>),
     /// Fabrics of the catalogue.
     ///
-    /// `ls` and `show` tell of each whether it is one cloth or a class, how long a strip of it bends by its own weight in a
-    /// cantilever test, and where it stands among 618 known cloths, those of its weight (`p62`: 62 % bend more easily).
+    /// `ls` and `show` tell of each whether it is one cloth or a class, and how long a strip of it bends by its own
+    /// weight in a cantilever test. They tell where it stands among 618 known cloths, those of its weight (`p62`: 62 %
+    /// bend more easily).
     #[command(subcommand)]
     Fabric(Catalogue<FabricValues>),
     /// The simulator's mechanics beside theory and published measurements.

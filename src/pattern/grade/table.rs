@@ -61,8 +61,8 @@ pub struct GradeTable {
 /// Reads a grade rule table; `file` is its name for messages.
 ///
 /// # Errors
-/// [`GradeError`] where it is no such table, names no unit, its sizes do not agree, a rule is there twice or has not one
-/// pair for each size, or the sample size moves (the steps are not from the sample size then).
+/// [`GradeError`] where it is no such table, names no unit, its sizes do not agree, or a rule is there twice or has not
+/// one pair for each size. So it is where the sample size moves (the steps are not from the sample size then).
 pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     let reader = Reader { file };
     if bytes.len() > MOST_BYTES {

@@ -254,8 +254,9 @@ impl<'a> Anatomy<'a> {
         self.along_path(point, edges.iter().copied().map(PathPart::Edge).collect(), share)
     }
 
-    /// The way down the centre of halves of a front or a back, from the end of an edge that runs across the top: along the outline while
-    /// it runs upright, and on over what is sewn to its lower end, halves again or one piece from side to side.
+    /// The way down the centre of halves of a front or a back, from the end of an edge that runs across the top. It
+    /// goes along the outline while that runs upright, and on over what is sewn to its lower end, halves again or one
+    /// piece from side to side.
     pub fn down_centre(&self, end: EdgeEnd) -> Vec<PathPart> {
         let mut path = Vec::new();
         let mut at = end;

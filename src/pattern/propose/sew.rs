@@ -167,8 +167,8 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Pieces of a face along a seam of one side, with what they call it, in the order of the walk: a yoke has the shoulder
-    /// of what hangs from it, or the upper end of the seams of what it lies on.
+    /// Pieces of a face along a seam of one side, with what they call it, in the order of the walk. A yoke has the
+    /// shoulder of what hangs from it, or the upper end of the seams of what it lies on.
     fn along(&self, class: Class, label: Label, face: Face, hand: Hand) -> Vec<(&'w Worn, Label)> {
         let Some(main) = self.find(class, Some(face), hand) else { return Vec::new() };
         let panel = self.find(Class::SidePanel, Some(face), hand).filter(|panel| panel.has(label));

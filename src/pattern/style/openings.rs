@@ -12,8 +12,9 @@ const EASED_M: f64 = 1e-3;
 pub(crate) type EdgeEnd = (EdgeRef, bool);
 
 impl Style {
-    /// Replaces the measurements by one for each opening (a loop of edges that no seam holds, such as a hem, a neckline or
-    /// a sleeve opening) and one for each seam: along its side `a`, or `b` where `a` is longer, and so eased or gathered into it.
+    /// Replaces the measurements by one for each opening and one for each seam. An opening is a loop of edges that no
+    /// seam holds, such as a hem, a neckline or a sleeve opening. A seam is measured along its side `a`, or `b` where
+    /// `a` is longer, and so eased or gathered into it.
     pub fn measure_openings_and_seams(&mut self) {
         let mut found: Vec<(String, MeasurementKind, Vec<EdgeRef>)> = Vec::new();
         for opening in self.openings(&|_| true) {

@@ -80,10 +80,11 @@ geom::constants! {
 
 /// The law of one direction of the grain: stress against Green strain, N/m.
 ///
-/// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from its value
-/// at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien, Ramamoorthi
-/// 2011]; beyond that the stress goes on along its tangent. Compression keeps the modulus at rest. The stress is the
-/// derivative of an energy, once continuously differentiable, and its slope never falls below that at rest.
+/// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from its
+/// value at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien,
+/// Ramamoorthi 2011]. Beyond that the stress goes on along its tangent. Compression keeps the modulus at rest. The
+/// stress is the derivative of an energy, once continuously differentiable, and its slope never falls below that at
+/// rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre<N = f64> {
     /// Modulus at rest, N/m.
@@ -108,8 +109,8 @@ impl Fibre {
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
     }
 
-    /// The same law with a share of its modulus at rest, whose slope rises to what it is anyway by [`SLACK`], or by where a law that
-    /// stiffens has its last: so drawn, cloth is a little longer, and as stiff as ever.
+    /// The same law with a share of its modulus at rest. Its slope rises to what it is anyway by [`SLACK`], or by where
+    /// a law that stiffens has its last. So drawn, cloth is a little longer, and as stiff as ever.
     #[must_use]
     pub fn slackened(self, share: f64) -> Self {
         let until = if self.until.is_finite() { self.until } else { SLACK };

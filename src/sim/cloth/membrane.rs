@@ -235,8 +235,9 @@ impl Membrane {
         self.arcs.add_forces(&bent, &tensions, forces);
     }
 
-    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J, and what arcs add; the blocks'
-    /// geometric part is that of the stresses `predicted`, one an element, or without them of the stresses at `x`.
+    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J, and what
+    /// arcs add. The blocks' geometric part is that of the stresses `predicted`, one an element, or without them of the
+    /// stresses at `x`.
     pub fn assemble(
         &self,
         x: &[V3],
@@ -285,9 +286,9 @@ impl Membrane {
         simd::dispatch(Compression { fours: &self.fours, stresses, d, share, forces });
     }
 
-    /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a linear solve at `x`
-    /// foresees there, which it returns, and the off-diagonal blocks of the stiffness that stretching alone has at that end, N/m, with what
-    /// arcs add to it.
+    /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a
+    /// linear solve at `x` foresees there, which it returns. It also adds the off-diagonal blocks of the stiffness that
+    /// stretching alone has at that end, N/m, with what arcs add to it.
     pub fn assemble_towards(
         &self,
         x: &[V3],

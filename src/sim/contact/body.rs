@@ -222,8 +222,9 @@ impl<'a> BodyContact<'a> {
         self.seen.push(Seen::NEVER);
     }
 
-    /// Looks at vertices and at the middles of these edges and centres of triangles against the exact surface, and has those that lie inside
-    /// held [`ContactParams::clearance_m`] off it from now on; returns how deep the deepest lay, m (0 when none).
+    /// Looks at vertices and at the middles of these edges and centres of triangles against the exact surface, and has
+    /// those that lie inside held [`ContactParams::clearance_m`] off it from now on. Returns how deep the deepest lay,
+    /// m (0 when none).
     ///
     /// The offset of such a point is told in the field, which is blurred: what the blur takes from a sharp convex place
     /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so

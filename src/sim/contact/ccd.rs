@@ -23,9 +23,11 @@ pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     free_share(x, y, primitives, 0.0) < 1.0
 }
 
-/// Share of the way from `x` to `y`, its vertices moving evenly, that a pair can go until it has come nearer than about a tenth of its
-/// distance, or than `least_m`, or, where it is that near already, nearer than it is: by conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that
-/// touches already has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross is drawn out again.
+/// Share of the way from `x` to `y`, its vertices moving evenly, that a pair can go. It goes until it has come nearer
+/// than about a tenth of its distance, or than `least_m`, or, where it is that near already, nearer than it is. By
+/// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair
+/// that touches already has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross
+/// is drawn out again.
 #[must_use]
 pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f64 {
     let vertices = primitives.vertices();

@@ -383,7 +383,8 @@ impl<'a> ClothContact<'a> {
     }
 
     /// Moves vertices at `x` so that what is near keeps to the side, and comes to the distance, that it had at the last
-    /// [`ClothContact::update`], or a little more of it up to the thickness: the mean of what all pairs ask for, some times over.
+    /// [`ClothContact::update`], or a little more of it up to the thickness. They move by the mean of what all pairs
+    /// ask for, some times over.
     pub fn keep_apart(&self, x: &mut [V3]) {
         let sided = |primitives: Primitives| {
             let ClosestPoints { weights, gap } = ClosestPoints::of(&self.last, primitives);

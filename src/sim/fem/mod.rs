@@ -31,8 +31,9 @@ geom::constants! {
     const FAULTLESS_DEPTH_M: f64 = 5e-4;
     /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
     const MOST_RISE_M: f64 = 0.25;
-    /// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again: whether a
-    /// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
+    /// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again. Whether
+    /// a fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out. These keep what
+    /// is mirrored so.
     const RESEWN: [f64; 2] = [1.5, 0.67];
     /// Steps times vertices (5 to 20 microseconds each) after which a fault is no longer tried to be put right: who waits has waited. A
     /// T-shirt takes 0.7 million.
@@ -47,15 +48,17 @@ geom::constants! {
 /// with friction throughout.
 ///
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
-/// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn once more with
-/// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
-/// through a fold are chance. What still has a fault is then sewn with more force, and with less. The first such
-/// drape that has no fault is taken, or, if the garment came off at first, that stays on; failing that, the best of them. Where all
-/// tries so far have taken long, the best of them has to do.
+/// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn
+/// once more with friction from the first seam on. Any other that does is sewn from pieces that are bent otherwise,
+/// unless how was asked for: a cuff drawn through a wrist, a fold through a fold are chance. What still has a fault is
+/// then sewn with more force, and with less. The first such drape that has no fault is taken, or, if the garment came
+/// off at first, that stays on; failing that, the best of them. Where all tries so far have taken long, the best of
+/// them has to do.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
-/// upwards, is stretched beyond what cloth can be or a limit that is to end it, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or
+/// comes off upwards. Also when it is stretched beyond what cloth can be or a limit that is to end it, or the monitor
+/// cancels. Not converging is no error.
 ///
 /// # Examples
 /// ```

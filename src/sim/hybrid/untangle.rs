@@ -19,9 +19,9 @@ geom::constants! {
 /// Turns flipped triangles of a sheet back; returns how many are left.
 ///
 /// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both maps of a mapping are bijective, but a
-/// piece is laid vertex by vertex, and a triangle may turn over where the surface bends or where the corner of an outline is
-/// wider on the body than in the pattern. Vertices move as little as they must [Motzkin & Schoenberg 1954]; those of a seam
-/// move as one, so that no seam opens.
+/// piece is laid vertex by vertex. So a triangle may turn over where the surface bends or where the corner of an
+/// outline is wider on the body than in the pattern. Vertices move as little as they must [Motzkin & Schoenberg 1954];
+/// those of a seam move as one, so that no seam opens.
 pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usize {
     let mut around = vec![Vec::new(); x.len()];
     for (index, t) in triangles.iter().enumerate() {

@@ -90,8 +90,8 @@ pub struct OverSphere {
 }
 
 /// Lays a square metre of a fabric, 71 x 71 vertices, flat on a sphere of radius 0.3 m and lets it come to rest, with
-/// friction on the sphere and contact with itself, until the residual is 1 % or 600 steps are done: a scene that other
-/// simulators are timed on. `sphere` is the sphere's distance field.
+/// friction on the sphere and contact with itself. It ends when the residual is 1 % or 600 steps are done: a scene that
+/// other simulators are timed on. `sphere` is the sphere's distance field.
 ///
 /// # Errors
 /// When the mesh is degenerate.

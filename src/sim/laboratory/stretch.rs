@@ -6,9 +6,9 @@ use crate::{Fabric, SimError};
 use geom::units::GRAVITY;
 use geom::{V2, V3};
 
-/// A sheet whose sides are held where the deformation gradient `gradient` (columns: images of weft and warp) puts them:
-/// greatest distance of an inner vertex from where the same deformation would put it, and the tension across a line
-/// normal to the weft and to the warp (N/m of rest width).
+/// A sheet whose sides are held where the deformation gradient `gradient` (columns: images of weft and warp) puts them.
+/// Returns the greatest distance of an inner vertex from where the same deformation would put it, and the tension
+/// across a line normal to the weft and to the warp (N/m of rest width).
 ///
 /// # Errors
 /// When the mesh is degenerate.

@@ -91,8 +91,8 @@ impl Sleeve {
     }
 }
 
-/// An arm from the elbow over the wrist to the end of the hand, straight on where it is bent back, and how wide a sleeve begins
-/// there that is `width` wide at a height and has some radius at the elbow.
+/// An arm from the elbow over the wrist to the end of the hand, straight on where it is bent back. Beside it how wide a
+/// sleeve begins there that is `width` wide at a height and has some radius at the elbow.
 fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
     let elbow = Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius };

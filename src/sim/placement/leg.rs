@@ -154,8 +154,8 @@ impl<'a> Leg<'a> {
         }
     }
 
-    /// Where a point begins that would lie at `height` if its leg hung straight, `sin` the sine of its angle from the side: the front of
-    /// a leg that is too long is drawn up over the instep, all from half way down.
+    /// Where a point begins that would lie at `height` if its leg hung straight, `sin` the sine of its angle from the
+    /// side. The front of a leg that is too long is drawn up over the instep, all from half way down.
     fn above_instep(&self, face: &LegFace, side: f64, height: f64, sin: f64) -> f64 {
         let instep = INSTEP_M.min(self.crotch_m());
         let hem = self.crotch_m() + face.hem - face.fork;

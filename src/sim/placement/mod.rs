@@ -201,8 +201,9 @@ impl Placing<'_> {
         Ok(())
     }
 
-    /// The piece without a place that is sewn most to those with one; and, about the trunk, what is sewn to it and as much to those, as
-    /// the other half of a hood is: one placed by the other would not lie beside it but follow it, as halves of a cuff are to.
+    /// The piece without a place that is sewn most to those with one. About the trunk also what is sewn to it and as
+    /// much to those, as the other half of a hood is. One placed by the other would not lie beside it but follow it, as
+    /// halves of a cuff are to.
     fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());

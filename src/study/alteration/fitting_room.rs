@@ -117,8 +117,8 @@ impl<'a> FittingRoom<'a> {
         Ok(meshes)
     }
 
-    /// What each handle changes of all that is read off a drape, per metre: of a coarser drape than that of the study, as it would slide
-    /// if nothing held it, since that is how a new drape finds its place.
+    /// What each handle changes of all that is read off a drape, per metre. It is of a coarser drape than that of the
+    /// study, as it would slide if nothing held it, since that is how a new drape finds its place.
     ///
     /// # Errors
     /// What meshing or the simulator refuses.

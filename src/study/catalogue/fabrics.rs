@@ -89,9 +89,9 @@ const BENDING: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// A table of fabrics, its columns those of `v_fabrics`, with columns of what follows from their numbers: what a fabric of the
-/// library stands for and which of its parts are of another cloth, its bending lengths, where its bending stands among the
-/// known cloths of its weight, and from where to where those of a class lie.
+/// A table of fabrics, its columns those of `v_fabrics`, with columns of what follows from their numbers. These are
+/// what a fabric of the library stands for, which of its parts are of another cloth, and its bending lengths. They are
+/// also where its bending stands among the known cloths of its weight, and from where to where those of a class lie.
 #[must_use]
 pub fn with_bending(mut table: Table) -> Table {
     let place = |key: &str| table.columns.iter().position(|column| column == key);

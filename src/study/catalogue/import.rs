@@ -32,8 +32,9 @@ pub struct Imported {
 /// Entries of a file that are right, and what is wrong with the others.
 pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
 
-/// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will do), for subjects
-/// and fabrics CSV with the same keys, and scans, each a subject of the file's name. Where anything is wrong with one of them, none is taken, or as `strictness` says.
+/// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will
+/// do), and for subjects and fabrics CSV with the same keys. Scans are brought in too, each a subject of the file's
+/// name. Where anything is wrong with one of them, none is taken, or as `strictness` says.
 ///
 /// # Errors
 /// Everything that is wrong with the files, each with its line.

@@ -123,8 +123,8 @@ fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     Fabric { bending_warp_nm, bending_weft_nm, ..fabric.clone() }
 }
 
-/// Ease at a level by the length that the garment has there on the drape, m: its flat length, stretched as the point of measure nearest to
-/// the level is; not a number where the garment has no such level on this body.
+/// Ease at a level by the length that the garment has there on the drape, m: its flat length, stretched as the point of
+/// measure nearest to the level is. It is not a number where the garment has no such level on this body.
 fn worn_ease_m(outcome: &Outcome, level: &str) -> f64 {
     let points: &[&str] = match level {
         "chest" | "bust" | "underbust" => &["half_chest"],

@@ -195,8 +195,9 @@ pub struct Grading {
 /// Finds the sizes that fit the most people.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] for a garment or size that the study does not have; counts out of range; a garment that women and men wear; a
-/// pattern that holds its own seams; what body or pattern refuse; rules that do not make the sizes again.
+/// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range; a garment that
+/// women and men wear; a pattern that holds its own seams; what body or pattern refuse; rules that do not make the
+/// sizes again.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
     let seams = asked.spec.seams.as_ref().ok_or_else(|| {

@@ -35,8 +35,8 @@ const FINE_EDGE_M: f64 = 0.015;
 /// Residual at which a drape can be looked at, and steps after the sewing that end it at the latest.
 const SEEN: f64 = 2.0;
 const MOST_STEPS: u32 = 40;
-/// Greatest displacement of a vertex in a step of sewing and gap at which seams are welded, m, and relative tolerance of a linear solve: a
-/// garment that is looked at may be pulled about, and is sewn in half the time.
+/// Greatest displacement of a vertex in a step of sewing and gap at which seams are welded, m, and relative tolerance
+/// of a linear solve. A garment that is looked at may be pulled about, and is sewn in half the time.
 const CLAMP_M: f64 = 0.020;
 const WELD_GAP_M: f64 = 0.010;
 const TOLERANCE: f64 = 0.2;

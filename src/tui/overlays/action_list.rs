@@ -66,8 +66,9 @@ impl List {
         Self { things, ..self }
     }
 
-    /// Its rows: where nothing is typed the keys in the order of the table, those of the screen first, then those that work everywhere, then
-    /// those of other screens; otherwise actions whose names begin with it, what has such a name, and actions that have it anywhere.
+    /// Its rows. Where nothing is typed they are the keys in the order of the table, those of the screen first, then
+    /// those that work everywhere, then those of other screens. Otherwise they are actions whose names begin with it,
+    /// what has such a name, and actions that have it anywhere.
     #[must_use]
     pub fn rows(&self) -> Vec<Row<'_>> {
         let text = self.text.trim();

@@ -7,9 +7,9 @@ use crate::store::read::simulator;
 use fit::{Cuts, Errors, Pair, Simulator};
 use geom::units::from_mm;
 
-/// A row for each measurement of each case and simulator. No pattern girth at chest or hip is printed, so the fit is by a
-/// proxy: the hem's girth less the chest for tops and the dress, the waist's less the hip for trousers (FEM's L2D: Table
-/// 6-21 prints something else as the waist). Subjects of both sexes have the same names and are told apart.
+/// A row for each measurement of each case and simulator. No pattern girth at chest or hip is printed, so the fit is by
+/// a proxy. It is the hem's girth less the chest for tops and the dress, the waist's less the hip for trousers (FEM's
+/// L2D: Table 6-21 prints something else as the waist). Subjects of both sexes have the same names and are told apart.
 const ROWS: &str = "
     WITH girth AS (
         SELECT garment, size, l2d_mm FROM published
