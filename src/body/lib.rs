@@ -44,7 +44,8 @@ pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, pictur
 pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
-use geom::{TriMesh, V3};
+use geom::section::{self, Plane};
+use geom::{TriMesh, V2, V3, hull};
 
 /// Sex of the subject, as far as body shape and sizing tables distinguish it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -156,6 +157,30 @@ impl Body {
     #[must_use]
     pub fn trunk_girth_at(&self, height_m: f64) -> Option<f64> {
         measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
+    }
+
+    /// The same body with something on, which `mesh` encloses. What a tape reads round the trunk is read over `on_trunk`, the cloth that is
+    /// worn there.
+    #[must_use]
+    pub fn enclosed(&self, mesh: TriMesh, on_trunk: &TriMesh) -> Self {
+        let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
+        let mut girths = self.girths.clone();
+        let read = [
+            (Dimension::ChestGirth, chest_m),
+            (Dimension::UnderbustGirth, underbust_m),
+            (Dimension::WaistGirth, waist_m),
+            (Dimension::HipGirth, hip_m),
+        ];
+        for (dimension, height_m) in read {
+            let bare = measure::tape::trunk_outline(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x);
+            let cloth = section::section(on_trunk, &Plane::horizontal(height_m));
+            let points: Vec<V2> =
+                bare.iter().chain(&cloth).flat_map(|outline| outline.points.iter().copied()).collect();
+            if bare.is_some() {
+                girths.set(dimension, hull::tape_girth(&points));
+            }
+        }
+        Self { mesh, girths, ..self.clone() }
     }
 
     /// What a tailor takes on the body beside its girths.

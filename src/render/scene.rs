@@ -59,6 +59,12 @@ impl Material {
         Self::cloth(Rgb(0x62, 0xb3, 0x8c))
     }
 
+    /// A garment under the one that is shown: the grey of undyed linen.
+    #[must_use]
+    pub fn under() -> Self {
+        Self::cloth(Rgb(0xc4, 0xbd, 0xae))
+    }
+
     /// Hybrid-GS after pop-up: yellow.
     #[must_use]
     pub fn popup() -> Self {

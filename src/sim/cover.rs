@@ -12,6 +12,8 @@ geom::constants! {
     const WITHIN_M: f64 = 1.5e-3;
     /// Farthest beyond the cover that cloth is drawn back into it, m: a hem hangs so far out from what it is tucked into.
     const REACH_M: f64 = 0.25;
+    /// How far beyond its edges the cover continues straight, m: what goes under an edge does so from within.
+    const CONTINUES_M: f64 = 0.03;
     /// Weight of a corner below which a point lies on the opposite side.
     const ON_SIDE: f64 = 1e-6;
 }
@@ -97,11 +99,13 @@ impl Cover {
         let corners = triangle::sorted(*sheet.mesh.triangles.get(nearest? as usize)?);
         let at = corners.map(|v| sheet.mesh.positions[v]);
         let weights = triangle::nearest(p, &at);
-        if sheet.is_rim(corners, weights) {
-            return None;
-        }
         let normal: V3 = (0..3).map(|k| sheet.normals[corners[k]] * weights[k]).sum();
         let way: V3 = (0..3).map(|k| (p - at[k]) * weights[k]).sum();
+        if sheet.is_rim(corners, weights) {
+            let normal = normal.try_normalize(0.0)?;
+            let (height_m, along_m) = (way.dot(&normal), (way - normal * way.dot(&normal)).norm());
+            return (along_m < CONTINUES_M && height_m + WITHIN_M > 0.0).then_some((height_m + WITHIN_M, -normal));
+        }
         let is_beyond = way.dot(&normal) > 0.0;
         let outward = (way * if is_beyond { 1.0 } else { -1.0 }).try_normalize(1e-9).or(normal.try_normalize(0.0))?;
         let depth = if is_beyond { WITHIN_M + distance_m } else { WITHIN_M - distance_m };

@@ -1,6 +1,7 @@
 //! A garment, or an outfit, on one body, without a study: `toile try`.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -10,8 +11,9 @@ use crate::error::{Result, StudyError};
 use crate::faults::{Fault, drape_faults};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
+use crate::run::layers::{Garb, Wardrobe};
 use crate::run::outcome::{Measured, Outcome};
-use crate::run::pipeline::{Fitting, Meshes, sim_error};
+use crate::run::pipeline::Meshes;
 use crate::seams::{self, Question};
 use crate::spec::file::{read_body, read_fabric};
 use crate::spec::parameters::Parameters;
@@ -25,7 +27,6 @@ use pattern::{Garment, MeasurementKind, Spot, Style};
 use render::export::{MeshFormat, Part};
 use render::{self, Camera, Frame, Material, Rgb, Scene};
 use sim::hybrid::Closure;
-use sim::outfit::{self, Layer};
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
 /// Least shortfall that is told as a problem, mm.
@@ -175,31 +176,38 @@ pub struct Tried {
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
     check(asked)?;
-    let wardrobe = asked.layers.iter().map(|layer| Garb::of(asked, layer)).collect::<Result<Vec<_>>>()?;
+    let read = asked.layers.iter().map(|layer| garb(asked, layer)).collect::<Result<Vec<_>>>()?;
+    let (garbs, notes): (Vec<Garb>, Vec<Vec<String>>) = read.into_iter().unzip();
     let (body, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let parameters = Parameters::default();
-    let outfit =
-        Outfit { on: (&body, &field), wardrobe: &wardrobe, simulator: asked.simulator, parameters: &parameters };
+    let wardrobe = Wardrobe { on: (&body, &field), garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
     let mut told = Told(progress);
-    let drapes = outfit.dress(&mut told)?;
-    let mut all = outfit.tried(asked, &drapes)?;
-    if let ([garb], [tried]) = (&wardrobe[..], &mut all[..])
+    let drapes = wardrobe.dress(&mut told)?;
+    let mut all = Vec::new();
+    for (number, (garb, notes)) in garbs.iter().zip(notes).enumerate() {
+        let outcome = wardrobe.outcome(number, &drapes)?;
+        let notes = guessed.iter().cloned().chain(notes).chain(outcome.warnings.iter().cloned()).collect();
+        let mut tried = Tried::new(asked, garb, outcome);
+        tried.problems.splice(0..0, problems(&body, garb.meshes.finest()?, &drapes[number]));
+        tried.notes = notes;
+        all.push(tried);
+    }
+    if let ([garb], [tried]) = (&garbs[..], &mut all[..])
         && asked.repeat > 1
     {
         let again = |seed: u32| {
             let mut parameters = Parameters::default();
             parameters.set("fem.seed", seed.into()).map_err(StudyError::stage("sim"))?;
-            Outfit { parameters: &parameters, ..outfit }.dress(&mut told)
+            Wardrobe { parameters: &parameters, ..wardrobe }.dress(&mut told)
         };
         let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
         spread(tried, garb.meshes.finest()?, &drapes.concat());
     }
     if let Some(last) = all.last_mut() {
-        last.files = files(asked.simulator, &body, &wardrobe, &drapes)?;
+        last.files = files(asked.simulator, &body, &garbs, &drapes)?;
     }
     for tried in &mut all {
-        tried.notes.splice(0..0, guessed.iter().cloned());
         tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
     }
     Ok(all)
@@ -212,84 +220,19 @@ fn check(asked: &Attempt) -> Result<()> {
             "--repeat is for --sim fem: only that starts from a place that can be varied",
         ));
     }
-    if asked.layers.len() > 1 && (asked.simulator != Simulator::Fem || asked.repeat > 1) {
-        return Err(StudyError::stage("sim")(
-            "several garments are worn over each other with --sim fem and without --repeat",
-        ));
+    if asked.layers.len() > 1 && asked.repeat > 1 {
+        return Err(StudyError::stage("sim")("--repeat is for one garment; accepted of an outfit: one drape"));
     }
     Ok(())
 }
 
-/// A garment, read.
-struct Garb {
-    style: Style,
-    meshes: Meshes,
-    fabric: Fabric,
-    notes: Vec<String>,
-}
-
-impl Garb {
-    fn of(asked: &Attempt, layer: &AttemptLayer) -> Result<Self> {
-        let mut notes = Vec::new();
-        let fabric = fabric(&layer.fabric)?;
-        let style = style(asked, layer, &mut notes)?;
-        Ok(Self { meshes: Meshes::of(&style, asked.edge_length_m)?, style, fabric, notes })
-    }
-}
-
-/// What is worn, the inner first.
-#[derive(Clone, Copy)]
-struct Outfit<'a> {
-    on: (&'a Body, &'a DistanceField),
-    wardrobe: &'a [Garb],
-    simulator: Simulator,
-    parameters: &'a Parameters,
-}
-
-impl<'a> Outfit<'a> {
-    fn fitting(&self, on: (&'a Body, &'a DistanceField), garb: &'a Garb) -> Fitting<'a> {
-        Fitting {
-            body: on.0,
-            field: on.1,
-            style: &garb.style,
-            meshes: &garb.meshes,
-            fabric: &garb.fabric,
-            simulator: self.simulator,
-            parameters: self.parameters,
-        }
-    }
-
-    fn layers(&self) -> Vec<Layer<'a>> {
-        self.wardrobe.iter().map(|garb| Layer { garments: &garb.meshes.0, fabric: &garb.fabric }).collect()
-    }
-
-    fn dress(&self, monitor: &mut dyn Monitor) -> Result<Vec<Drape>> {
-        match self.wardrobe {
-            [garb] => Ok(vec![self.fitting(self.on, garb).simulate(monitor)?]),
-            _ => outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(sim_error),
-        }
-    }
-
-    /// What came of each garment, on what lies under it.
-    fn tried(&self, asked: &Attempt, drapes: &[Drape]) -> Result<Vec<Tried>> {
-        let layers = self.layers();
-        let mut all = Vec::new();
-        for (number, (garb, drape)) in self.wardrobe.iter().zip(drapes).enumerate() {
-            let under: Vec<Vec<V3>> = drapes[..number].iter().map(|drape| drape.positions.clone()).collect();
-            let solid = match number {
-                0 => None,
-                _ => Some(outfit::dressed(self.on, &layers[..number], &under).map_err(sim_error)?),
-            };
-            let on = solid.as_ref().map_or(self.on, |(body, field)| (body, field));
-            let outcome = self.fitting(on, garb).outcome(drape)?;
-            let notes = garb.notes.iter().chain(&outcome.warnings).cloned().collect();
-            let mut tried = Tried::new(asked, garb, outcome);
-            tried.problems.splice(0..0, problems(self.on.0, garb.meshes.finest()?, drape));
-            tried.notes = notes;
-            all.push(tried);
-        }
-        Ok(all)
-    }
+/// A garment as it is asked for, and what had to be guessed about it.
+fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
+    let mut notes = Vec::new();
+    let fabric = fabric(&layer.fabric)?;
+    let style = style(asked, layer, &mut notes)?;
+    let meshes = Arc::new(Meshes::of(&style, asked.edge_length_m)?);
+    Ok((Garb { style, meshes, fabric }, notes))
 }
 
 impl Tried {
@@ -453,8 +396,8 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
 }
 
 /// Four views of every stage as one picture each, and body and garments as meshes.
-fn files(simulator: Simulator, body: &Body, wardrobe: &[Garb], drapes: &[Drape]) -> Result<Vec<(String, Vec<u8>)>> {
-    let garments = wardrobe.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
+fn files(simulator: Simulator, body: &Body, garbs: &[Garb], drapes: &[Drape]) -> Result<Vec<(String, Vec<u8>)>> {
+    let garments = garbs.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
     let mesh = |garment: &Garment, positions: &[V3]| TriMesh {
         positions: positions.to_vec(),
         triangles: garment.triangles.clone(),

@@ -13,6 +13,7 @@ mod figures;
 mod fit;
 mod fit_report;
 mod grade;
+mod outfit;
 mod pattern_files;
 mod pictures;
 mod program;

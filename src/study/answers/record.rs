@@ -201,6 +201,9 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     if person.scan.is_none() && inputs.iter().any(is_scan) {
         return Err(refuse("its body is a scan, of which an older program kept nothing; run its study again".into()));
     }
+    if inputs.iter().any(|(name, _)| name == "outfit.id") {
+        return Err(refuse("it is a layer of an outfit, which is draped as a whole; run its study again".into()));
+    }
     let spec = JobSpec {
         garment: job.garment,
         style,
@@ -216,6 +219,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         edge_length_m: from_mm(edge_mm),
         parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
         schedule: Schedule::default(),
+        outfit: None,
         inputs: Inputs::default(),
     };
     Ok(spec.with_inputs())

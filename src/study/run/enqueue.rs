@@ -157,8 +157,8 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
         |row| row.get(0),
     )?;
     transaction.execute("DELETE FROM study_axis WHERE study_id = ?", [study_id])?;
-    let garments = study.garments.iter().map(|garment| ("garment", &garment.name));
-    let sizes = study.garments.iter().flat_map(|garment| &garment.sizes).map(|size| ("size", &size.name));
+    let garments = study.worn().map(|garment| ("garment", &garment.name));
+    let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| ("size", &size.name));
     let subjects = study.subjects.iter().map(|subject| ("subject", &subject.id));
     for (position, (axis, name)) in garments.chain(sizes).chain(subjects).enumerate() {
         transaction
@@ -185,7 +185,7 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     let mut statement = transaction.prepare_cached(
         "INSERT INTO fit_target (study_id, garment, level, is_top, intended, least_mm, most_mm) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
-    for garment in &study.garments {
+    for garment in study.worn() {
         let own = garment.target.own_m.keys().map(String::as_str);
         let levels: BTreeSet<&str> = TARGETS.iter().map(|row| row.level).chain(own).collect();
         for (level, is_top) in levels.into_iter().flat_map(|level| [(level, false), (level, true)]) {

@@ -7,6 +7,7 @@ pub mod engine;
 pub mod enqueue;
 pub mod handout;
 pub mod isolated;
+pub(crate) mod layers;
 pub mod outcome;
 pub mod pipeline;
 pub mod slurm;
@@ -253,12 +254,12 @@ fn check_patterns(study: &Study) -> Result<()> {
 
 /// Refuses a selection with a name that the study does not have.
 pub(crate) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
-    let sizes = study.garments.iter().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
+    let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
     let axes: [(&'static str, &[String], Vec<&str>); 4] = [
         ("simulator", &selection.simulators, study.simulators.iter().map(|simulator| simulator.as_str()).collect()),
         ("size", &selection.sizes, sizes.collect()),
         ("subject", &selection.subjects, study.subjects.iter().map(|subject| subject.id.as_str()).collect()),
-        ("garment", &selection.garments, study.garments.iter().map(|garment| garment.name.as_str()).collect()),
+        ("garment", &selection.garments, study.worn().map(|garment| garment.name.as_str()).collect()),
     ];
     for (what, wanted, known) in axes {
         let mut seen = BTreeSet::new();

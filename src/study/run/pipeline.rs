@@ -7,12 +7,13 @@ use crate::error::{Result, StudyError};
 use crate::patterns;
 use crate::rows::StageKind;
 use crate::run::ease;
+use crate::run::layers::{self, Drapes, Garb, Wardrobe};
 use crate::run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
 use crate::run::worn::WornOn;
 use crate::spec::file::{Person, Subject};
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
-use crate::spec::{JobSpec, subject_inputs, versions};
+use crate::spec::{JobSpec, Outfit, subject_inputs, versions};
 use crate::store::cache::{Artefact, Cache, Used};
 use body::Body;
 use fit::{self, Ease, Simulator, measure};
@@ -75,7 +76,7 @@ macro_rules! json_artefact {
     )*};
 }
 
-json_artefact!(Model, Meshes, Drape);
+json_artefact!(Model, Meshes, Drape, Drapes);
 
 impl Artefact for DistanceField {
     fn encode(&self) -> Result<Vec<u8>> {
@@ -119,6 +120,24 @@ impl Pipeline {
         self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
     }
 
+    /// A layer of an outfit. The first of its layers drapes them all, for the others too.
+    fn layer(&self, spec: &JobSpec, outfit: &Outfit, monitor: &mut dyn Monitor) -> Result<Outcome> {
+        let (model, used_body) = self.model(spec)?;
+        let (field, used_field) = self.field(spec, &model)?;
+        let (_, used_mesh) = self.meshes(spec)?;
+        let garb = |layer: &JobSpec| Garb::of(layer, self.meshes(layer)?.0);
+        let garbs = outfit.layers.iter().map(garb).collect::<Result<Vec<_>>>()?;
+        let on = (&model.body, &*field);
+        let wardrobe =
+            Wardrobe { on, garbs: &garbs, simulator: spec.simulator, parameters: &outfit.layers[0].parameters };
+        let hash = layers::inputs(outfit).stage_hash(StageKind::Drape);
+        let (all, _) = self.cache.get(StageKind::Drape, &hash, || wardrobe.dress(monitor).map(Drapes))?;
+        let own = || Ok(all.0[outfit.layer].clone());
+        let (_, used_drape) = self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), own)?;
+        let used = vec![used_body, used_field, used_mesh, used_drape];
+        Ok(Outcome { used, ..wardrobe.outcome(outfit.layer, &all.0)? })
+    }
+
     /// The body of a subject, for its ease: a scan through the cache; one that is measured is built sooner than it is read.
     ///
     /// # Errors
@@ -147,6 +166,9 @@ fn mesh(spec: &JobSpec) -> Result<Meshes> {
 
 impl Executor for Pipeline {
     fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome> {
+        if let Some(outfit) = &spec.outfit {
+            return self.layer(spec, outfit, monitor);
+        }
         let (model, used_body) = self.model(spec)?;
         let (meshes, used_mesh) = self.meshes(spec)?;
         let (field, used_field) = self.field(spec, &model)?;

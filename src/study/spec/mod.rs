@@ -88,8 +88,33 @@ pub struct JobSpec {
     /// When it is started, and what it may take.
     #[serde(default)]
     pub schedule: Schedule,
+    /// What it is worn with, as a layer of an outfit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outfit: Option<Outfit>,
     /// All of the above but the schedule, and the versions of the stages, as named values.
     pub inputs: Inputs,
+}
+
+/// What a layer is worn with.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Outfit {
+    /// Name of the outfit.
+    pub name: String,
+    /// Which of its layers it is, the inmost 0.
+    pub layer: usize,
+    /// What each layer would be alone, the inmost first.
+    pub layers: Vec<JobSpec>,
+}
+
+impl Outfit {
+    /// What all layers are made from, as one value: the same for each of them.
+    pub(crate) fn id(&self) -> String {
+        let mut all = Inputs::default();
+        for (number, layer) in self.layers.iter().enumerate() {
+            all.set(format!("layer.{number}"), layer.inputs.hash());
+        }
+        all.hash()
+    }
 }
 
 /// Which part of a study to run; empty lists take all.
@@ -141,13 +166,15 @@ pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
 
 fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool) -> Vec<JobSpec> {
     let mut jobs = Vec::new();
-    for garment in &study.garments {
+    for garment in study.worn() {
         let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
         let is_worn = |subject: &&Subject| wearers.contains(subject.id.as_str()) && is_wanted(garment, subject);
         let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
-        for size in &garment.sizes {
+        // Only FEM-GS knows layers.
+        let is_able = |simulator: &&Simulator| garment.outfit.is_none() || **simulator == Simulator::Fem;
+        for size in 0..garment.sizes.len() {
             for subject in &subjects {
-                for &simulator in &study.simulators {
+                for &simulator in study.simulators.iter().filter(is_able) {
                     jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
                 }
             }
@@ -156,22 +183,29 @@ fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool
     jobs
 }
 
-fn job(garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {
+fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {
+    let SizeFile { name, pattern } = &garment.sizes[size];
+    let outfit = garment.outfit.as_ref().map(|worn| Outfit {
+        name: worn.name.clone(),
+        layer: worn.layer,
+        layers: worn.layers.iter().map(|layer| job(layer, size, subject, simulator, repeat)).collect(),
+    });
     let spec = JobSpec {
         garment: garment.name.clone(),
         style: garment.style.clone(),
-        size: size.name.clone(),
+        size: name.clone(),
         subject: subject.id.clone(),
         simulator,
         repeat,
         person: subject.person.clone(),
-        pattern: size.pattern.clone(),
+        pattern: pattern.clone(),
         unit: garment.unit.clone(),
         seams: garment.seams.clone(),
         fabric: garment.fabric.clone(),
         edge_length_m: garment.edge_length_m,
         parameters: garment.parameters.clone(),
         schedule: garment.schedule.clone(),
+        outfit,
         inputs: Inputs::default(),
     };
     spec.with_inputs()
@@ -194,6 +228,11 @@ impl JobSpec {
         }
         subject_inputs(&mut inputs, &self.subject, &self.person);
         fabric_inputs(&mut inputs, &self.fabric);
+        if let Some(outfit) = &self.outfit {
+            inputs.set("outfit.name", &outfit.name);
+            inputs.set("outfit.layer", outfit.layer + 1);
+            inputs.set("outfit.id", outfit.id());
+        }
         for (name, version) in versions::versions(self.simulator) {
             inputs.set(name, version);
         }

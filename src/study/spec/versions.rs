@@ -11,7 +11,7 @@ pub(crate) const VERSIONS: [(&str, u32); 3] = [("body.version", 7), ("field.vers
 /// Version of what is measured on a drape: a job is measured anew, its drape is taken as it is stored.
 const MEASURE_VERSION: u32 = 1;
 /// Version of the simulators, raised as those of the stages; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 46;
+const SIM_VERSION: u32 = 47;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 pub(crate) const FIELD_SPACING_M: f64 = 0.005;

@@ -18,7 +18,7 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction, TransactionBehavio
 use crate::error::{Result, StudyError, database_error};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 15] = [
+const MIGRATIONS: [&str; 16] = [
     include_str!("../../../db/migrations/0001_store.sql"),
     include_str!("../../../db/migrations/0002_views.sql"),
     include_str!("../../../db/migrations/0003_published.sql"),
@@ -34,6 +34,7 @@ const MIGRATIONS: [&str; 15] = [
     include_str!("../../../db/migrations/0013_worn.sql"),
     include_str!("../../../db/migrations/0014_queued.sql"),
     include_str!("../../../db/migrations/0015_scans.sql"),
+    include_str!("../../../db/migrations/0016_outfits.sql"),
 ];
 
 /// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's

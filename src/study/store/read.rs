@@ -216,6 +216,18 @@ pub fn stages(store: &Store, id: JobId) -> Result<Vec<StageRow>> {
     rows(store, sql, &[&id.0], |row| Ok(StageRow { stage: row.get(0)?, hash: row.get(1)?, was_cached: row.get(2)? }))
 }
 
+/// The jobs of the layers under a layer of an outfit, the inmost first; none of a garment that is worn alone.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn layers_under(store: &Store, id: JobId) -> Result<Vec<JobId>> {
+    let sql = "SELECT under.job_id FROM v_outfit AS own JOIN v_outfit AS under USING (study, outfit, simulator, repeat)
+        JOIN job_input AS of_own ON of_own.job_id = own.job_id AND of_own.name = 'outfit.id'
+        JOIN job_input AS of_under ON of_under.job_id = under.job_id AND of_under.name = 'outfit.id'
+        WHERE own.job_id = ? AND under.layer < own.layer AND of_own.value = of_under.value ORDER BY under.layer";
+    rows(store, sql, &[&id.0], |row| Ok(JobId(row.get(0)?)))
+}
+
 /// Ease and fit class of every size on every subject of a study.
 ///
 /// # Errors

@@ -33,7 +33,7 @@ const NEAR_M: f64 = 0.02;
 /// How far within the body cloth still shows on a gap map, m.
 const WITHIN_M: f64 = 0.05;
 
-/// Layers of a scene.
+/// Layers of a scene; what is worn under the cloth comes after it.
 const BODY: usize = 0;
 const CLOTH: usize = 1;
 
@@ -86,6 +86,8 @@ pub(crate) struct Dressed {
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
+    /// The garments under it, in an outfit.
+    under: Vec<TriMesh>,
     /// The garment as earlier stages left it, where the simulator tells them apart.
     earlier: Vec<sim::Staged>,
 }
@@ -144,8 +146,14 @@ impl Dressed {
             Map::Pressure => self.sewn()?.pressures_kpa(),
             Map::Gap => {
                 // The field that contact asks ends a few centimetres off the body; a gap may be wider.
-                let surface = Surface::new(&self.body).map_err(StudyError::stage("render"))?;
-                positions.iter().map(|p| mm(surface.signed_distance(p))).collect()
+                let surface = |mesh| Surface::new(mesh).map_err(StudyError::stage("render"));
+                let skin = surface(&self.body)?;
+                let layers = self.under.iter().map(surface).collect::<Result<Vec<_>>>()?;
+                let gap_m = |p| {
+                    let bare_m = skin.signed_distance(p);
+                    layers.iter().fold(bare_m, |least, layer| least.min(layer.nearest_within(p, least.max(0.0)).0))
+                };
+                positions.iter().map(|p| mm(gap_m(p))).collect()
             }
         })
     }
@@ -158,9 +166,9 @@ impl Dressed {
     /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
-        let layers =
-            vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
-        Scene::new(layers).map_err(StudyError::stage("render"))
+        let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
+        let under = self.under.iter().map(|cloth| Layer::new(cloth, Material::under()));
+        Scene::new(own.into_iter().chain(under).collect()).map_err(StudyError::stage("render"))
     }
 
     /// Shows another map in a scene of this result, which need not be lit again.
@@ -325,7 +333,16 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
     let levels = BTreeMap::from(levels);
     let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
-    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, earlier })
+    let under = read::layers_under(store, id)?.into_iter().filter_map(|layer| worn(store, layer).ok()).collect();
+    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier })
+}
+
+/// The draped cloth of a job.
+fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
+    let Meshes(meshes) = product(store, id, StageKind::Mesh)?;
+    let drape: Drape = product(store, id, StageKind::Drape)?;
+    let triangles = meshes.last().map(|garment| garment.triangles.clone()).unwrap_or_default();
+    Ok(TriMesh { positions: drape.positions, triangles })
 }
 
 /// The fabric a job was simulated in.

@@ -44,7 +44,17 @@ fn dressed(simulator: Simulator) -> Dressed {
     let drape = drape.unwrap();
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
     let (levels, body) = (BTreeMap::new(), body.mesh);
-    Dressed { simulator, stage: drape.stage, garment, fabric, levels, body, cloth, earlier: drape.earlier }
+    Dressed {
+        simulator,
+        stage: drape.stage,
+        garment,
+        fabric,
+        levels,
+        body,
+        cloth,
+        under: vec![],
+        earlier: drape.earlier,
+    }
 }
 
 /// A stretch of cloth along a line of the check, from where one square ends to where the next one does.

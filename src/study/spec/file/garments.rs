@@ -105,6 +105,7 @@ pub(super) fn garments(
                 target,
                 swept,
                 schedule,
+                outfit: None,
             });
         }
     }

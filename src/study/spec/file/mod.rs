@@ -32,6 +32,12 @@
 //! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
 //! # with a style of the catalogue: sizes = ["S"]; default: all of the style
 //!
+//! [[outfit]]                        # garments over each other, each draped as a layer: `office tshirt`; by FEM-GS
+//! name = "office"
+//! layers = ["tshirt", "trousers"]   # the inner first: a T-shirt in trousers
+//! sizes = ["S", "M"]                # one of each layer; default: all sizes that the layers have in common
+//! subjects = ["ii"]                 # default: those who wear all of the layers
+//!
 //! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
 //! name = "my_poplin"
 //! # density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, shear_n_m, bending_warp_nm, ...
@@ -48,6 +54,7 @@
 //! Everything is checked before anything runs, and all problems are told at once.
 
 mod garments;
+mod outfits;
 mod parse;
 mod reader;
 mod schedule;
@@ -184,6 +191,19 @@ pub struct GarmentEntry {
     pub swept: Vec<(String, String)>,
     /// When its jobs are started, and what each may take.
     pub schedule: Schedule,
+    /// What it is worn with, as a layer of an outfit.
+    pub outfit: Option<WornWith>,
+}
+
+/// The place of a garment in an outfit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WornWith {
+    /// Name of the outfit.
+    pub name: String,
+    /// Its layer, the inmost 0.
+    pub layer: usize,
+    /// All layers as they are alone; sizes at one place of their lists are worn together.
+    pub layers: Vec<GarmentEntry>,
 }
 
 impl GarmentEntry {
@@ -208,6 +228,8 @@ pub struct Study {
     pub subjects: Vec<Subject>,
     /// Garments, in order.
     pub garments: Vec<GarmentEntry>,
+    /// Layers of outfits, in order.
+    pub layers: Vec<GarmentEntry>,
     /// Simulators, in order.
     pub simulators: Vec<Simulator>,
     /// Simulations of each cell.
@@ -284,9 +306,14 @@ pub fn study_file(path: &Path) -> PathBuf {
 impl Study {
     /// Sets what each simulation may take, over what the file says.
     pub fn limit(&mut self, limits: Limits) {
-        for garment in &mut self.garments {
+        for garment in self.garments.iter_mut().chain(&mut self.layers) {
             garment.schedule.limits = limits.or(garment.schedule.limits);
         }
+    }
+
+    /// All that results are of, in order: garments alone, then the layers of outfits.
+    pub fn worn(&self) -> impl Iterator<Item = &GarmentEntry> {
+        self.garments.iter().chain(&self.layers)
     }
 
     /// Reads and checks a study: the file or its folder.

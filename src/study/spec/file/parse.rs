@@ -9,6 +9,7 @@ use toml::de::DeTable;
 use crate::error::Problem;
 use crate::spec::fields::{Entry, keys};
 use crate::spec::file::garments::{Common, garments};
+use crate::spec::file::outfits::outfits;
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::subjects::{measurements, subjects};
 use crate::spec::file::values::{numbers, unique};
@@ -18,7 +19,7 @@ use fit::{Cuts, Simulator};
 use geom::units::{from_mm, mm};
 use sim::Fabric;
 
-const STUDY_KEYS: [&str; 12] = [
+const STUDY_KEYS: [&str; 13] = [
     "name",
     "simulators",
     "edge_length_mm",
@@ -26,6 +27,7 @@ const STUDY_KEYS: [&str; 12] = [
     "fit",
     "subject",
     "garment",
+    "outfit",
     "fabric",
     "parameters",
     "sweep",
@@ -57,13 +59,15 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         limits: schedule::limits(&mut reader, &top),
     };
     let worn = garments(&mut reader, &top, &common, &subjects);
+    let garments = schedule::unfolded(sweep::swept(&mut reader, &top, worn, &fabrics));
     let study = Study {
         name,
         path: path.to_owned(),
         simulators: simulators(&mut reader, &top),
         repeats: reader.number(&top, "repeats", 1.0..=100.0).unwrap_or(1.0) as u32,
         cuts: cuts(&mut reader, &top),
-        garments: schedule::unfolded(sweep::swept(&mut reader, &top, worn, &fabrics)),
+        layers: outfits(&mut reader, &top, &garments),
+        garments,
         subjects,
     };
     if study.subjects.is_empty() && !top.table.contains_key("subject") {

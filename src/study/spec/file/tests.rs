@@ -86,6 +86,67 @@ sizes = [{ name = "S", patern = "tee-s.dxf" }]
     insta::assert_snapshot!(told.expect_err("bad"));
 }
 
+/// Two garments with two sizes each, and another of one size, with an outfit.
+fn layered(outfit: &str) -> String {
+    let sizes = |names: &[&str]| {
+        let one = |name: &&str| format!("{{ name = \"{name}\", pattern = \"tee-s.dxf\" }}");
+        names.iter().map(one).collect::<Vec<_>>().join(", ")
+    };
+    let garment = |name: &str, names: &[&str]| {
+        let sizes = sizes(names);
+        format!(
+            "[[garment]]\nname = \"{name}\"\nseams = \"tee.seams.toml\"\nfabric = \"cotton_shirting_light\"\nsizes = [{sizes}]\n"
+        )
+    };
+    let subject = "[[subject]]\nid = \"ii\"\nlike = \"male-ii\"\n";
+    let garments = [garment("shirt", &["S", "M"]), garment("jacket", &["M", "L"]), garment("scarf", &["one"])].concat();
+    format!("simulators = [\"fem\", \"hybrid\"]\n{subject}{garments}[[outfit]]\nname = \"office\"\n{outfit}\n")
+}
+
+#[test]
+fn an_outfit_is_a_garment_a_layer_in_the_sizes_that_are_worn_together() {
+    let check = |outfit: &str, expect: &[&str]| {
+        let study = load(&layered(outfit)).expect("good");
+        let jobs = crate::spec::jobs(&study);
+        let of_outfit: Vec<String> = jobs
+            .iter()
+            .filter_map(|job| {
+                let worn = job.outfit.as_ref()?;
+                let after = job.schedule.after.join(" ");
+                Some(format!("{} {} {} of {} after {after}", job.garment, job.size, worn.layer, worn.layers.len()))
+            })
+            .collect();
+        assert_eq!(of_outfit, expect, "{outfit}");
+        // Each layer's result is kept by all that is worn with it.
+        let ids: BTreeSet<String> = jobs.iter().filter_map(|job| Some(job.outfit.as_ref()?.id())).collect();
+        assert_eq!(ids.len() * study.layers.len(), of_outfit.len());
+    };
+    check(
+        "layers = [\"shirt\", \"jacket\"]",
+        &["office shirt M 0 of 2 after ", "office jacket M 1 of 2 after office shirt"],
+    );
+    check(
+        "layers = [\"scarf\", \"shirt\"]\nsizes = [\"one\", \"S\"]",
+        &["office scarf one 0 of 2 after ", "office shirt S 1 of 2 after office scarf"],
+    );
+}
+
+#[test]
+fn an_outfit_that_cannot_be_worn_is_told_of() {
+    let check = |outfit: &str, says: &str| {
+        let told = load(&layered(outfit)).expect_err("bad");
+        assert!(told.contains(says), "{told}");
+    };
+    check("", "`layers` is missing");
+    check("layers = [\"shirt\"]", "outfit office: 1 layers; accepted: 2 to 5 different garments");
+    check("layers = [\"shirt\", \"shirt\"]", "2 layers; accepted: 2 to 5 different garments");
+    check("layers = [\"shirt\", \"jackett\"]", "did you mean `jacket`?");
+    check("layers = [\"shirt\", \"scarf\"]", "`sizes` is missing");
+    check("layers = [\"shirt\", \"scarf\"]\nsizes = [\"S\"]", "one size of each layer: S, M of shirt; one of scarf");
+    check("layers = [\"shirt\", \"jacket\"]\nsubjects = [\"iii\"]", "subject who wears all layers");
+    check("layers = [\"shirt\", \"jacket\"]\nsize = \"M\"", "`size`");
+}
+
 #[test]
 fn broken_toml_names_its_line() {
     insta::assert_snapshot!(load("name = \"a\"\n[[subject]\nid = 1\n").expect_err("bad"));
