@@ -23,10 +23,11 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
             print(context, &bodies::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
-        Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
+        Body::Pose { file, arm_deg, leg_deg, forward_deg, step_deg, unit, sex, output } => {
             let source = files::SourceFile::read(file)?;
             let body = bodies::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
-            let posed = bodies::pose_body(&body, bodies::Pose { arm_deg: *arm_deg, leg_deg: *leg_deg })?;
+            let [arm_deg, leg_deg, forward_deg, step_deg] = [*arm_deg, *leg_deg, *forward_deg, *step_deg];
+            let posed = bodies::pose_body(&body, bodies::Pose { arm_deg, leg_deg, forward_deg, step_deg })?;
             write(context, &posed, output)?;
         }
         Body::Evaluate { folder } => evaluate(context, folder)?,

@@ -236,7 +236,7 @@ mod tests {
     /// A body with its arms stretched out, and its field.
     fn stretched_out() -> (Body, DistanceField) {
         let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
-        let body = body::pose(&body, Pose { arm_deg: Some(90.0), leg_deg: None }).expect("arms reach so far");
+        let body = body::pose(&body, Pose { arm_deg: Some(90.0), ..Pose::default() }).expect("arms reach so far");
         let field = DistanceField::build(&body.mesh, 0.008).expect("a closed body");
         (body, field)
     }

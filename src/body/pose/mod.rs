@@ -1,4 +1,5 @@
-//! Another pose of a body: arms raised or lowered, legs spread, about their joints in the frontal plane.
+//! Another pose of a body: arms raised or lowered and legs spread in the frontal plane, arms reaching forward and legs in a step in the
+//! sagittal one, all about their joints.
 //!
 //! Every vertex turns about the joint by its own share of the limb's angle. For one joint that is dual quaternion skinning
 //! [Kavan 2008]: no point comes nearer to the axis, so that nothing collapses as under linear blending. The shares rise
@@ -11,18 +12,25 @@ use crate::{Body, BodyError, Joint, Landmarks};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3, hull};
 
-/// Angles of the limbs from the vertical, degrees; `None` leaves them as they are. Written `arms_45`, `legs_10`, `arms_45+legs_10`.
+/// Angles of the limbs, degrees; `None` leaves them as they are. Written `arms_45`, `legs_10`, `arms_15+forward_40`, `step_15`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
-    /// Of both arms, shoulder to elbow.
+    /// Of both arms from the vertical in the frontal plane, shoulder to elbow.
     pub arm_deg: Option<f64>,
-    /// Of both legs, hip to knee.
+    /// Of both legs likewise, hip to knee.
     pub leg_deg: Option<f64>,
+    /// By how much both arms, once they are at `arm_deg`, swing forward.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forward_deg: Option<f64>,
+    /// By how much the right leg swings forward and the left one back.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step_deg: Option<f64>,
 }
 
 impl fmt::Display for Pose {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let limbs = [("arms", self.arm_deg), ("legs", self.leg_deg)];
+        let limbs =
+            [("arms", self.arm_deg), ("legs", self.leg_deg), ("forward", self.forward_deg), ("step", self.step_deg)];
         let named = limbs.iter().filter_map(|(limb, degrees)| Some(format!("{limb}_{}", (*degrees)?)));
         f.write_str(&named.collect::<Vec<_>>().join("+"))
     }
@@ -37,15 +45,16 @@ impl FromStr for Pose {
             let (limb, accepted) = match part.split_once('_') {
                 Some(("arms", _)) => (&mut pose.arm_deg, ARM_DEG),
                 Some(("legs", _)) => (&mut pose.leg_deg, LEG_DEG),
+                Some(("forward", _)) => (&mut pose.forward_deg, FORWARD_DEG),
+                Some(("step", _)) => (&mut pose.step_deg, STEP_DEG),
                 _ => (&mut None, [0.0; 2]),
             };
             let degrees = part.split_once('_').and_then(|(_, degrees)| degrees.parse::<f64>().ok());
             *limb = degrees.filter(|degrees| (accepted[0]..=accepted[1]).contains(degrees) && accepted[1] > 0.0);
             if limb.is_none() {
-                let [[a, b], [c, d]] = [ARM_DEG, LEG_DEG];
-                let problem = format!(
-                    "pose `{text}`; accepted: arms_{a} to arms_{b}, legs_{c} to legs_{d}, or both: arms_45+legs_10"
-                );
+                let ranges = [("arms", ARM_DEG), ("legs", LEG_DEG), ("forward", FORWARD_DEG), ("step", STEP_DEG)];
+                let ranges = ranges.map(|(limb, [least, most])| format!("{limb}_{least} to {limb}_{most}"));
+                let problem = format!("pose `{text}`; accepted: {}, or several: arms_45+legs_10", ranges.join(", "));
                 return Err(BodyError::Pose { problem });
             }
         }
@@ -53,9 +62,15 @@ impl FromStr for Pose {
     }
 }
 
+/// Axes of the planes in which limbs turn.
+const FRONTAL: [usize; 2] = [0, 2];
+const SAGITTAL: [usize; 2] = [1, 2];
+
 /// Accepted angles of arms and legs, degrees.
 const ARM_DEG: [f64; 2] = [5.0, 90.0];
 const LEG_DEG: [f64; 2] = [0.0, 30.0];
+const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
+const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
 /// How far the arm's turn reaches from the armscye into the shoulder and into the arm, over stature.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
@@ -85,14 +100,26 @@ pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
         if let Some(asked) = pose.arm_deg {
             let turn = turn("arms", asked, ARM_DEG, arm_angle(body, side))?;
             let arm = Arm::new(body, side);
-            apply(body, &mut posed, arm.joint, -side * turn, |mesh| arm.shares(mesh));
+            apply(body, &mut posed, arm.joint, (FRONTAL, -side * turn), |mesh| arm.shares(mesh));
         }
         if let Some(asked) = pose.leg_deg {
             let turn = turn("legs", asked, LEG_DEG, leg_angle(body, side))?;
             let leg = Leg::new(body, side);
-            apply(body, &mut posed, leg.joint, -side * turn, |mesh| {
-                mesh.positions.iter().map(|p| leg.share(p)).collect()
-            });
+            apply(body, &mut posed, leg.joint, (FRONTAL, -side * turn), |mesh| leg.shares(mesh));
+        }
+    }
+    posed.skeleton = posed.control.skeleton();
+    let upright = posed.clone();
+    for side in [1.0, -1.0] {
+        if let Some(asked) = pose.forward_deg {
+            let turn = turn("forward", asked, FORWARD_DEG, 0.0)?;
+            let arm = Arm::new(&upright, side);
+            apply(&upright, &mut posed, arm.joint, (SAGITTAL, -turn), |mesh| arm.shares(mesh));
+        }
+        if let Some(asked) = pose.step_deg {
+            let turn = turn("step", asked, STEP_DEG, 0.0)?;
+            let leg = Leg::new(&upright, side);
+            apply(&upright, &mut posed, leg.joint, (SAGITTAL, -side * turn), |mesh| leg.shares(mesh));
         }
     }
     check(&posed)?;
@@ -106,7 +133,7 @@ fn turn(limb: &'static str, asked: f64, [least, greatest]: [f64; 2], has: f64) -
     if (least..=greatest).contains(&asked) {
         return Ok(asked.to_radians() - has);
     }
-    let problem = format!("{limb} at {asked} degrees from the vertical; accepted: {least} to {greatest}");
+    let problem = format!("{limb} at {asked} degrees; accepted: {least} to {greatest}");
     Err(BodyError::Pose { problem })
 }
 
@@ -233,6 +260,11 @@ impl Leg {
         }
     }
 
+    /// The share of the turn of every vertex.
+    fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
+        mesh.positions.iter().map(|p| self.share(p)).collect()
+    }
+
     /// The share of the turn at a place of the skin.
     fn share(&self, p: &V3) -> f64 {
         let [low, high] = self.heights;
@@ -250,13 +282,21 @@ fn crown(body: &Body) -> f64 {
     body.mesh.bounds().map_or(0.0, |(_, high)| high.z)
 }
 
-/// Turns what belongs to a limb about its joint, in the frontal plane.
-fn apply(from: &Body, posed: &mut Body, joint: V3, angle: f64, shares: impl Fn(&TriMesh) -> Vec<f64>) {
+/// Turns what belongs to a limb about its joint, in a plane of two axes by an angle that takes the second to the first.
+fn apply(
+    from: &Body,
+    posed: &mut Body,
+    joint: V3,
+    ([across, up], angle): ([usize; 2], f64),
+    shares: impl Fn(&TriMesh) -> Vec<f64>,
+) {
     let shares = shares(&from.mesh);
-    let turned = |p: V3, share: f64| {
+    let turned = |mut p: V3, share: f64| {
         let (sin, cos) = (angle * share).sin_cos();
         let r = p - joint;
-        V3::new(joint.x + r.x * cos + r.z * sin, p.y, joint.z - r.x * sin + r.z * cos)
+        p[across] = joint[across] + r[across] * cos + r[up] * sin;
+        p[up] = joint[up] - r[across] * sin + r[up] * cos;
+        p
     };
     let volume = posed.mesh.volume();
     for (p, &share) in posed.mesh.positions.iter_mut().zip(&shares).filter(|(_, share)| **share > 0.0) {

@@ -40,15 +40,32 @@ fn limbs_turn_without_collapse_creases_or_a_changed_trunk() {
                 assert!(change.abs() < 1e-3, "{asked:?}: girth at {was:.3} changed by {change}");
             }
             assert!(posed.mesh.bounds().expect("vertices").0.z.abs() < 1e-9);
+            let turned = |[from, to]: [Joint; 2]| {
+                let along = |body: &Body| body.skeleton.at(to) - body.skeleton.at(from);
+                let angle = |way: V3| way.y.atan2(-way.z).to_degrees();
+                angle(along(&posed)) - angle(along(&body))
+            };
+            let is_frontal = asked.forward_deg.is_none();
+            let sagittal = [
+                (turned([Joint::ShoulderLeft, Joint::ElbowLeft]), asked.forward_deg.unwrap_or(0.0)),
+                (turned([Joint::HipRight, Joint::KneeRight]), asked.step_deg.unwrap_or(0.0)),
+                (turned([Joint::HipLeft, Joint::KneeLeft]), -asked.step_deg.unwrap_or(0.0)),
+            ];
+            for (found, asked_deg) in sagittal {
+                assert!((found - asked_deg).abs() < 5.0, "{asked:?}: {found:.1} for {asked_deg} forward");
+            }
             for (angle, asked) in [(arm_angle(&posed, 1.0), asked.arm_deg), (leg_angle(&posed, -1.0), asked.leg_deg)] {
-                if let Some(asked) = asked {
+                // What has swung forward is nearer to the horizontal.
+                if let Some(asked) = asked.filter(|_| is_frontal) {
                     assert!((angle.to_degrees() - asked).abs() < 4.0, "{:.1} for {asked}", angle.to_degrees());
                 }
             }
         };
-        check(Pose { arm_deg: Some(25.0), leg_deg: None });
-        check(Pose { arm_deg: Some(60.0), leg_deg: Some(12.0) });
-        check(Pose { arm_deg: Some(85.0), leg_deg: Some(18.0) });
+        check(Pose { arm_deg: Some(25.0), ..Pose::default() });
+        check(Pose { arm_deg: Some(60.0), leg_deg: Some(12.0), ..Pose::default() });
+        check(Pose { arm_deg: Some(85.0), leg_deg: Some(18.0), ..Pose::default() });
+        check(Pose { arm_deg: Some(25.0), forward_deg: Some(40.0), ..Pose::default() });
+        check(Pose { step_deg: Some(15.0), ..Pose::default() });
     }
 }
 
@@ -59,7 +76,9 @@ fn impossible_poses_are_refused() {
         let error = pose(&body, asked).expect_err("no such pose").to_string();
         assert!(error.contains(needle), "{error}");
     };
-    check(Pose { arm_deg: Some(120.0), leg_deg: None }, "5 to 90");
-    check(Pose { arm_deg: None, leg_deg: Some(f64::NAN) }, "0 to 30");
-    check(Pose { arm_deg: Some(5.0), leg_deg: None }, "arms and trunk would touch");
+    check(Pose { arm_deg: Some(120.0), ..Pose::default() }, "5 to 90");
+    check(Pose { leg_deg: Some(f64::NAN), ..Pose::default() }, "0 to 30");
+    check(Pose { forward_deg: Some(90.0), ..Pose::default() }, "0 to 60");
+    check(Pose { step_deg: Some(-5.0), ..Pose::default() }, "0 to 25");
+    check(Pose { arm_deg: Some(5.0), ..Pose::default() }, "arms and trunk would touch");
 }

@@ -185,7 +185,7 @@ fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
 #[test]
 fn arms_spread_to_the_horizontal_find_their_armpits() {
     let known = built(Sex::Female, 1.68, 62.0);
-    let spread = crate::pose(&known, crate::Pose { arm_deg: Some(85.0), leg_deg: None }).expect("free arms");
+    let spread = crate::pose(&known, crate::Pose { arm_deg: Some(85.0), ..crate::Pose::default() }).expect("free arms");
     let scan = from_scan(&binary_ply(&spread.mesh), None, Some(Sex::Female)).expect("a scan of a body");
     let body = scan.into_body().expect("arms apart from the trunk");
     for side in [0, 1] {

@@ -72,16 +72,22 @@ pub enum Body {
     },
     /// Build a body from measurements, from a front and a side picture, from a scan, or from a subject of the catalogue.
     Build(Box<BodyBuild>),
-    /// Put a body into another pose: arms raised or lowered, legs spread.
+    /// Put a body into another pose: arms raised, lowered or reaching forward, legs spread or in a step.
     Pose {
         /// Scan or mesh (OBJ, PLY, STL, GLB), also body.obj of `body build`.
         file: PathBuf,
         /// Angle of the upper arms from the vertical, degrees.
-        #[arg(long, value_name = "N", required_unless_present = "leg_deg")]
+        #[arg(long, value_name = "N", required_unless_present_any = ["leg_deg", "forward_deg", "step_deg"])]
         arm_deg: Option<f64>,
         /// Angle of the thighs from the vertical, degrees.
         #[arg(long, value_name = "N")]
         leg_deg: Option<f64>,
+        /// Angle by which the arms then swing forward, degrees.
+        #[arg(long, value_name = "N")]
+        forward_deg: Option<f64>,
+        /// Angle by which the right leg swings forward and the left one back, degrees.
+        #[arg(long, value_name = "N")]
+        step_deg: Option<f64>,
         /// Unit of the file; by default told from its height.
         #[arg(long, value_enum)]
         unit: Option<MeshUnit>,
