@@ -641,3 +641,10 @@ SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girt
     ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
     hash, subject.revision = entry.revision AS is_latest, is_retired, scan.file AS scan, pose
 FROM subject JOIN catalogue_entry AS entry USING (name) LEFT JOIN scan USING (subject_id) WHERE part = 'subject';
+
+CREATE VIEW v_outfit AS
+SELECT study.name AS study, name.value AS outfit, CAST(layer.value AS INTEGER) AS layer, job.garment, job.size, job.subject,
+    job.simulator, repeat, job_id
+FROM job JOIN study USING (study_id)
+JOIN job_input AS name USING (job_id) JOIN job_input AS layer USING (job_id)
+WHERE is_current AND name.name = 'outfit.name' AND layer.name = 'outfit.layer';

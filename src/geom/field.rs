@@ -11,6 +11,7 @@
 use nalgebra::Matrix3;
 use wide::f64x2;
 
+use super::contour::{Grid, QuadMesh, contour};
 use super::surface::{Surface, SurfaceError};
 use super::{TriMesh, V3};
 
@@ -205,6 +206,45 @@ impl DistanceField {
             }
         }
         field
+    }
+
+    /// Distance between neighbouring nodes, m.
+    #[must_use]
+    pub fn spacing_m(&self) -> f64 {
+        self.spacing_m
+    }
+
+    /// The field on a grid with the same nodes and as many more as hold a box and the shell about it.
+    #[must_use]
+    pub fn widened(&self, low: V3, high: V3) -> Self {
+        let far = SHELL_CELLS * self.spacing_m;
+        let reach = (high - self.middle).sup(&(self.middle - low)).add_scalar(far + 3.0 * self.spacing_m);
+        let size = [0, 1, 2].map(|k| self.size[k].max(2 * (reach[k] / self.spacing_m).ceil() as usize + 1));
+        let mut wide = Self { size, values: vec![far as f32; size.iter().product()], ..*self };
+        let [x, y, z] = [0, 1, 2].map(|k| (size[k] - self.size[k]) / 2);
+        for k in 0..self.size[2] {
+            for j in 0..self.size[1] {
+                let (from, to) = (self.node(0, j, k), wide.node(x, j + y, k + z));
+                wide.values[to..to + self.size[0]].copy_from_slice(&self.values[from..from + self.size[0]]);
+            }
+        }
+        wide
+    }
+
+    /// The surface where the field changes sign between nodes.
+    #[must_use]
+    pub fn surface(&self) -> TriMesh {
+        let [x, y, z] = self.size;
+        let grid = Grid {
+            axes: [
+                (0..x).map(|i| self.position(i, 0, 0).x).collect(),
+                (0..y).map(|j| self.position(0, j, 0).y).collect(),
+                (0..z).map(|k| self.position(0, 0, k).z).collect(),
+            ],
+        };
+        let values: Vec<f64> = self.values.iter().map(|value| f64::from(*value)).collect();
+        let QuadMesh { positions, quads } = contour(&grid, &values);
+        TriMesh { positions, triangles: quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect() }
     }
 
     /// Signed distance (m) and its gradient at a point; beyond the exact shell a positive constant and zero.

@@ -47,7 +47,7 @@ fn several_patterns_are_tried_on_over_each_other() {
     place.study(&[("under", 0.1, &["m"])]);
     place.write("ii.toml", "sex = \"male\"\nstature_mm = 1690\nchest_girth_mm = 863\n");
     let shirt = |size: &str| format!("--pattern patterns/tshirt-{size}.dxf --seams patterns/tshirt.seams.toml");
-    let both = format!("try --body ii.toml --edge-mm 50 {} {} -o worn", shirt("m"), shirt("l"));
+    let both = format!("try --body ii.toml --edge-mm 40 {} {} -o worn", shirt("m"), shirt("l"));
     let tried = place.toile(&format!("{both} --json")).ends_with(0);
     let layers: serde_json::Value = serde_json::from_str(&tried.out).expect("JSON");
     let sizes: Vec<&str> = layers.as_array().expect("a list").iter().filter_map(|one| one["size"].as_str()).collect();

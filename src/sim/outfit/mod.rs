@@ -68,8 +68,6 @@ geom::constants! {
     "outfit",
     /// Room for a layer between the body and what is worn over it, m: two thicknesses of contact.
     const ROOM_M: f64 = 4e-3;
-    /// Distance from a layer at which the next one is put on, m: contact begins at two fifths of it.
-    const OVER_M: f64 = 5e-3;
 }
 
 /// Dresses a body in layers, the inner first; a drape of each.
@@ -93,7 +91,7 @@ pub fn dress(
         let inner: Vec<&[V3]> = drapes.iter().map(|drape| &drape.positions[..]).collect();
         let cover = Cover::new(layer.finest()?, &over.positions)?;
         let within = tucked(on, under, &inner, cover, monitor)?;
-        let (body, field) = dressed(on, under, &within, OVER_M)?;
+        let (body, field) = dressed(on, under, &within, on.1.spacing_m())?;
         let outer = wear.alone((&body, &field), *layer, 0.0, monitor)?;
         for (drape, positions) in drapes.iter_mut().zip(within) {
             drape.positions = positions;

@@ -89,10 +89,10 @@ fn a_shirt_over_another_lies_outside_it_and_both_come_to_rest() {
             .with(Dimension::HipGirth, 0.94),
     )
     .expect("a body");
-    let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
+    let field = DistanceField::build(&body.mesh, 0.006).expect("a closed body");
     let mesh = |size: usize| {
         let draft = &Model::Tshirt.drafts()[size];
-        Style::read(&draft.pieces, Model::Tshirt.seams(), "seams").expect("drafted").mesh(0.05).expect("it meshes")
+        Style::read(&draft.pieces, Model::Tshirt.seams(), "seams").expect("drafted").mesh(0.04).expect("it meshes")
     };
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let (inner, outer) = ([mesh(1)], [mesh(2)]);
@@ -103,13 +103,13 @@ fn a_shirt_over_another_lies_outside_it_and_both_come_to_rest() {
     let alone = params.alone((&body, &field), layers[1], 0.0, &mut Silent).expect("worn");
     let top_m = |drape: &Drape| quality::top_m(&outer[0], &drape.positions);
     assert!(top_m(&drapes[1]) - top_m(&alone) > 1e-3, "{} m, alone {} m", top_m(&drapes[1]), top_m(&alone));
-    // The body with the inner one on is wider at the chest, and no more than the inner one is.
+    // The body with the inner one on is wider at the chest, by no more than the inner one and what stands off at the armholes.
     let (dressed, _) = dressed((&body, &field), &layers[..1], &[drapes[0].positions.clone()], 0.0).expect("a solid");
     let girth_m = |body: &Body| body.girths.get(Dimension::ChestGirth).expect("a trunk");
     let pattern_m = inner[0].fit_levels.iter().find(|level| level.level == "chest").expect("a chest").girth_m;
     let (over_m, bare_m) = (girth_m(&dressed), girth_m(&body));
     assert!(
-        (bare_m + 5e-3..pattern_m + 5e-3).contains(&over_m),
+        (bare_m + 5e-3..pattern_m + 0.02).contains(&over_m),
         "{over_m} m over the shirt of {pattern_m} m, {bare_m} m bare"
     );
 }
