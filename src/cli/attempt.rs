@@ -69,16 +69,13 @@ fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
         given => of_each("--seams", given),
     }?;
     let (sizes, fabrics) = (of_each("--size", &arguments.size)?, of_each("--fabric", &arguments.fabric)?);
-    let garments = arguments.pattern.iter().zip(seams).zip(sizes.into_iter().zip(fabrics));
-    let layer = |((pattern, seams), (size, fabric)): ((&PathBuf, Option<String>), (Option<String>, Option<String>))| {
-        AttemptLayer {
-            pattern: pattern.clone(),
-            seams: seams.map(PathBuf::from),
-            size,
-            fabric: fabric.unwrap_or_else(|| study::USUAL_FABRIC.to_owned()),
-        }
+    let layer = |(number, pattern): (usize, &PathBuf)| AttemptLayer {
+        pattern: pattern.clone(),
+        seams: seams[number].as_ref().map(PathBuf::from),
+        size: sizes[number].clone(),
+        fabric: fabrics[number].clone().unwrap_or_else(|| study::USUAL_FABRIC.to_owned()),
     };
-    Ok(garments.map(layer).collect())
+    Ok(arguments.pattern.iter().enumerate().map(layer).collect())
 }
 
 /// Rounded to a tenth.

@@ -12,8 +12,8 @@ fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
 
     let run = place.toile("run . --workers 2 --no-report").ends_with(0);
     assert!(run.err.contains("4 jobs, 4 to run"), "{}", run.err);
-    let layers = "SELECT group_concat(layer || ' ' || garment || ' ' || size, ', ') FROM (SELECT * FROM v_outfit ORDER BY layer)";
-    assert_eq!(place.one(layers), "1 two under m, 2 two over l");
+    let layers = "SELECT group_concat(layer || ' ' || garment || ' ' || size, '; ') FROM (SELECT * FROM v_outfit ORDER BY layer)";
+    assert_eq!(place.one(layers), "1 two under m; 2 two over l");
     let faults = "SELECT count(*) FROM v_metrics WHERE NOT converged OR self_crossings > 0 OR penetration_max_mm > 0.5";
     assert_eq!(place.one(faults), "0");
     // Over the inner one a tape reads more than on the skin.
@@ -38,7 +38,7 @@ fn an_outfit_is_draped_as_a_whole_and_each_layer_has_its_result() {
     let thicker = format!("{study}{outfit}").replace("density_kg_m2 = 0.2", "density_kg_m2 = 0.25");
     place.write("study.toml", thicker);
     let dry = place.toile("run . --dry-run").ends_with(0);
-    assert!(dry.err.contains("4 jobs, 3 to run"), "{}", dry.err);
+    assert_eq!(dry.out.matches("up to date").count(), 1, "{}", dry.out);
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn several_patterns_are_tried_on_over_each_other() {
     place.study(&[("under", 0.1, &["m"])]);
     place.write("ii.toml", "sex = \"male\"\nstature_mm = 1690\nchest_girth_mm = 863\n");
     let shirt = |size: &str| format!("--pattern patterns/tshirt-{size}.dxf --seams patterns/tshirt.seams.toml");
-    let both = format!("try --body ii.toml --edge-mm 40 {} {} -o worn", shirt("m"), shirt("l"));
-    let tried = place.toile(&format!("{both} --json")).ends_with(0);
+    let both = format!("--edge-mm 40 {} {} -o worn", shirt("m"), shirt("l"));
+    let tried = place.toile(&format!("try --body ii.toml {both} --json")).ends_with(0);
     let layers: serde_json::Value = serde_json::from_str(&tried.out).expect("JSON");
     let sizes: Vec<&str> = layers.as_array().expect("a list").iter().filter_map(|one| one["size"].as_str()).collect();
     assert_eq!(sizes, ["M", "L"]);

@@ -19,8 +19,8 @@ geom::constants! {
     const SHARPNESS: f64 = 4.0;
 }
 
-/// A body with layers on it, their vertices at `positions`, as a body of its own, and its field, on the nodes of the body's and more: what
-/// is between cloth and skin is solid, and so much beyond the cloth as is given, m. A flap of cloth is seen where that is no less than the
+/// A body with layers on it, their vertices at `positions`, as a body of its own, and its field on the nodes of the body's and more. What is
+/// between cloth and skin is solid, and so much beyond the cloth as is given, m. A flap of cloth is seen where that is no less than the
 /// field's spacing.
 ///
 /// # Errors
