@@ -24,7 +24,7 @@ geom::constants! {
 /// field's spacing.
 ///
 /// # Errors
-/// When the layers have no triangle.
+/// When the layers have no triangle, or the solid cannot be built.
 pub fn dressed(
     (body, field): (&Body, &DistanceField),
     layers: &[Layer],
@@ -40,10 +40,12 @@ pub fn dressed(
     let outside = nodes.filter(|(_, _, bare_m)| *bare_m > -field.spacing_m());
     let changes: Vec<(usize, f64)> =
         outside.map(|(node, p, bare_m)| (node, bare_m.min(about.signed_m(p) - beyond_m))).collect();
-    let field = field.with(changes.into_iter());
+    let mesh = field.with(changes.into_iter()).surface();
+    // Within, the nodes know the side and no distance: cloth that starts there has to find the way out.
+    let field = DistanceField::build(&mesh, field.spacing_m()).map_err(SimError::Solid)?;
     let is_on_trunk = |role: Role| !matches!(role, Role::SleeveRight | Role::SleeveLeft);
     let on_trunk = self::cloth(layers, positions, is_on_trunk)?;
-    Ok((body.enclosed(field.surface(), &on_trunk), field))
+    Ok((body.enclosed(mesh, &on_trunk), field))
 }
 
 /// The cloth, asked how far it is and on which side.
