@@ -1,6 +1,21 @@
 //! Indexed triangle meshes.
 
+use std::collections::BTreeMap;
+
 use super::V3;
+
+/// Sides of triangles that belong to one of them only, lesser vertex first, sorted: where a surface ends.
+#[must_use]
+pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
+    let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
+    for t in triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+    }
+    uses.into_iter().filter(|(_, count)| *count == 1).map(|(ends, _)| ends).collect()
+}
 
 /// A triangle mesh; triangles are counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::{SimError, sewing};
+use geom::mesh::free_edges;
 use geom::{Surface, TriMesh, V3, triangle};
 use pattern::{Garment, Role};
 
@@ -72,7 +73,7 @@ impl Cover {
         let sheet = |(limb, triangles): (Limb, Vec<[usize; 3]>)| {
             let mesh = TriMesh { positions: x.clone(), triangles };
             let surface = Surface::new(&mesh).map_err(SimError::Solid)?;
-            Ok((limb, Sheet { surface, normals: mesh.vertex_normals(), rim: rim(&mesh), mesh }))
+            Ok((limb, Sheet { surface, normals: mesh.vertex_normals(), rim: free_edges(&mesh.triangles), mesh }))
         };
         Ok(Self { sheets: triangles.into_iter().map(sheet).collect::<Result<_, SimError>>()?, limbs: Vec::new() })
     }
@@ -129,16 +130,4 @@ impl Sheet {
             _ => false,
         }
     }
-}
-
-/// Free edges, lesser vertex first, sorted.
-fn rim(mesh: &TriMesh) -> Vec<[usize; 2]> {
-    let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
-    for t in &mesh.triangles {
-        for k in 0..3 {
-            let (a, b) = (t[k], t[(k + 1) % 3]);
-            *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-    }
-    uses.into_iter().filter(|(_, count)| *count == 1).map(|(ends, _)| ends).collect()
 }

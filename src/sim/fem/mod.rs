@@ -212,7 +212,6 @@ pub(crate) fn constants() -> Vec<Constant> {
         run::CONSTANTS,
         settle::CONSTANTS,
         start::CONSTANTS,
-        together::CONSTANTS,
     ]
     .concat()
 }

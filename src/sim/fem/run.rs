@@ -34,7 +34,7 @@ geom::constants! {
     const PATIENCE: u32 = 3;
     /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
     /// hold at the hips, a fifth of a metre lower, or not at all.
-    const MOST_DESCENT_M: f64 = 0.25;
+    pub const MOST_DESCENT_M: f64 = 0.25;
 }
 
 impl Phase {

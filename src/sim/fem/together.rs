@@ -2,22 +2,15 @@
 
 use super::dress::floor_m;
 use super::params::Params;
-use super::run::Simulation;
+use super::run::{MOST_DESCENT_M, Simulation};
 use super::settle::{Around, Grip, Settled, Settling};
-use crate::cloth::Cloth;
 use crate::contact::Skin;
-use crate::outfit::{Layer, Wear, parted};
+use crate::outfit::{Layer, Wear, joined, parted};
 use crate::quality::{self, top_m};
-use crate::{Drape, Monitor, SimError, sewing};
+use crate::{Drape, Monitor, SimError};
 use body::Body;
 use geom::{DistanceField, V3};
 use pattern::Garment;
-
-geom::constants! {
-    "fem.together",
-    /// How far the top of a layer may come down when the layers come to rest together, m.
-    const MOST_DESCENT_M: f64 = 0.25;
-}
 
 impl Wear for Params {
     fn alone(
@@ -39,11 +32,7 @@ impl Wear for Params {
         drapes: Vec<Drape>,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<Drape>, SimError> {
-        let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<&Garment>, _>>()?;
-        let all = Garment::beside(&garments);
-        let fabrics: Vec<_> =
-            layers.iter().zip(&garments).map(|(layer, own)| (own.pieces.len(), layer.fabric)).collect();
-        let cloth = Cloth::of_layers(&all, &fabrics, sewing::welded(&all))?;
+        let (garments, all, cloth) = joined(layers)?;
         let start: Vec<V3> = drapes.iter().flat_map(|drape| drape.positions.iter().copied()).collect();
         let skin = Skin::new(&body.mesh).ok();
         let Params { contact, self_contact, .. } = *self;

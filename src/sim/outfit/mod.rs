@@ -11,8 +11,9 @@ mod tuck;
 pub use solid::dressed;
 pub use tuck::{parted, tucked};
 
+use crate::cloth::Cloth;
 use crate::cover::Cover;
-use crate::{Drape, Fabric, Monitor, SimError};
+use crate::{Drape, Fabric, Monitor, SimError, sewing};
 use body::Body;
 use geom::constants::Constant;
 use geom::{DistanceField, V3};
@@ -27,14 +28,26 @@ pub struct Layer<'a> {
     pub fabric: &'a Fabric,
 }
 
-impl Layer<'_> {
+impl<'a> Layer<'a> {
     /// The mesh that its drape is on.
     ///
     /// # Errors
     /// [`SimError::NoMesh`] where there is none.
-    pub fn finest(&self) -> Result<&Garment, SimError> {
+    pub fn finest(&self) -> Result<&'a Garment, SimError> {
         self.garments.last().ok_or(SimError::NoMesh)
     }
+}
+
+/// The meshes of layers, and all of them sewn, as one garment and one cloth.
+///
+/// # Errors
+/// When a layer has no mesh, or a triangle no area.
+pub fn joined<'a>(layers: &[Layer<'a>]) -> Result<(Vec<&'a Garment>, Garment, Cloth), SimError> {
+    let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<_>, _>>()?;
+    let all = Garment::beside(&garments);
+    let fabrics: Vec<_> = layers.iter().zip(&garments).map(|(layer, own)| (own.pieces.len(), layer.fabric)).collect();
+    let cloth = Cloth::of_layers(&all, &fabrics, sewing::welded(&all))?;
+    Ok((garments, all, cloth))
 }
 
 /// How a simulator dresses a body in layers.

@@ -1,11 +1,10 @@
 //! Layers that are drawn within what is to be worn over them.
 
-use super::Layer;
-use crate::cloth::Cloth;
+use super::{Layer, joined};
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, contact_areas};
 use crate::cover::Cover;
 use crate::solver::{StepParams, Stepper, System};
-use crate::{Monitor, SimError, sewing};
+use crate::{Monitor, SimError};
 use body::Body;
 use geom::{DistanceField, V3};
 use pattern::Garment;
@@ -30,10 +29,7 @@ pub fn tucked(
     cover: Cover,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Vec<V3>>, SimError> {
-    let garments = layers.iter().map(Layer::finest).collect::<Result<Vec<&Garment>, _>>()?;
-    let garment = Garment::beside(&garments);
-    let fabrics: Vec<_> = layers.iter().zip(&garments).map(|(layer, own)| (own.pieces.len(), layer.fabric)).collect();
-    let cloth = Cloth::of_layers(&garment, &fabrics, sewing::welded(&garment))?;
+    let (garments, garment, cloth) = joined(layers)?;
     let cover = cover.over(&garment, &cloth.vertex_of);
     let mut x = cloth.weld(&positions.concat());
     let between = ClothContactParams::default();

@@ -1,11 +1,10 @@
 //! Braces: what would slide off hangs from its top edge, whose vertices keep their height and move freely to every side.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Matrix3;
 
 use crate::cloth::Cloth;
 use geom::V3;
+use geom::mesh::free_edges;
 use geom::units::GRAVITY;
 
 geom::constants! {
@@ -30,15 +29,7 @@ impl Braces {
     /// Those of cloth whose vertices are at `x`.
     #[must_use]
     pub fn new(cloth: &Cloth, x: &[V3]) -> Self {
-        let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
-        for t in &cloth.triangles {
-            for k in 0..3 {
-                let (a, b) = (t[k], t[(k + 1) % 3]);
-                *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
-            }
-        }
-        let mut edge: Vec<usize> =
-            uses.into_iter().filter(|(_, count)| *count == 1).flat_map(|(ends, _)| ends).collect();
+        let mut edge: Vec<usize> = free_edges(&cloth.triangles).into_iter().flatten().collect();
         edge.sort_unstable();
         edge.dedup();
         let top = edge.iter().map(|v| x[*v].z).fold(f64::MIN, f64::max);
