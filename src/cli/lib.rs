@@ -41,7 +41,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches};
 
 use args::{Arguments, Command};
 use context::Context;
@@ -102,13 +102,40 @@ pub struct Workbench {
     pub quickstart: PathBuf,
 }
 
+/// The command line: every command with its arguments.
+///
+/// The values that an argument may have stand in one line behind its help, so that the help of a command fits a screen.
+#[must_use]
+pub fn command() -> clap::Command {
+    compact(Arguments::command()).disable_help_subcommand(false)
+}
+
+fn compact(command: clap::Command) -> clap::Command {
+    command.disable_help_subcommand(true).mut_args(with_values_in_line).mut_subcommands(compact)
+}
+
+fn with_values_in_line(argument: clap::Arg) -> clap::Arg {
+    let values = argument.get_possible_values();
+    let names: Vec<&str> = values.iter().filter(|value| !value.is_hide_set()).map(|value| value.get_name()).collect();
+    let Some(help) = argument.get_help().filter(|_| !names.is_empty() && argument.get_action().takes_values()) else {
+        return argument;
+    };
+    let help = format!("{help} [possible values: {}]", names.join(", "));
+    argument.help(help).hide_possible_values(true)
+}
+
+/// Reads the arguments (the first is the program's own name).
+fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, clap::Error> {
+    Arguments::from_arg_matches_mut(&mut command().try_get_matches_from(arguments)?)
+}
+
 /// Runs the program with its arguments (the first is its own name). Without a command `workbench` is called, which this
 /// module must not know.
 pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
     workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
 ) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let arguments = match read(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
@@ -168,13 +195,13 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Info) => health::info(&context),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
-            clap_complete::generate(shell, &mut Arguments::command(), "toile", &mut script);
+            clap_complete::generate(shell, &mut command(), "toile", &mut script);
             output::text(&String::from_utf8_lossy(&script))?;
             Ok(End::Done)
         }
         Some(Command::Man) => {
             let mut page = Vec::new();
-            clap_mangen::Man::new(Arguments::command()).render(&mut page)?;
+            clap_mangen::Man::new(command()).render(&mut page)?;
             output::text(&String::from_utf8_lossy(&page))?;
             Ok(End::Done)
         }

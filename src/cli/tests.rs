@@ -1,15 +1,13 @@
-use clap::CommandFactory;
-
-use super::args::Arguments;
+use super::command;
 
 #[test]
 fn the_arguments_are_consistent() {
-    Arguments::command().debug_assert();
+    command().debug_assert();
 }
 
 #[test]
 fn help_is_what_users_were_told() {
-    let mut command = Arguments::command().term_width(100);
+    let mut command = command().term_width(100);
     insta::assert_snapshot!(command.render_help());
     let run = command.find_subcommand_mut("run").expect("a command").clone();
     insta::assert_snapshot!(run.term_width(100).render_help());

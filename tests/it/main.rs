@@ -1,12 +1,13 @@
 //! Toile from outside: the program as its users call it, and the rules that the sources keep.
 //!
-//! `structure` and `tidy` read the sources, `words` the documents as well. `cli`, `bad_input` and `run` start the real
+//! `structure` and `tidy` read the sources, `words` the documents as well, `documents` what these name. `cli`, `bad_input` and `run` start the real
 //! program in folders of their own, `workbench` in a pseudo-terminal. Tests that need the sample data beside the project
 //! say so and pass where it is not there.
 
 mod bad_input;
 mod chance;
 mod cli;
+mod documents;
 mod durability;
 mod engine;
 mod figures;

@@ -29,6 +29,22 @@ const SOLES_NEARER: f64 = 0.09;
 /// Share by which a person's height in a picture may differ from what stature, distance and focal length say.
 const MISFIT: f64 = 0.03;
 
+/// Height over stature of the upper end of the trunk's profile.
+const TRUNK_TOP: f64 = 0.87;
+
+/// Parts of the way from the crotch to that end in a profile, and how many of them have a width and a depth.
+const PARTS: usize = 20;
+const WIDTHS: usize = 13;
+const DEPTHS: usize = 17;
+
+/// Heights over stature, from thigh to waist, at which the side view tells where the subject's axis is, and how many.
+const UPRIGHT: [f64; 2] = [0.30, 0.62];
+const UPRIGHTS: u32 = 33;
+
+/// How far before the axis, which goes through the pelvis, the middle of thigh and trunk lies there, over stature: the mean of 80 model
+/// bodies, among whom it varies by 0.0023.
+const MIDDLE_BEFORE_AXIS: f64 = 0.020;
+
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
@@ -75,7 +91,9 @@ pub(super) struct Outlines {
     side: View,
     stature: f64,
     /// Height of the camera in the side view; the same for the front.
-    camera_height: f64,
+    pub camera_height: f64,
+    /// Column of the subject's axis in the side view.
+    axis: f64,
     /// Height of the crotch, metres.
     pub crotch: f64,
 }
@@ -86,7 +104,9 @@ impl Outlines {
             let rise = (side.mask.height as f64 / 2.0 - side.rows.0 as f64) / focal;
             stature - distance * rise + CROWN * stature * (rise.hypot(1.0) - 1.0)
         });
-        let mut outlines = Self { front, side, stature, camera_height, crotch: 0.0 };
+        let axis = side.mask.width as f64 / 2.0;
+        let mut outlines = Self { front, side, stature, camera_height, axis, crotch: 0.0 };
+        outlines.axis = outlines.find_axis().unwrap_or(axis);
         outlines.crotch = outlines
             .find_crotch()
             .ok_or_else(|| refused("front", "the legs are not apart, or it is no person seen from the front"))?;
@@ -137,6 +157,19 @@ impl Outlines {
         Ok(sections)
     }
 
+    /// Widths, fronts and backs of the trunk at equal steps from the crotch upwards.
+    pub fn trunk_profile(&self) -> Option<Profile> {
+        let step = (TRUNK_TOP * self.stature - self.crotch) / PARTS as f64;
+        let height = |i: usize| self.crotch + step * i as f64;
+        let edges: Vec<[f64; 2]> = (0..DEPTHS).map(|i| self.profile(height(i), [0.0; 2])).collect::<Option<_>>()?;
+        let mut widths = Vec::new();
+        for i in 1..=WIDTHS {
+            let seen = self.arms_apart(height(i)).then(|| self.width(height(i))).flatten();
+            widths.push(seen.or_else(|| widths.last().copied()).or_else(|| self.width(height(i)))?);
+        }
+        Some(Profile { widths, fronts: edges.iter().map(|e| e[0]).collect(), backs: edges.iter().map(|e| e[1]).collect() })
+    }
+
     /// Depth half way from the hip to the crotch over that of the hip, within what bodies have.
     fn fullness(&self, hip: &Section) -> f64 {
         const RANGE: [f64; 2] = [0.88, 1.0];
@@ -164,13 +197,25 @@ impl Outlines {
 
     /// Front and back of the trunk at a height in the side view, metres from the subject's axis.
     fn profile(&self, height: f64, nearer: [f64; 2]) -> Option<[f64; 2]> {
-        let middle = self.side.mask.width as f64 / 2.0;
         let edge = |nearer: f64, front: bool| {
             let (back_px, front_px) = self.side.widest(self.row(&self.side, height, nearer)?)?;
             let column = if front { front_px } else { back_px };
-            Some((column as f64 - middle) * self.scale(&self.side, nearer))
+            Some((column as f64 - self.axis) * self.scale(&self.side, nearer))
         };
         Some([edge(nearer[0], true)?, edge(nearer[1], false)?])
+    }
+
+    /// Column of the subject's axis in the side view, wherever the subject stands in it.
+    fn find_axis(&self) -> Option<f64> {
+        let middle = |height: f64| {
+            let (back, front) = self.side.widest(self.row(&self.side, height, 0.0)?)?;
+            Some((back + front) as f64 / 2.0)
+        };
+        let [from, to] = UPRIGHT.map(|share| share * self.stature);
+        let mut middles: Vec<f64> = steps(from, to, UPRIGHTS).filter_map(middle).collect();
+        middles.sort_by(f64::total_cmp);
+        let before = MIDDLE_BEFORE_AXIS * self.stature / self.scale(&self.side, 0.0);
+        middles.get(middles.len() / 2).map(|column| column - before)
     }
 
     /// The trunk's run at a height in the front view: the one nearest to the head's middle.
@@ -300,6 +345,14 @@ impl Outlines {
         }
         Ok(())
     }
+}
+
+/// The trunk as two pictures show it, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    pub widths: Vec<f64>,
+    pub fronts: Vec<f64>,
+    pub backs: Vec<f64>,
 }
 
 /// Whether front and back of a level bulge beside the median plane.

@@ -1,6 +1,6 @@
 //! Bodies from a front and a side picture: silhouettes, their camera, widths and depths at the girth levels, girths.
 
-use super::outline::{Outlines, View};
+use super::outline::{Outlines, Profile, View};
 use super::segment;
 use super::silhouette::Mask;
 use crate::{BodyError, Dimension, Measurements, Sex};
@@ -52,6 +52,8 @@ pub struct Pictured {
     pub levels: Vec<PicturedLevel>,
     /// Height of the crotch, m.
     pub crotch_level_m: f64,
+    /// The trunk's outlines.
+    pub trunk: Profile,
     /// What had to be assumed, as sentences for the user.
     pub notes: Vec<String>,
 }
@@ -103,7 +105,8 @@ pub fn from_pictures(
         .with(Dimension::WaistGirth, waist)
         .with(Dimension::HipGirth, hip)
         .with(Dimension::NeckGirth, neck);
-    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, notes })
+    let trunk = outlines.trunk_profile().ok_or_else(|| refused("side", "no trunk is found"))?;
+    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, trunk, notes })
 }
 
 pub(super) fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {

@@ -33,9 +33,9 @@ pub use sew::SewFiles;
 pub use simulator::TrySimulator;
 pub use studies::{StudyCommand, StudyPath};
 
-/// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
+/// A fit-study workbench: dress bodies in sewing patterns, measure the drape, judge the fit.
 #[derive(Debug, Parser)]
-#[command(name = "toile", version, max_term_width = 110, disable_help_subcommand = true, infer_long_args = true)]
+#[command(name = "toile", version, max_term_width = 110, infer_long_args = true)]
 #[command(after_help = "Without a command the workbench (TUI) starts. Exit codes: 0 done, 2 usage or unusable input, \
     3 a check failed, 4 a job failed, 130 interrupted.")]
 pub struct Arguments {
@@ -52,7 +52,7 @@ pub struct Arguments {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Global options")]
 pub struct Global {
-    /// Database file; by default db/toile.sqlite beside the nearest studies folder, else in your data folder.
+    /// Database; else db/toile.sqlite beside the nearest studies folder, or in your data folder.
     #[arg(long, global = true, env = "TOILE_DB", hide_env_values = true, value_name = "PATH")]
     pub db: Option<PathBuf>,
     /// Change nothing in the database.
@@ -61,7 +61,7 @@ pub struct Global {
     /// Print JSON instead of tables.
     #[arg(long, global = true)]
     pub json: bool,
-    /// Only errors, and what was asked for: no progress, no messages; `run` prints no tables.
+    /// Only errors and what was asked for; `run` prints no tables.
     #[arg(long, short, global = true)]
     pub quiet: bool,
     /// Say more.
@@ -83,19 +83,19 @@ pub enum Command {
     Report(Report),
     /// Ask the database in SQL (read-only; also median, stddev, quantile).
     Sql(Sql),
-    /// Recompute a study's results, or the thesis's printed tables, and say what does not add up.
+    /// What does not add up in a study's results, or in the thesis's tables.
     Audit(Audit),
-    /// Ease and fit class of every size on every subject; needs no simulation.
+    /// Ease and fit class of every size on every subject, without a simulation.
     Ease(StudyPath),
-    /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
+    /// Which size to wear, and where it is tight or loose, without a simulation.
     Fit(Fit),
-    /// How probable it is that a garment fits, since tapes err and garments are never made exactly; needs no simulation.
+    /// How probable it is that a garment fits: tapes err, and garments vary.
     Chance(Chance),
-    /// What to change of a size so that it fits somebody: the least change of its handles, as a new DXF.
+    /// The least change of a size so that it fits somebody, as a new DXF.
     Alter(Alter),
-    /// Which sizes fit a population: the grade that fits the most people, as DXF with rules, a size chart and a spec sheet.
+    /// The sizes that fit the most people, as DXF with rules and a size chart.
     Grade(Grade),
-    /// Cross sections: the air between body and cloth at a level, all sizes over each other.
+    /// The air between body and cloth at a level, all sizes over each other.
     Section(Section),
     /// Which simulator to use for which fit.
     Recommend(Recommend),
