@@ -43,9 +43,9 @@ pub trait Simd: Copy {
     fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
     /// The greater of each two; the second where one is not a number.
     fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// Two quads side by side.
+    /// Two quads in one register, the first in its lower half.
     fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
-    /// The two.
+    /// The two quads that [`Self::join`] put together.
     fn split(self, twin: Self::F32x8) -> [f32x4; 2];
     /// `a b + c`.
     fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
@@ -68,7 +68,7 @@ pub use each;
 pub trait Kernel {
     /// What comes of it.
     type Output;
-    /// Does it.
+    /// Runs the loop with the instructions of `simd`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 

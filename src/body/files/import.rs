@@ -42,7 +42,7 @@ impl LengthUnit {
         }
     }
 
-    /// Short name.
+    /// Its symbol, such as `mm`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
