@@ -68,9 +68,9 @@ pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
 /// A share of draws, and the 80 % interval of the probability that it estimates [Wilson 1927].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Share {
-    /// The share.
+    /// Share of the draws, 0 to 1.
     pub share: f64,
-    /// Ends of the interval.
+    /// Ends of the interval of the probability, 0 to 1.
     pub interval: [f64; 2],
 }
 

@@ -18,7 +18,7 @@ impl Draw {
         Self(seed)
     }
 
-    /// 64 bits.
+    /// The next 64 bits of the sequence, all values equally likely.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
