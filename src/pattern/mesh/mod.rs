@@ -42,7 +42,7 @@ pub enum MeshError {
     TooFine {
         /// Edge length asked for, mm.
         edge_length_mm: f64,
-        /// Triangles, thousands.
+        /// Number of triangles that it would have, in thousands.
         thousands: u64,
         /// Area of all pieces, m2.
         area_m2: f64,
@@ -54,7 +54,7 @@ pub enum MeshError {
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
     Piece {
-        /// Piece.
+        /// Identifier of the piece.
         piece: String,
         /// Edge length asked for, mm.
         edge_length_mm: f64,
@@ -68,11 +68,11 @@ pub enum MeshError {
     LineLeavesPiece {
         /// Measurement or fit level.
         place: String,
-        /// Piece.
+        /// Identifier of the piece.
         piece: String,
-        /// First end.
+        /// First end of the line in the piece's plane, as text, mm.
         from: String,
-        /// Second end.
+        /// Second end of the line in the piece's plane, as text, mm.
         to: String,
     },
 }

@@ -18,9 +18,9 @@ const ALIKE: f64 = 0.05;
 /// How often a piece is cut: as drawn, and as its mirror image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cut {
-    /// As drawn.
+    /// Copies cut as drawn.
     pub plain: u32,
-    /// Mirrored.
+    /// Copies cut as its mirror image.
     pub mirrored: u32,
 }
 
@@ -35,7 +35,7 @@ impl Cut {
         }
     }
 
-    /// In all.
+    /// Copies of both kinds together.
     pub fn times(self) -> u32 {
         self.plain.saturating_add(self.mirrored)
     }

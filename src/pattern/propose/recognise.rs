@@ -47,13 +47,13 @@ const CLEAR_MARGIN: f64 = 0.15;
 pub struct Recognised {
     /// Index of the piece.
     pub piece: usize,
-    /// Kind.
+    /// Kind of piece that it was taken for.
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
     /// Side of the wearer that the name says.
     pub hand: Option<Hand>,
-    /// Outline.
+    /// Its outline as edges between corners.
     pub shape: Shape,
     /// Template laid round it.
     pub alignment: Alignment,

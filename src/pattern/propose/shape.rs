@@ -27,11 +27,11 @@ const MOST_CORNERS: usize = 100;
 /// The outline that is sewn, cut at its corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Outline, counter-clockwise.
+    /// Vertices of the outline, counter-clockwise, m.
     outline: Vec<V2>,
     /// Corners, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
     corners: Vec<usize>,
-    /// Darts.
+    /// Darts cut into the outline.
     darts: Vec<Dart>,
 }
 
