@@ -70,13 +70,13 @@ pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
 /// Springs between the vertices of seam pairs: `f = k d` up to a cap (4.15, with the cap trials asked for).
 #[derive(Clone, Debug)]
 pub struct Springs {
-    /// Vertex pairs.
+    /// Garment vertices that each spring draws together.
     pub pairs: Vec<[usize; 2]>,
     /// Stiffness, N/m.
     pub stiffness_n_m: f64,
     /// Greatest force, N.
     pub cap_n: f64,
-    /// The same at first, N.
+    /// Greatest force when the springs begin, N; `cap_n` grows from it.
     first_cap_n: f64,
 }
 

@@ -58,7 +58,7 @@ impl Bounds {
         Self { low: low - (low.abs() + reach) * rounding, high: high + (high.abs() + reach) * rounding }
     }
 
-    /// About both.
+    /// The box about both boxes.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { low: self.low.fast_min(other.low), high: self.high.fast_max(other.high) }

@@ -119,7 +119,7 @@ impl<'a> BroadPhase<'a> {
         self.clusters.motion(displacements)
     }
 
-    /// No motion.
+    /// The motion of a cloth that stays where it is.
     #[must_use]
     pub fn rest(&self) -> Motion {
         self.clusters.rest()
