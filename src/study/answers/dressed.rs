@@ -12,7 +12,7 @@ use fit::Simulator;
 /// How one job of a study ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Size of it.
     pub size: String,

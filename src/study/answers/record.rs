@@ -28,16 +28,16 @@ pub struct ProvenanceRow {
     pub git_commit: Option<String>,
     /// Whether that had uncommitted changes.
     pub git_dirty: Option<bool>,
-    /// Machine.
+    /// Name of the machine that ran the job.
     pub machine: String,
-    /// Seed.
+    /// Seed of the start that the job drew.
     pub seed: i64,
 }
 
 /// Everything that is stored of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// The job.
+    /// The job as lists show it.
     pub job: JobRow,
     /// Every value it was made from.
     pub inputs: Inputs,
@@ -47,16 +47,16 @@ pub struct Record {
     pub provenance: Option<ProvenanceRow>,
     /// Its numbers; once there is a result.
     pub metrics: Option<MetricsRow>,
-    /// Its measurements.
+    /// Measurements of the result, at every stage; empty without a result.
     pub chi: Vec<ChiRow>,
 }
 
 /// A measurement of two results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChiPair {
-    /// Number.
+    /// Number of the measurement in the style (`#1`).
     pub no: u32,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
     /// Pattern length and garment length of the one and the other, m; `None` where a result has no such measurement.
     pub lengths_m: [Option<(f64, f64)>; 2],

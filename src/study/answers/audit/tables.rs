@@ -95,7 +95,7 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    /// Reads them.
+    /// Reads the published tables from the database.
     pub fn read(connection: &Connection) -> Result<Self> {
         let rows = "SELECT table_no, garment, size, simulator, measurement_no, measurement, l2d_mm, l3d_mm, chi,
             chi_mean, chi_sd FROM published ORDER BY garment, size, simulator, measurement_no";
