@@ -30,7 +30,7 @@ pub struct Try {
     /// Answer to a question of the proposal, by its number and the letter of the choice; may be given several times.
     #[arg(long, value_name = "N=x", value_parser = super::pattern::answer, conflicts_with = "seams")]
     pub answer: Vec<(usize, char)>,
-    /// Simulator.
+    /// Simulator that drapes it.
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
     /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]]; of an outfit one for all, or one for each pattern.
@@ -59,7 +59,7 @@ pub struct AuditGarments {
     /// with all.
     #[arg(long, value_name = "FILE")]
     pub pairs: Option<PathBuf>,
-    /// Simulators.
+    /// Simulators to drape with.
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
     pub sim: Vec<TrySimulator>,
     /// Fabric of the catalogue.
