@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-/// The documents.
+/// Text of `docs/glossary.md`.
 const GLOSSARY: &str = include_str!("../../docs/glossary.md");
 const FIT: &str = include_str!("../../docs/fit.md");
 

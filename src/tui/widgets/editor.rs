@@ -59,7 +59,8 @@ pub enum Mode {
 /// A text and the place in it where typing goes on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
-    /// The text.
+    /// What is written, lines parted by `
+    /// `.
     text: String,
     /// Where the cursor is, a byte of `text` between characters.
     pub(super) cursor: usize,
@@ -80,14 +81,14 @@ pub struct Editor {
 pub struct Offer {
     /// Where the word begins.
     start: usize,
-    /// The words.
+    /// What the word may become, in order.
     pub words: Vec<String>,
     /// The one put into the text; `None` while they are only offered.
     pub taken: Option<usize>,
 }
 
 impl Editor {
-    /// The text.
+    /// What is written.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
