@@ -112,8 +112,8 @@ impl Springs {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
     }
 
-    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is an end to
-    /// that.
+    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is
+    /// an end to that.
     pub fn tighten(&mut self, factor: f64) -> bool {
         let is_weaker = self.cap_n < MOST_GROWTH * self.first_cap_n;
         if is_weaker {

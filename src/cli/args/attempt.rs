@@ -14,8 +14,8 @@ pub struct Try {
     /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON). Given several times, an outfit: the inner garment first.
     #[arg(long, value_name = "FILE", required = true)]
     pub pattern: Vec<PathBuf>,
-    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure. Of an outfit one for each pattern, `-` for
-    /// none.
+    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure. Of an outfit one for
+    /// each pattern, `-` for none.
     #[arg(long, value_name = "FILE")]
     pub seams: Vec<String>,
     /// Size, where the pattern has several; of an outfit one for all, or one for each pattern.

@@ -319,8 +319,8 @@ impl PatternFile {
         }
     }
 
-    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the sample size
-    /// alone.
+    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the
+    /// sample size alone.
     fn share_texts(&mut self) {
         let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
         // Of several the first counts.

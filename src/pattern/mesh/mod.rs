@@ -249,8 +249,8 @@ impl Style {
     }
 }
 
-/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is the first of the
-/// next.
+/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is
+/// the first of the next.
 fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
     let mut start = 0;

@@ -57,8 +57,8 @@ geom::constants! {
     /// Greatest search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs, and a
     /// quarter as many as within twice that distance.
     const REACH_SIZES: f64 = 0.7;
-    /// Least value of that greatest search distance, m: in a step two vertices approach each other by at most half of
-    /// it.
+    /// Least value of that greatest search distance, m: in a step two vertices approach each other by at most
+    /// half of it.
     const LEAST_REACH_M: f64 = 8e-3;
     /// Share of the way to what is unknown that a step may take: corrections come on top.
     const FREE_SHARE: f64 = 0.9;

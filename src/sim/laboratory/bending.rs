@@ -205,9 +205,10 @@ impl std::fmt::Display for Bent {
     }
 }
 
-/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent about something, its ends held there, over that of a plate;
-/// `turned_rad` is the angle between the way it bends and the weft. The membrane is that of a light cotton, the bending the same in all
-/// directions.
+/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent about something, over that of a plate.
+///
+/// The ends of the sheet are held there. `turned_rad` is the angle between the direction in which it bends and the
+/// weft. The membrane is that of a light cotton; the bending is the same in all directions.
 ///
 /// # Errors
 /// When the mesh is degenerate.

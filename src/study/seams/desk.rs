@@ -247,8 +247,8 @@ pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
 }
 
-/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None` where there is no such
-/// seam.
+/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None`
+/// where there is no such seam.
 pub(crate) fn confirmed(text: &str, is_sure: impl Fn(&str, Option<f64>) -> bool) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;
