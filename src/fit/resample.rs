@@ -44,9 +44,10 @@ impl Draw {
     }
 }
 
-/// Two-sided p of the sign-flip test [Fisher 1935, section 21]: the share of all assignments of signs to the differences
-/// whose sum is as far from 0 as that of the differences themselves. Exact for up to 20 differences, by seeded draws
-/// beyond; 1 of none.
+/// Two-sided p of the sign-flip test [Fisher 1935, section 21].
+///
+/// It is the share of all assignments of signs to the differences whose sum is at least as far from 0 as theirs. It is
+/// exact for up to 20 differences and estimated by seeded draws beyond; without differences it is 1.
 #[must_use]
 pub fn sign_flip(differences: &[f64]) -> f64 {
     let n = differences.len();

@@ -40,7 +40,7 @@ pub enum RenderError {
         layer: usize,
         /// Index of the triangle in its mesh.
         triangle: usize,
-        /// The index found.
+        /// Vertex that the triangle names.
         vertex: usize,
         /// How many there are.
         vertices: usize,

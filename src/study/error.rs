@@ -82,7 +82,7 @@ pub enum StudyError {
         what: &'static str,
         /// What was asked for.
         name: String,
-        /// What there is.
+        /// Names that there are, for a suggestion.
         known: Vec<String>,
     },
     /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
@@ -137,9 +137,9 @@ impl StudyError {
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {source}")]
 pub struct InFile<E: std::error::Error + 'static> {
-    /// The file's name.
+    /// Name of the file, as messages show it.
     pub file: String,
-    /// What was said.
+    /// Error of the stage that read it.
     pub source: E,
 }
 

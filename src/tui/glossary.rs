@@ -23,7 +23,7 @@ pub struct Term {
 }
 
 impl Term {
-    /// Its own name.
+    /// The first of its names, by which it is listed.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.names[0]

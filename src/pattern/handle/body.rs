@@ -93,7 +93,7 @@ pub struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Of a style.
+    /// Finds the parts that handles move; `points` are the style's points of measure.
     pub fn of(anatomy: &'a Anatomy<'a>, points: &[PointOfMeasure]) -> Self {
         let trunk = Trunk::of(anatomy);
         let legs: Vec<Legs<'a>> = Hand::BOTH.into_iter().filter_map(|hand| Legs::of(anatomy, hand)).collect();

@@ -31,7 +31,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// A whole edge.
+    /// The whole of an edge, however long.
     pub fn whole(edge: EdgeRef) -> Self {
         Self { edge, arcs_m: [0.0, f64::INFINITY] }
     }

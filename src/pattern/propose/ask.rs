@@ -119,7 +119,7 @@ impl<'a> Asker<'a> {
         self.answers.contains_key(text)
     }
 
-    /// What was asked.
+    /// All questions that were asked, in order.
     pub fn into_questions(self) -> Vec<Question> {
         self.asked
     }

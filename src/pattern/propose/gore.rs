@@ -48,7 +48,7 @@ impl Cut {
     }
 }
 
-/// How each piece is cut as a gore; `None` of what is none.
+/// How each piece is cut as a gore; `None` for a piece that is no gore.
 pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
     let is_plain = |piece: &Piece| {
         let named = names::read(piece.words());

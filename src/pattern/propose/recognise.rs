@@ -57,13 +57,13 @@ pub struct Recognised {
     pub shape: Shape,
     /// Template laid round it.
     pub alignment: Alignment,
-    /// 0 to 1.
+    /// How sure that is, 0 to 1.
     pub confidence: f64,
     /// The next best reading of an outline whose name says no kind.
     rival: Option<Alignment>,
     /// Whether it is cut twice, for both sides of the wearer, though nothing in its outline says so: half a waistband.
     pub is_pair: bool,
-    /// How it is cut as a gore of a skirt; `None` of what is none.
+    /// How it is cut as a gore of a skirt; `None` where it is no gore.
     pub gore: Option<Cut>,
 }
 

@@ -54,7 +54,7 @@ pub struct Worn {
     pub darts: Vec<[String; 2]>,
     /// Entry of the seam file.
     pub entry: PieceEntry,
-    /// 0 to 1.
+    /// How sure the proposal is of it, 0 to 1.
     pub confidence: f64,
 }
 

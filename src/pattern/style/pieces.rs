@@ -55,7 +55,7 @@ impl StylePiece {
         self.grain = turned(self.grain);
     }
 
-    /// Moves it, m.
+    /// Moves the piece in its plane, m.
     pub fn shift(&mut self, by: V2) {
         self.place(|p| p + by);
     }

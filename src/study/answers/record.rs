@@ -82,7 +82,7 @@ impl ChiPair {
 pub struct Comparison {
     /// Inputs that differ, before and after.
     pub inputs: Vec<Change>,
-    /// Numbers of both.
+    /// Numbers of both results; `None` where there is none.
     pub metrics: [Option<MetricsRow>; 2],
     /// Measurements of both, by number.
     pub chi: Vec<ChiPair>,

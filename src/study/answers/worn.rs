@@ -55,7 +55,7 @@ pub struct FoldLine {
 /// A point of measure, flat and worn.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WornPoint {
-    /// Point of measure.
+    /// Name of the point of measure.
     pub point: String,
     /// Flat on the pieces, mm.
     pub flat_mm: f64,

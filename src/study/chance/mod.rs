@@ -25,7 +25,7 @@ use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 
-/// What is asked.
+/// Whose fit is asked for, and what is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Garment; needed where the study has several.

@@ -40,7 +40,7 @@ const ROUNDS: usize = 4;
 const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
-/// What is asked.
+/// For whom a grade is sought, and from what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeWish {
     /// Garment; needed where the study has several.
@@ -154,7 +154,7 @@ pub struct PartShare {
 pub struct DrapedAgain {
     /// How many were draped.
     pub people: usize,
-    /// How many agree.
+    /// How many of them fit on the drape too.
     pub agree: usize,
     /// What is against each that does not.
     pub against: Vec<String>,

@@ -166,7 +166,7 @@ impl Wardrobe {
         Ok(())
     }
 
-    /// The study file.
+    /// Text of the study file.
     fn text(
         &self,
         garments: &BTreeMap<String, PathBuf>,

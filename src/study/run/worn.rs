@@ -38,7 +38,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// Of a section.
+    /// Girths, areas and gaps of a section.
     pub fn of(section: &Section) -> Self {
         Self {
             level: section.site.level.clone(),

@@ -29,9 +29,9 @@ const SAME_NOTCH: f64 = 0.03;
 /// An answer, and the step of work that it asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// What it says.
+    /// The answer in words.
     pub label: String,
-    /// What is done.
+    /// Step of work that carries it out.
     pub step: SeamStep,
     /// Edges that it speaks of.
     pub edges: Vec<EdgeAt>,

@@ -291,7 +291,6 @@ impl StudyForm {
     }
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     let width = area.width.min(90);
     let columns = usize::from(width.saturating_sub(2));

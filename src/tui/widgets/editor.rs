@@ -36,23 +36,23 @@ const WORDS: [&str; 24] = [
 /// Edits that can be taken back.
 const REMEMBERED: usize = 100;
 
-/// Whose keys edit.
+/// By whose keys a text is edited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Editing {
     /// Those of readline: letters are typed, keys with Ctrl and Alt move and cut.
     #[default]
     Readline,
-    /// Those of vim.
+    /// Those of vim, which have two modes.
     Vim,
 }
 
-/// What letters do.
+/// What a key with a letter does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// They are typed.
+    /// It types the letter.
     #[default]
     Insert,
-    /// They are vim's commands.
+    /// It is a command of vim.
     Normal,
 }
 

@@ -19,9 +19,9 @@ pub enum Images {
     /// As pixels where the environment says that the terminal can, as half blocks otherwise.
     #[default]
     Auto,
-    /// As half blocks.
+    /// As half blocks, which every terminal with colours shows.
     Halfblocks,
-    /// Not at all.
+    /// No pictures.
     Off,
 }
 

@@ -109,11 +109,11 @@ impl Default for Roles {
 /// The styles of the workbench.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
-    /// Colours there are.
+    /// How many colours the terminal shows.
     pub colours: Colours,
     /// Whether only ASCII is shown.
     pub ascii: bool,
-    /// What colours say.
+    /// Colour of each role.
     pub roles: Roles,
 }
 

@@ -16,7 +16,7 @@ pub enum FabricOrder {
 }
 
 impl FabricOrder {
-    /// The next one.
+    /// The order that `sort` comes to next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {

@@ -24,7 +24,7 @@ pub enum JobOrder {
 }
 
 impl JobOrder {
-    /// The next one.
+    /// The order that `sort` comes to next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
