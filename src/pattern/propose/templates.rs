@@ -37,7 +37,7 @@ impl Template {
         self.parts.iter().any(|part| part.label == label)
     }
 
-    /// Whether it is worn under or over shoulders: a yoke of which not, is one below the waist.
+    /// Whether its outline has a shoulder; a yoke without one lies below the waist.
     #[must_use]
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)

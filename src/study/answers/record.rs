@@ -58,12 +58,12 @@ pub struct ChiPair {
     pub no: u32,
     /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length and garment length of the one and the other, m; `None` where a result has no such measurement.
+    /// Pattern length and garment length in each result, m; `None` where a result has no such measurement.
     pub lengths_m: [Option<(f64, f64)>; 2],
 }
 
 impl ChiPair {
-    /// L3D / L2D of the one and the other.
+    /// L3D / L2D in each result.
     #[must_use]
     pub fn chi(&self) -> [Option<f64>; 2] {
         self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
