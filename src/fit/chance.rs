@@ -58,8 +58,9 @@ pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
     worst
 }
 
-/// The size to wear among those judged: the one whose worst level counts least, the first of equals. `None` without
-/// sizes.
+/// The size to wear among those judged: the one whose worst level counts least, and the first of equals.
+///
+/// `None` where no size was judged.
 #[must_use]
 pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
     // The first of equal ones.

@@ -54,8 +54,8 @@ geom::constants! {
     const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
     /// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
     const SLACK_M: [f64; 2] = [1e-3, 4e-3];
-    /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs, and a
-    /// quarter as many as within twice that distance.
+    /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs, and
+    /// a quarter as many as within twice that distance.
     const REACH_SIZES: f64 = 0.7;
     /// Least value of that limit, m: in a step two vertices approach each other by at most half of it.
     const LEAST_REACH_M: f64 = 8e-3;
