@@ -25,7 +25,7 @@ pub enum BodyError {
         mm(*height_m)
     )]
     MissingPart {
-        /// Body part.
+        /// Part that was looked for, in words, such as `chest`.
         part: &'static str,
         /// Height of the search, m.
         height_m: f64,
@@ -100,7 +100,7 @@ pub enum BodyError {
     WrongUnit {
         /// Height in the unit given.
         extent: f64,
-        /// The unit.
+        /// Unit given, as its symbol.
         unit: &'static str,
     },
     /// A mesh whose size fits a standing adult in no unit.

@@ -51,10 +51,10 @@ use geom::{TriMesh, V2, V3, hull};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sex {
-    /// Male.
+    /// Body shape and sizing tables of men.
     #[serde(alias = "m", alias = "M")]
     Male,
-    /// Female.
+    /// Body shape and sizing tables of women.
     #[serde(alias = "f", alias = "F")]
     Female,
 }
@@ -112,7 +112,7 @@ pub struct Landmarks {
     pub armpit: [V3; 2],
     /// Most prominent points of the chest or bust.
     pub bust: [V3; 2],
-    /// Crotch.
+    /// Crotch point: where the legs meet, in the median plane.
     pub crotch: V3,
 }
 
@@ -125,24 +125,24 @@ pub struct Levels {
     pub underbust_m: f64,
     /// Waist (ISO 8559-1).
     pub waist_m: f64,
-    /// Hip.
+    /// Hip: where the buttocks protrude most.
     pub hip_m: f64,
-    /// Crotch.
+    /// Crotch: upper end of the inside leg.
     pub crotch_m: f64,
-    /// Narrowest neck.
+    /// Where the girth round the neck is least, read at the spine.
     pub neck_m: f64,
 }
 
 /// A dressed-ready human model.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
-    /// Sex.
+    /// Sex by which its shape and its waist level are found.
     pub sex: Sex,
     /// Closed fine mesh, metres.
     pub mesh: TriMesh,
-    /// Joints.
+    /// Joint positions, metres: what a pose turns the limbs about.
     pub skeleton: Skeleton,
-    /// Feature points.
+    /// Feature points that patterns and measurements refer to.
     pub landmarks: Landmarks,
     /// Heights of the girth levels.
     pub levels: Levels,

@@ -84,7 +84,7 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     Ok(if of_thesis || found == 0 { End::Done } else { End::CheckFailed })
 }
 
-/// `toile ease`.
+/// Runs `toile ease`: prints ease and fit class of every size on every subject, level by level.
 pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     let (workspace, name) = context.eased(&arguments.study)?;
     let columns = [

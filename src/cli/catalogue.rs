@@ -13,7 +13,7 @@ use study::{
 
 /// The values of one part of the catalogue on the command line.
 pub trait Values: Args {
-    /// The part.
+    /// Part of the catalogue that the values belong to.
     const PART: Part;
 
     /// Saves an entry with them.

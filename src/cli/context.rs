@@ -8,7 +8,7 @@ use study::{PUBLISHED, QUICKSTART, Study, Table, Workspace, write_quickstart};
 
 /// The resolved global flags.
 pub struct Context {
-    /// Database file.
+    /// Path of the database file.
     pub db: PathBuf,
     /// Whether it was named, by a flag or the environment.
     pub is_db_named: bool,

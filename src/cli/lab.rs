@@ -6,7 +6,7 @@ use super::{End, Outcome};
 use study::lab::Experiment;
 use study::{Table, Value};
 
-/// `toile lab`.
+/// Runs `toile lab`: prints what each experiment finds beside what is known of it.
 pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
     let is_asked = |experiment: &Experiment| {
         arguments.experiment.is_empty() || arguments.experiment.iter().any(|name| name == experiment.as_str())

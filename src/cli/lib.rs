@@ -50,7 +50,7 @@ use study::StudyError;
 /// How a command ended, as its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// Done.
+    /// The command did what it was asked.
     Done = 0,
     /// Usage, or unusable input.
     Unusable = 2,
@@ -58,7 +58,7 @@ enum End {
     CheckFailed = 3,
     /// A job failed.
     JobFailed = 4,
-    /// Interrupted.
+    /// A signal ended it, as Ctrl-C does.
     Interrupted = 130,
 }
 
@@ -88,7 +88,7 @@ type Outcome = Result<End, CliError>;
 /// How the workbench is to be started: what the command line says of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workbench {
-    /// The database.
+    /// Path of the database file.
     pub database: PathBuf,
     /// Whether it was named, so that commands have to name it too.
     pub is_database_named: bool,

@@ -8,7 +8,7 @@ const MAGIC: &[u8; 4] = b"PAR1";
 /// Rows of a page.
 const PAGE: usize = 100_000;
 
-/// Physical types.
+/// Physical types of Parquet, by their numbers in the format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Int64 = 2,

@@ -14,7 +14,7 @@ use study::{
     Chart, Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files,
 };
 
-/// `toile render`.
+/// Runs `toile render`: writes a picture, a sheet or a turntable of results.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
     let shot = |view: &ViewArgument| match view {
         ViewArgument::Front => Shot::View(View::Front),
@@ -56,7 +56,7 @@ fn colour(text: &str) -> Result<Rgb, CliError> {
     Rgb::from_hex(text).ok_or_else(|| CliError::Usage(format!("{text} is no colour; accepted: #rrggbb, like #dcb094")))
 }
 
-/// `toile export`.
+/// Runs `toile export`: writes body and garment of a result as a mesh file.
 pub fn export(context: &Context, arguments: &Export) -> Outcome {
     let format = match arguments.format {
         FormatArgument::Glb => MeshFormat::Glb,
@@ -97,7 +97,7 @@ pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
     }
 }
 
-/// `toile report`.
+/// Runs `toile report`: writes the report of a study, and its PDF where that is asked.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     let workspace = context.workspace()?;
     let name = context.study_name(&workspace, &arguments.study)?;

@@ -8,7 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use super::context::Context;
 use study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
 
-/// `tshirt S ii`.
+/// What a job is called on its bar, such as `tshirt S ii`.
 pub fn label(garment: &str, size: &str, subject: &str) -> String {
     format!("{garment} {size} {subject}")
 }

@@ -6,8 +6,8 @@ use super::CliError;
 use super::output::printable;
 use study::seams::{Proposed, Question};
 
-/// Asks what has choices and no answer yet, the least number first, until nothing is left to ask. An empty line takes what
-/// stands.
+/// Asks what has choices and no answer yet, the least number first, until nothing is left to ask. An empty line
+/// takes what stands.
 ///
 /// # Errors
 /// When there is no terminal to ask at, or as `proposed`.

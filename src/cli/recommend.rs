@@ -7,7 +7,7 @@ use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, Table, Value, Without, Workspace};
 
-/// `toile recommend`.
+/// Runs `toile recommend`: prints which simulator to use for each garment and fit class.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     let mut workspace = context.workspace()?;
     let name = context.study_name(&workspace, &arguments.study)?;

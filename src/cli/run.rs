@@ -22,7 +22,7 @@ const LOOK: Duration = Duration::from_millis(150);
 /// Time between two looks at a cluster.
 const SLURM_LOOK: Duration = Duration::from_secs(1);
 
-/// `toile run`.
+/// Runs `toile run`: queues the jobs of a study, works them off, and reports.
 pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
         (Some(command), _) => return runs::run(context, command),

@@ -14,7 +14,7 @@ pub enum Shown {
 }
 
 impl Shown {
-    /// In words.
+    /// Its words in tables and reports, such as `FEM-GS drape`.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {

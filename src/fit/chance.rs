@@ -3,11 +3,11 @@
 use super::resample::quantile;
 use super::target::{off_m, weight_m};
 
-/// Share of an interval that is told.
+/// Probability that an interval covers.
 pub const TOLD: f64 = 0.8;
 /// Standard normal quantile of its upper end.
 const Z: f64 = 1.281_551_565_544_6;
-/// Departure from a band that counts, m: below it, it is none when it is written.
+/// Least departure from a band that counts, m: a smaller one rounds to none in millimetres.
 const DEPARTURE_M: f64 = 0.5e-3;
 
 /// How a size sits.
@@ -37,7 +37,7 @@ pub fn sitting(ease_m: f64, band_m: [f64; 2]) -> Sitting {
 pub struct Verdict {
     /// How it sits.
     pub sitting: Sitting,
-    /// The level that lies farthest from its band, what is too tight counting double; of a size that fits there is none.
+    /// Level that lies farthest from its band, what is too tight counting double; `None` for a size that fits.
     pub decides: Option<usize>,
     /// What that level counts, m.
     pub weight_m: f64,
@@ -58,7 +58,9 @@ pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
     worst
 }
 
-/// The size to wear among those judged, in order: whose worst level counts least, of two alike the smaller. `None` of none.
+/// The size to wear among those judged: the one whose worst level counts least, and the first of equals.
+///
+/// `None` where no size was judged.
 #[must_use]
 pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
     // The first of equal ones.
@@ -68,14 +70,14 @@ pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
 /// A share of draws, and the 80 % interval of the probability that it estimates [Wilson 1927].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Share {
-    /// The share.
+    /// Share of the draws, 0 to 1.
     pub share: f64,
-    /// Ends of the interval.
+    /// Ends of the interval of the probability, 0 to 1.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// So many of some draws; of none nothing is known.
+    /// The share of `count` in `draws`; without draws the share is NaN and the interval all of 0 to 1.
     #[must_use]
     pub fn of(count: usize, draws: usize) -> Self {
         if draws == 0 {
@@ -88,7 +90,7 @@ impl Share {
     }
 }
 
-/// Lower end, middle and upper end of the 80 % interval of some values; not numbers of none.
+/// Lower end, middle and upper end of the 80 % interval of some values; NaN without values.
 #[must_use]
 pub fn interval(values: &[f64]) -> [f64; 3] {
     if values.is_empty() {

@@ -4,14 +4,14 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Simulator {
-    /// FEM-GS: physics.
+    /// FEM-GS: physics alone.
     Fem,
     /// Hybrid-GS: geometry first, then physics.
     Hybrid,
 }
 
 impl Simulator {
-    /// Both.
+    /// Both simulators, FEM-GS first.
     pub const ALL: [Self; 2] = [Self::Fem, Self::Hybrid];
 
     /// Name in the command line and in SQL.

@@ -55,15 +55,15 @@ pub struct Search<'a> {
 /// Turns of the knobs of every size, the smallest first, steps.
 pub type Turns = Vec<Vec<i32>>;
 
-/// Rounds over all lines at most.
+/// Greatest number of rounds over all lines.
 const ROUNDS: usize = 40;
 /// Shares of the people that are left out at both ends of a start, %.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
-/// How often the best is shaken and sought again.
+/// How often the best series is shaken and the search begins again.
 const SHAKES: usize = 30;
 /// Greatest shake, steps.
 const SHAKE: usize = 25;
-/// Sweeps that find what a person asks for at best.
+/// Sweeps of the search for what a person asks for.
 const SWEEPS: usize = 60;
 
 impl Search<'_> {
@@ -110,7 +110,7 @@ impl Search<'_> {
         is_met(&self.asks[size][person], turns)
     }
 
-    /// The turns that a person asks for at best, as far as a size can be all of it: least squares in units of the bands.
+    /// The turns that come nearest to all that a person asks for: least squares in units of the bands.
     fn ideal(&self, person: usize) -> Vec<f64> {
         let mut turns = vec![0.0; self.limits.len()];
         for _ in 0..SWEEPS {

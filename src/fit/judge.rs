@@ -75,22 +75,22 @@ impl Basis {
 /// A garment and fit class to be answered for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// Garment.
+    /// Name of the garment, as in [`Pair::garment`].
     pub garment: String,
-    /// Fit class.
+    /// Fit class of its cases.
     pub class: FitClass,
 }
 
 /// The answer for one garment and fit class.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// Garment.
+    /// Name of the garment.
     pub garment: String,
-    /// Fit class.
+    /// Fit class that it is for.
     pub class: FitClass,
     /// What the numbers say by themselves.
     pub finding: Finding,
-    /// The numbers.
+    /// Statistics of the cases that the finding rests on.
     pub analysis: Analysis,
     /// p of the sign-flip test after Holm over all answers with enough subjects; `None` with too few.
     pub p_holm: Option<f64>,

@@ -10,7 +10,7 @@ use super::statistics::mean;
 pub struct Errors {
     /// Number in the style.
     pub no: u32,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
     /// |chi - 1| of FEM-GS.
     pub fem: f64,
@@ -25,13 +25,13 @@ pub struct Errors {
 /// A case that both simulators drew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Fit class.
+    /// Fit class that the deciding ease falls in.
     pub class: FitClass,
     /// Ease that decides it, m.
     pub ease_m: f64,

@@ -18,7 +18,7 @@ impl Draw {
         Self(seed)
     }
 
-    /// 64 bits.
+    /// The next 64 bits of the sequence, all values equally likely.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -44,9 +44,10 @@ impl Draw {
     }
 }
 
-/// Two-sided p of the sign-flip test [Fisher 1935, section 21]: the share of all assignments of signs to the differences
-/// whose sum is as far from 0 as that of the differences themselves. Exact for up to 20 differences, by seeded draws
-/// beyond; 1 of none.
+/// Two-sided p of the sign-flip test [Fisher 1935, section 21].
+///
+/// It is the share of all assignments of signs to the differences whose sum is at least as far from 0 as theirs. It is
+/// exact for up to 20 differences and estimated by seeded draws beyond; without differences it is 1.
 #[must_use]
 pub fn sign_flip(differences: &[f64]) -> f64 {
     let n = differences.len();

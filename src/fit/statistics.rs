@@ -2,12 +2,12 @@
 
 use super::distribution::student;
 
-/// Mean; not a number of none.
+/// Mean; NaN for no values.
 pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Sample standard deviation (n - 1); not a number of fewer than two values.
+/// Sample standard deviation (n - 1); NaN for fewer than two values.
 pub(super) fn sd(values: &[f64]) -> f64 {
     let mean = mean(values);
     (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (values.len() as f64 - 1.0)).sqrt()

@@ -82,7 +82,7 @@ const fn of(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4]) 
 /// What ease a garment is to have.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Intended fit.
+    /// Fit that the maker intends, which gives the ease of levels without their own.
     pub intended: Intended,
     /// Least and greatest ease of levels at which the garment has others, m.
     pub own_m: BTreeMap<String, [f64; 2]>,

@@ -29,9 +29,7 @@ macro_rules! constants {
 mod tests {
     constants! {
         "room",
-        /// A number.
         const SHARE: f64 = 0.1;
-        /// Two.
         const SPAN_M: [f64; 2] = [1e-3, 4.0];
     }
 

@@ -33,9 +33,9 @@ pub struct FieldError(&'static str);
 
 /// Width of the exact shell outside the surface, in grid cells.
 const SHELL_CELLS: f64 = 2.5;
-/// No triangle.
+/// Stands at a node whose nearest triangle is not known.
 const NONE: u32 = u32::MAX;
-/// Nodes of one side that are asked for it at most.
+/// Greatest number of nodes of a region whose side is looked up.
 const MOST_ASKED: usize = 64;
 /// What rounding to single precision may make of a distance, m.
 const ROUNDED_M: f64 = 1e-5;

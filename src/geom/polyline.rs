@@ -34,7 +34,7 @@ impl Polyline {
         Self::new(points).unwrap_or_else(|| self.clone())
     }
 
-    /// Its points.
+    /// Its vertices, from start to end.
     #[must_use]
     pub fn points(&self) -> &[V2] {
         &self.points

@@ -28,7 +28,7 @@ impl Plane {
         Self { origin, u, v: normal.cross(&u) }
     }
 
-    /// Unit normal.
+    /// Unit normal: `u` cross `v`.
     #[must_use]
     pub fn normal(&self) -> V3 {
         self.u.cross(&self.v)

@@ -1,8 +1,8 @@
-//! How often a surface winds round a point: exact for one point, and by far fields for many.
+//! How often a surface winds round a point: exactly for one point, and with far fields for many.
 //!
-//! The number of a surface with openings is no whole one. It says all the same how far the surface goes round a point: about 1 behind
-//! cloth that hangs about a body, about 0 before it, and in between across an opening [Jacobson 2013]. Seen from far, a part of a
-//! surface is a dipole [Barill 2018].
+//! The winding number of a surface with openings is no integer. It still says how far the surface goes round a point.
+//! It is about 1 behind cloth that hangs about a body, about 0 in front of it, and in between across an opening
+//! [Jacobson 2013]. Seen from afar, a part of a surface is a dipole [Barill 2018].
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ struct Part {
     radius_m: f64,
     /// Sum of its triangles' normals times their areas, m2.
     dipole_m2: V3,
-    /// Its triangles.
+    /// The triangles `from..to` of the surface belong to it.
     from: usize,
     to: usize,
     /// What it is parted into: the next part, and this one.

@@ -77,8 +77,8 @@ impl Symbolic {
         self.starts[column] + rows.binary_search(&row).expect("elimination has filled it in")
     }
 
-    /// Factorises the matrix with `blocks` at the pairs, that of `[a, b]` in the rows of `a`; `None` when it is not positive
-    /// definite.
+    /// Factorises the matrix with `blocks` at the pairs, that of `[a, b]` in the rows of `a`; `None` when it is
+    /// not positive definite.
     #[must_use]
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
         simd::dispatch(Factorisation { symbolic: self, blocks })

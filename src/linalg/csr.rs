@@ -1,8 +1,8 @@
 //! A stiffness as conjugate gradients multiply with it, hundreds of times a step.
 //!
-//! Each coupling stands once, in the row of its smaller vertex, and serves both: fewer bytes go through the processor than if it
-//! stood in the rows of both, and a large cloth fills the caches with little else. All is applied to differences: in single precision,
-//! membrane and bending would otherwise drown each other.
+//! Each coupling is stored once, in the row of its smaller vertex, and serves both vertices. That moves fewer bytes
+//! through the processor than a copy in each row, and a large cloth fills the caches with little else. Blocks are
+//! applied to differences: in single precision, membrane and bending would otherwise drown each other.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -22,7 +22,7 @@ pub struct Upper {
 }
 
 impl Upper {
-    /// No couplings.
+    /// The list without couplings.
     pub const EMPTY: Self = Self { starts: Vec::new(), others: Vec::new() };
 
     /// Of distinct pairs, the smaller vertex first, sorted.

@@ -6,15 +6,15 @@ use super::simd::Simd;
 
 /// What formulas are written in.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
-    /// A constant, beside this.
+    /// A constant, in as many lanes as `self` has.
     fn splat(self, number: f64) -> Self;
     /// `self factor + sum`.
     fn mul_add(self, factor: Self, sum: Self) -> Self;
-    /// The lesser.
+    /// The lesser of the two, lane by lane.
     fn min(self, other: Self) -> Self;
-    /// The greater.
+    /// The greater of the two, lane by lane.
     fn max(self, other: Self) -> Self;
-    /// Square root.
+    /// The square root, lane by lane.
     fn sqrt(self) -> Self;
 }
 
@@ -53,7 +53,7 @@ pub struct Lanes<S: Simd> {
 }
 
 impl<S: Simd> Lanes<S> {
-    /// Four numbers.
+    /// Loads four numbers into a register.
     #[inline(always)]
     pub fn of(simd: S, numbers: [f64; 4]) -> Self {
         Self { four: simd.f64s(numbers), simd }
@@ -65,7 +65,7 @@ impl<S: Simd> Lanes<S> {
         self.simd.to_f32s(self.four)
     }
 
-    /// The numbers.
+    /// Stores the four numbers, first lane first.
     #[inline(always)]
     pub fn numbers(self) -> [f64; 4] {
         self.simd.to_f64s(self.four)

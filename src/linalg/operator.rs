@@ -22,7 +22,7 @@ pub struct PairList {
 }
 
 impl PairList {
-    /// No pairs.
+    /// The list without pairs.
     pub const EMPTY: &'static Self = &Self { pairs: Vec::new(), upper: Upper::EMPTY };
 
     /// Collects the distinct unordered pairs.
@@ -90,7 +90,7 @@ impl PairList {
         (of, count)
     }
 
-    /// The pairs.
+    /// The pairs, sorted.
     #[must_use]
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
@@ -100,11 +100,11 @@ impl PairList {
 /// Coupling of four vertices along one direction: the stiffness `k a a^T` with `a = (w_0 n, ..., w_3 n)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact4 {
-    /// Vertices.
+    /// The four vertices; those of weight zero may repeat others.
     pub vertices: [usize; 4],
     /// Weight of each vertex; they sum to zero between layers of cloth, and to one on the body.
     pub weights: [f64; 4],
-    /// Unit direction.
+    /// Unit direction along which it resists.
     pub normal: V3,
     /// Stiffness, N/m.
     pub stiffness: f64,

@@ -19,11 +19,11 @@ pub struct PcgParams {
 pub struct Outcome {
     /// Whether the tolerance was met.
     pub is_solved: bool,
-    /// Iterations.
+    /// Iterations that were made.
     pub iterations: usize,
 }
 
-/// A preconditioner `P`, met in two halves: all that is asked between them is what `r` r_dot_z along `P r`.
+/// A preconditioner `P`, applied in two halves: between them only the product `r . P r` is asked for.
 pub trait Preconditioner<Q: Quad> {
     /// The first half of `P r`, in `z`; returns `r . P r`.
     fn apply<S: Simd>(&mut self, simd: S, r: &[Q], z: &mut [Q]) -> f64;

@@ -17,7 +17,7 @@ pub trait Quad:
 {
     /// One of the numbers.
     type Scalar: Copy;
-    /// Nothing.
+    /// Four zeros.
     const ZERO: Self;
     /// Products of forces and displacements below which a solve has nothing left to do.
     const NEGLIGIBLE: f64;
@@ -27,9 +27,9 @@ pub trait Quad:
     fn scalar(number: f64) -> Self::Scalar;
     /// The same number four times.
     fn splat(number: Self::Scalar) -> Self;
-    /// The numbers.
+    /// The four numbers, in order.
     fn numbers(self) -> [Self::Scalar; 4];
-    /// Their sum.
+    /// The sum of the four numbers.
     fn total(self) -> f64;
     /// The sums of three, and a zero.
     fn totals(of: [Self; 3]) -> Self;

@@ -43,16 +43,17 @@ pub trait Simd: Copy {
     fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
     /// The greater of each two; the second where one is not a number.
     fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// Two quads side by side.
+    /// Two quads in one register, the first in its lower half.
     fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
-    /// The two.
+    /// The two quads that [`Self::join`] put together.
     fn split(self, twin: Self::F32x8) -> [f32x4; 2];
     /// `a b + c`.
     fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
 }
 
-/// An array of what an expression makes of each index, written out: maps over arrays are not inlined into tasks, in which then each
-/// instruction is called as a function.
+/// An array of what an expression makes of each index, written out in full.
+///
+/// `map` over an array is not inlined into a kernel, in which each instruction would then be called as a function.
 #[macro_export]
 macro_rules! each {
     ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
@@ -64,11 +65,11 @@ macro_rules! each {
 }
 pub use each;
 
-/// A loop that is compiled for every instruction set; to be inlined, with all that it calls.
+/// A loop that is compiled for every instruction set; it is inlined, with all that it calls.
 pub trait Kernel {
-    /// What comes of it.
+    /// What the loop returns.
     type Output;
-    /// Does it.
+    /// Runs the loop with the instructions of `simd`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 

@@ -20,13 +20,13 @@ pub struct Tangent {
     factor: Factor,
 }
 
-/// Of what a stiffness was factorised into.
+/// Into what a stiffness was factorised.
 enum Factor {
     /// Positive definite: what it holds comes back when it is let go.
     Definite(Box<Llt<usize, f64>>),
-    /// Not so, but regular.
+    /// Regular, but not positive definite.
     Indefinite(Box<Lu<usize, f64>>),
-    /// Singular.
+    /// Singular: there is no factor.
     None,
 }
 

@@ -22,7 +22,7 @@ const TURNED_GAIN: f64 = 0.05;
 /// Something to look at.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// Kind.
+    /// What kind of thing was found.
     pub kind: FindingKind,
     /// Seam, edge or piece.
     pub place: String,

@@ -134,9 +134,9 @@ impl SeamMesh {
 /// A point of the cloth: a weighted mean of three vertices of one triangle (weights sum to 1).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialPoint {
-    /// Garment vertices.
+    /// Vertices of the triangle, by their index in the garment.
     pub vertices: [usize; 3],
-    /// Their weights.
+    /// Barycentric weight of each vertex.
     pub weights: [f64; 3],
 }
 
@@ -241,7 +241,7 @@ pub enum MeasurementKind {
 pub struct Measurement {
     /// Number in the style (`#1` ...).
     pub no: u32,
-    /// Name.
+    /// Name in the style, such as `Neck Opening`.
     pub name: String,
     /// Loop or length.
     pub kind: MeasurementKind,
@@ -290,7 +290,7 @@ pub enum Band {
 /// A strengthened stretch of an edge.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Reinforcement {
-    /// With what.
+    /// What strengthens it.
     pub band: Band,
     /// Force per relative elongation, N.
     pub stiffness_n: f64,
@@ -303,23 +303,23 @@ pub struct Reinforcement {
 /// A sewable garment of one size, meshed.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
-    /// Style name.
+    /// Name of the style, from its seam file.
     pub name: String,
-    /// Size name.
+    /// Name of the size; empty where the file names none.
     pub size: String,
-    /// Pieces.
+    /// Pieces with the ranges of their vertices and triangles.
     pub pieces: Vec<PieceMesh>,
     /// Vertex positions in their pieces' planes, m.
     pub rest: Vec<V2>,
-    /// Counter-clockwise triangles.
+    /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[usize; 3]>,
-    /// Seams.
+    /// Seams as pairs of vertices that become one.
     pub seams: Vec<SeamMesh>,
-    /// Measurements.
+    /// Measurements of the style, laid on the mesh.
     pub measurements: Vec<Measurement>,
     /// Pattern girths for the fit.
     pub fit_levels: Vec<FitLevel>,
-    /// Strengthened edges.
+    /// Edges that a band strengthens, as chains of vertices.
     #[serde(default)]
     pub reinforcements: Vec<Reinforcement>,
     /// Edge length asked of the mesher, m.
@@ -329,7 +329,7 @@ pub struct Garment {
 /// A place on a piece, as messages name it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// The piece.
+    /// Identifier of the piece.
     pub piece: String,
     /// Point of the piece's plane, m.
     pub at: V2,

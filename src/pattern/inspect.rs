@@ -13,18 +13,18 @@ use geom::units::mm;
 /// Square millimetres in a square metre.
 const MM2_PER_M2: f64 = 1e6;
 
-/// One file.
+/// What one pattern file holds, or why it cannot be read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
-    /// File name.
+    /// Name of the file, as it was given.
     pub file: String,
     /// Format and version.
     pub format: String,
-    /// Unit of the numbers: `mm`, `cm` or `in`, with a remark where the file does not say.
+    /// Unit of the numbers, `mm`, `cm`, `in` or `m`, with a remark where the user gave it or it is assumed.
     pub units: String,
     /// Millimetres in one unit.
     pub mm_per_unit: Option<f64>,
-    /// Pieces.
+    /// Pieces in the order of the file.
     pub pieces: Vec<PieceReport>,
     /// Blocks that are no usable pieces.
     pub refused: Vec<Refused>,
@@ -44,7 +44,7 @@ pub struct PieceReport {
     pub block: String,
     /// Piece name, or the block's name where the file gives none, in the file's code page.
     pub name: String,
-    /// Size.
+    /// Size that the piece or the file names.
     pub size: Option<String>,
     /// Number to cut, as written.
     pub quantity: Option<String>,

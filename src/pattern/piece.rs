@@ -50,7 +50,7 @@ pub struct Piece {
     pub turn_points: Vec<V2>,
     /// Curve points, in the order of the file.
     pub curve_points: Vec<V2>,
-    /// Notches.
+    /// Marks cut into the outline, in the order of the file.
     pub notches: Vec<Notch>,
     /// Grain line from its first to its second end.
     pub grain: Option<[V2; 2]>,
@@ -60,11 +60,11 @@ pub struct Piece {
     pub grade_reference: Option<[V2; 2]>,
     /// Points that a grade rule table moves.
     pub grade_points: Vec<GradePoint>,
-    /// Lines drawn inside.
+    /// Lines drawn inside the outline (layer 8), open or closed.
     pub internal_lines: Vec<Vec<V2>>,
-    /// Lines cut inside.
+    /// Closed lines along which holes are cut inside the outline.
     pub cut_outs: Vec<Vec<V2>>,
-    /// Drill holes.
+    /// Centres of the drill holes.
     pub drill_holes: Vec<V2>,
     /// Closed sew line inside the cut line.
     pub sew_line: Option<Vec<V2>>,

@@ -18,9 +18,9 @@ use geom::units::mm;
 pub enum Edit {
     /// Sews two sides.
     Add {
-        /// One side.
+        /// Edges of one side.
         a: String,
-        /// The other side.
+        /// Edges of the other side.
         b: String,
         /// Name of the seam; made of the first edge's where none is given.
         name: Option<String>,
@@ -43,12 +43,12 @@ pub enum Edit {
     },
     /// Says that an edge is meant to be in no seam.
     Open {
-        /// The edge.
+        /// Edge that stays free.
         edge: String,
     },
     /// Leaves a piece out, with its seams.
     LeaveOut {
-        /// The piece.
+        /// Identifier of the piece that is left out.
         piece: String,
     },
     /// Takes a drawn piece in that the file leaves out; what it is worn as is to be said.
@@ -60,7 +60,7 @@ pub enum Edit {
     },
     /// Says what a piece is worn as.
     Role {
-        /// The piece.
+        /// Identifier of the piece.
         piece: String,
         /// The role, as the file has it: `front`, `sleeve_right`.
         role: String,
@@ -72,9 +72,9 @@ pub enum Edit {
 pub struct Sizes<'a> {
     /// The size that is worked on.
     pub name: &'a str,
-    /// Its pieces.
+    /// Pieces of that size.
     pub pieces: &'a [Piece],
-    /// The others.
+    /// Names and pieces of the other sizes.
     pub others: &'a [(String, Vec<Piece>)],
 }
 

@@ -63,7 +63,7 @@ pub enum StyleError {
     /// The seam file is not the TOML it should be.
     #[error("{file}: not a seam file: {reason}")]
     Syntax {
-        /// Seam file.
+        /// Name of the seam file, for the message.
         file: String,
         /// What the TOML reader found, with the line.
         reason: String,
@@ -71,13 +71,13 @@ pub enum StyleError {
     /// A name that is not there.
     #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
     Unknown {
-        /// Seam file.
+        /// Name of the seam file, for the message.
         file: String,
         /// Entry of the seam file.
         place: String,
         /// Kind of thing named.
         what: &'static str,
-        /// Name found.
+        /// Name that the entry has.
         found: String,
         /// Names that exist.
         accepted: String,
@@ -85,7 +85,7 @@ pub enum StyleError {
     /// An entry that contradicts the pieces or another entry.
     #[error("{file}: {place}: {found}; accepted: {accepted}")]
     Contradiction {
-        /// Seam file.
+        /// Name of the seam file, for the message.
         file: String,
         /// Entry of the seam file.
         place: String,
@@ -103,7 +103,7 @@ pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeamFile {
-    /// Style name.
+    /// Name of the style.
     pub name: String,
     /// Size that it was made on, where it holds for several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -120,13 +120,13 @@ pub struct SeamFile {
     /// Pieces by id; none in a file that only measures a pattern with its own seams.
     #[serde(default)]
     pub piece: BTreeMap<String, PieceEntry>,
-    /// Seams.
+    /// Which edges are sewn together.
     #[serde(default)]
     pub seam: Vec<SeamEntry>,
-    /// Measurements.
+    /// Lengths along the pattern that are compared with the drape.
     #[serde(default)]
     pub measurement: Vec<MeasurementEntry>,
-    /// Strengthened edges.
+    /// Edges that a rib, a tape, a hem or a band strengthens.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reinforce: Vec<ReinforceEntry>,
     /// Pattern girths at body levels, by level.
@@ -186,7 +186,7 @@ pub(crate) const SAME_EASE: f64 = 0.5;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeamEntry {
-    /// Name.
+    /// Name of the seam, for messages.
     pub name: String,
     /// One side, `piece.edge` each, in order along the seam.
     pub a: Vec<String>,
@@ -251,9 +251,9 @@ impl fmt::Display for Ease {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasurementEntry {
-    /// Number.
+    /// Number by which tables and drawings name it (`#1`).
     pub no: u32,
-    /// Name.
+    /// Name for people to read, such as `Neck Opening`.
     pub name: String,
     /// Loop or length.
     pub kind: MeasurementKind,
@@ -296,7 +296,7 @@ pub enum Stretch {
     Edge(String),
     /// Straight across a piece between two points, `piece.edge.start|mid|end`.
     Line {
-        /// Its ends.
+        /// Both ends, as `piece.edge.start`, `.mid` or `.end`.
         line: [String; 2],
     },
 }

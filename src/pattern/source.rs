@@ -7,13 +7,13 @@ use super::garmentcode::{self, GarmentCodeError, Specification};
 /// Why a pattern file cannot be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SourceError {
-    /// As DXF.
+    /// A DXF file, or what is taken for one, cannot be read.
     #[error(transparent)]
     Dxf(#[from] DxfError),
-    /// As GarmentCode JSON.
+    /// A GarmentCode specification cannot be read.
     #[error(transparent)]
     GarmentCode(#[from] GarmentCodeError),
-    /// As pattern features.
+    /// A file of pattern features cannot be read.
     #[error(transparent)]
     Features(#[from] FeaturesError),
 }

@@ -16,7 +16,7 @@ const CELLS: usize = 96;
 /// Light on the floor under the subject.
 #[derive(Default)]
 pub(super) struct Floor {
-    /// Height, m.
+    /// Height of the floor, m.
     pub z: f32,
     low: [f32; 2],
     cell: f32,

@@ -10,9 +10,9 @@ pub enum View {
     Front,
     /// From `+x`, the subject's right side; the subject faces the picture's right.
     Side,
-    /// From `-y`.
+    /// From `-y`, behind the subject; the subject's right at the picture's right.
     Back,
-    /// Between front and side.
+    /// From between front and side.
     Quarter,
 }
 

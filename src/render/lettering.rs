@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// One picture of a sheet and the line under it.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// The picture.
+    /// Picture that the cell shows.
     pub picture: RgbaImage,
     /// The line under it.
     pub label: String,

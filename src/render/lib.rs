@@ -40,7 +40,7 @@ pub enum RenderError {
         layer: usize,
         /// Index of the triangle in its mesh.
         triangle: usize,
-        /// The index found.
+        /// Vertex that the triangle names.
         vertex: usize,
         /// How many there are.
         vertices: usize,
@@ -60,7 +60,7 @@ pub enum RenderError {
     PaintLength {
         /// Index of the layer.
         layer: usize,
-        /// Values found.
+        /// Number of values, texture coordinates or texture numbers given.
         found: usize,
         /// Vertices or triangles of the mesh.
         needed: usize,
@@ -84,9 +84,9 @@ pub enum RenderError {
     /// No picture has this size.
     #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
     Size {
-        /// Pixels across.
+        /// Width asked for, pixels.
         width: u32,
-        /// Pixels down.
+        /// Height asked for, pixels.
         height: u32,
     },
     /// A drawing could not be read.

@@ -46,5 +46,5 @@ pub(super) fn weights(corners: [[f32; 3]; 3], x: f32, y: f32) -> [f32; 3] {
     [1.0 - wb - wc, wb, wc]
 }
 
-/// No triangle.
+/// Number that stands where there is no triangle, or no fine pixel.
 pub(super) const NOTHING: u32 = u32::MAX;

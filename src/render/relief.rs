@@ -8,7 +8,7 @@
 /// (distance of the neighbours, share of the light a full hollow takes): wrinkles and folds, m. None is shorter than the
 /// edges of a usual mesh, whose facets would show.
 const RINGS: [(f32, f32); 2] = [(0.016, 0.20), (0.030, 0.30)];
-/// Pairs a ring.
+/// Pairs of opposite neighbours on each ring.
 const PAIRS: usize = 12;
 /// Depth of a hollow that takes half of what a full one takes, in distances of the neighbours.
 const FULL: f32 = 0.2;

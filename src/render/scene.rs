@@ -101,7 +101,7 @@ pub enum Paint {
 /// Pictures on a layer: a garment may be cut from several cloths.
 #[derive(Clone, Debug)]
 pub struct Print {
-    /// The pictures.
+    /// One picture for each cloth.
     pub textures: Vec<Texture>,
     /// Which of them each triangle shows.
     pub of: Vec<usize>,
@@ -112,9 +112,9 @@ pub struct Print {
 /// A mesh with its look.
 #[derive(Clone, Debug)]
 pub struct Layer<'a> {
-    /// The mesh.
+    /// The surface, m; the paint goes on the side its normals point to.
     pub mesh: &'a TriMesh,
-    /// Its look.
+    /// Colours of both sides, and how the surface is drawn.
     pub material: Material,
     /// What colours its outer side.
     pub paint: Paint,

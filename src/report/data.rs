@@ -26,7 +26,7 @@ pub struct ReportData {
     pub inputs: Vec<Fact>,
     /// Numbers of each fabric and where they are from.
     pub fabrics: Vec<FabricFacts>,
-    /// The subjects.
+    /// Measurements of the subjects, one a row.
     pub subjects: SubjectTable,
     /// Pattern drawings with numbered measurements.
     pub drawings: Vec<Drawing>,
@@ -55,9 +55,9 @@ pub struct ReportData {
 /// One answer to "which simulator?".
 #[derive(Clone, Debug)]
 pub struct Verdict {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Fit class.
+    /// Fit class that the answer is for.
     pub class: FitClass,
     /// The simulator to use.
     pub recommended: Simulator,
@@ -86,7 +86,7 @@ pub enum Severity {
     Failure,
     /// Results need care.
     Warning,
-    /// Worth knowing.
+    /// Results stand; the reader should know.
     Note,
 }
 
@@ -115,7 +115,7 @@ impl Severity {
 /// One thing the audit found.
 #[derive(Clone, Debug)]
 pub struct AuditNote {
-    /// Its weight.
+    /// How much it weighs with the results.
     pub severity: Severity,
     /// The finding, one or two sentences.
     pub text: String,
@@ -124,7 +124,7 @@ pub struct AuditNote {
 /// A named value.
 #[derive(Clone, Debug)]
 pub struct Fact {
-    /// Name.
+    /// Name of the value, as the page shows it.
     pub name: String,
     /// Value with its unit.
     pub value: String,
@@ -133,7 +133,7 @@ pub struct Fact {
 /// A fabric's numbers.
 #[derive(Clone, Debug)]
 pub struct FabricFacts {
-    /// Name.
+    /// Name of the fabric, as the study has it.
     pub name: String,
     /// Its properties with units.
     pub facts: Vec<Fact>,
@@ -148,7 +148,7 @@ pub struct Column {
     pub name: String,
     /// Unit of the values (`mm`, `kg`); they are shown as given.
     pub unit: String,
-    /// Decimals shown.
+    /// Decimals to which its values are shown.
     pub decimals: usize,
 }
 
@@ -161,7 +161,7 @@ pub struct SubjectTable {
     pub rows: Vec<Subject>,
 }
 
-/// One subject.
+/// A row of the subject table.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// Name in the study.
@@ -175,9 +175,9 @@ pub struct Subject {
 /// A drawing of a garment's pattern.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Size drawn.
+    /// Name of the size that is drawn.
     pub size: String,
     /// The drawing as SVG; shown as a picture, so that nothing in it can run.
     pub svg: String,
@@ -186,7 +186,7 @@ pub struct Drawing {
 /// Ease of one garment.
 #[derive(Clone, Debug)]
 pub struct EaseMatrix {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Sizes, one a row.
     pub sizes: Vec<String>,
@@ -199,13 +199,13 @@ pub struct EaseMatrix {
 /// Which size of a garment a subject should wear.
 #[derive(Clone, Debug)]
 pub struct SizeTip {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Size.
+    /// Name of the size to wear.
     pub size: String,
-    /// Why.
+    /// Why that size, in words.
     pub reason: String,
     /// Tension at each level in the FEM-GS drape of that size, where there is one.
     pub tension: String,
@@ -229,9 +229,9 @@ pub struct FitData {
 /// How a garment fits a subject, in the size to wear and those beside it.
 #[derive(Clone, Debug)]
 pub struct FitSheet {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
     /// Intended fit; empty where none is meant.
     pub intended: String,
@@ -239,7 +239,7 @@ pub struct FitSheet {
     pub verdict: String,
     /// How the size to wear hangs and presses, in words; empty without its drape.
     pub drape: String,
-    /// The sizes.
+    /// The size to wear and those beside it, in order.
     pub sizes: Vec<FitSize>,
     /// Whose drapes are measured, where there are any.
     pub simulator: Option<Simulator>,
@@ -252,7 +252,7 @@ pub struct FitSheet {
 /// A size of a fit sheet.
 #[derive(Clone, Debug)]
 pub struct FitSize {
-    /// Its name.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Whether it is the one to wear.
     pub is_to_wear: bool,
@@ -267,14 +267,14 @@ pub struct FitTable {
     pub caption: String,
     /// Heads of its columns besides the names of its rows.
     pub columns: Vec<String>,
-    /// Its rows.
+    /// Rows, from the top; each has a cell for every column.
     pub rows: Vec<FitRow>,
 }
 
 /// A row of a fit sheet's table.
 #[derive(Clone, Debug)]
 pub struct FitRow {
-    /// Name.
+    /// What the row is about, such as a level of the body.
     pub name: String,
     /// A cell a column.
     pub cells: Vec<FitCell>,
@@ -283,7 +283,7 @@ pub struct FitRow {
 /// A number of a fit sheet in words.
 #[derive(Clone, Debug, Default)]
 pub struct FitCell {
-    /// The number.
+    /// The number as text, in the unit of the table.
     pub text: String,
     /// What is to be said of it.
     pub note: String,
@@ -294,11 +294,11 @@ pub struct FitCell {
 /// Where an ease lies beside its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitVerdict {
-    /// Below it.
+    /// Below the target: too little ease.
     Tight,
-    /// Within it.
+    /// Within the target.
     AsMeant,
-    /// Above it.
+    /// Above the target: too much ease.
     Loose,
 }
 
@@ -359,19 +359,19 @@ pub struct FieldMap {
 /// One garment, in one size and fabric, on one subject, by one simulator.
 #[derive(Clone, Debug)]
 pub struct TryOn {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// The garment without the seed of its start: what is the same but for this is a repeat.
     pub case: String,
     /// Which of several simulations of the same inputs, from 1.
     pub repeat: u32,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator.
+    /// Simulator that draped it.
     pub simulator: Simulator,
-    /// Fabric.
+    /// Name of the fabric, as the study has it.
     pub fabric: String,
     /// How it ended.
     pub outcome: Outcome,
@@ -381,7 +381,7 @@ pub struct TryOn {
     pub measured: Vec<Measured>,
     /// Vertices once sewn.
     pub vertices: usize,
-    /// Triangles.
+    /// Triangles of the mesh that was draped.
     pub faces: usize,
     /// Iterations over all levels.
     pub iterations: u32,

@@ -79,7 +79,7 @@ impl EvidencePart {
         }))
     }
 
-    /// Its charts.
+    /// All charts of the section, in the order of the page.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         self.differences.iter().chain(self.crossovers.iter().map(|c| &c.chart)).chain(&self.without)
     }

@@ -25,7 +25,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// Its charts.
+    /// All charts of the group, in the order of the page.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         let of_series = self.series.iter().flat_map(|s| [&s.chi_chart].into_iter().chain(&s.mean_chart));
         of_series.chain(&self.metric_charts).chain(&self.residual_chart)

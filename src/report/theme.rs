@@ -8,11 +8,11 @@ use render::{ColourMap, Rgb};
 pub(super) const INK: Rgb = Rgb(0x1b, 0x24, 0x30);
 /// Text of less weight.
 pub(super) const MUTED: Rgb = Rgb(0x56, 0x61, 0x6f);
-/// Grid lines.
+/// Colour of grid lines.
 pub(super) const GRID: Rgb = Rgb(0xd9, 0xde, 0xe4);
 /// Every second row.
 pub(super) const BAND: Rgb = Rgb(0xf3, 0xf5, 0xf8);
-/// Ground.
+/// Colour of the ground that charts are drawn on.
 pub(super) const PAPER: Rgb = Rgb(0xff, 0xff, 0xff);
 
 /// The neutral colours and the style variables that stand for them on the page.

@@ -91,8 +91,8 @@ impl Cover {
         self
     }
 
-    /// By how much a vertex at `p` is beyond where it may be, m, and the unit direction back; `None` where it is within, or where the cover
-    /// ends.
+    /// By how much a vertex at `p` is beyond where it may be, m, and the unit direction back; `None` where it is
+    /// within, or where the cover ends.
     #[must_use]
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
         let sheet = self.sheets.get(self.limbs.get(vertex)?)?;

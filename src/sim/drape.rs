@@ -6,11 +6,11 @@ use geom::V3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
-    /// Seams closed.
+    /// All seams are closed.
     Sewn,
-    /// Hybrid-GS: size restored.
+    /// The garment has its pattern's size again, in Hybrid-GS alone.
     Popup,
-    /// At rest on the body.
+    /// The garment is at rest on the body.
     Drape,
 }
 
@@ -73,7 +73,7 @@ pub struct Drape {
 /// A garment as a stage left it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Staged {
-    /// Stage.
+    /// Stage at whose end it was taken.
     pub stage: Stage,
     /// World position of each garment vertex, m.
     pub positions: Vec<V3>,

@@ -13,7 +13,7 @@ pub enum SimError {
         .at.x * 1e3, .at.y * 1e3
     )]
     Degenerate {
-        /// Piece.
+        /// Name of the piece.
         piece: String,
         /// Its first corner in the piece's plane, m.
         at: V2,
@@ -30,7 +30,7 @@ pub enum SimError {
     /// A piece that the simulator does not know how to place.
     #[error("piece {piece:?}: this simulator cannot place role {role:?} yet; it places: {accepted}")]
     CannotPlace {
-        /// Piece.
+        /// Name of the piece.
         piece: String,
         /// How it is worn.
         role: Role,
@@ -40,7 +40,7 @@ pub enum SimError {
     /// A piece whose outline has no counterpart on the body.
     #[error("piece {piece:?} cannot be mapped onto the body: {reason}")]
     CannotMap {
-        /// Piece.
+        /// Name of the piece.
         piece: String,
         /// What stands in the way.
         reason: &'static str,
@@ -48,9 +48,9 @@ pub enum SimError {
     /// Positions stopped being numbers.
     #[error("the simulation of {garment:?} diverged at iteration {iteration}")]
     Diverged {
-        /// Garment.
+        /// Name of the garment.
         garment: String,
-        /// Iteration.
+        /// Iteration at which a position is no number, over all levels, from 1.
         iteration: u32,
     },
     /// Nothing holds it up.
@@ -60,7 +60,7 @@ pub enum SimError {
         .descent_m * 1e3
     )]
     SlidOff {
-        /// Garment.
+        /// Name of the garment.
         garment: String,
         /// How far it has come down when it was given up, m.
         descent_m: f64,
@@ -71,7 +71,7 @@ pub enum SimError {
         .rise_m * 1e3
     )]
     CameOff {
-        /// Garment.
+        /// Name of the garment.
         garment: String,
         /// How far its top has come up, m.
         rise_m: f64,
@@ -83,7 +83,7 @@ pub enum SimError {
         .pieces[0], .pieces[1], .gap_m * 1e3
     )]
     Open {
-        /// Garment.
+        /// Name of the garment.
         garment: String,
         /// Pieces that are farthest from each other where they are sewn together.
         pieces: [String; 2],

@@ -28,11 +28,11 @@ pub const USUAL: &str = "cotton_shirting_light";
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
-    /// Name (`cotton_shirting_light`).
+    /// Name in the library or the study (`cotton_shirting_light`).
     pub name: String,
     /// Areal density, kg/m2.
     pub density_kg_m2: f64,
-    /// Thickness, m.
+    /// Thickness of a single layer, m.
     pub thickness_m: f64,
     /// Strip modulus along the grain line, N/m.
     pub membrane_warp_n_m: f64,
@@ -163,7 +163,7 @@ impl fmt::Display for Part {
 /// A fabric of the library.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// Its numbers.
+    /// Its numbers in SI units, with their source.
     pub fabric: Fabric,
     /// What it stands for.
     pub kind: Kind,

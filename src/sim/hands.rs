@@ -214,8 +214,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The shapes that a level meets without friction: hands are folded on the coarsest, open on the next, and are laid bare on the
-    /// finest.
+    /// The shapes that a level meets without friction: hands are folded on the coarsest, open on the next, and are laid
+    /// bare on the finest.
     fn of_level(level: usize, finest: usize) -> Vec<Self> {
         let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
         if level == 0 && finest > 0 {

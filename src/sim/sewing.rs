@@ -70,13 +70,13 @@ pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
 /// Springs between the vertices of seam pairs: `f = k d` up to a cap (4.15, with the cap trials asked for).
 #[derive(Clone, Debug)]
 pub struct Springs {
-    /// Vertex pairs.
+    /// Garment vertices that each spring draws together.
     pub pairs: Vec<[usize; 2]>,
     /// Stiffness, N/m.
     pub stiffness_n_m: f64,
     /// Greatest force, N.
     pub cap_n: f64,
-    /// The same at first, N.
+    /// Greatest force when the springs begin, N; `cap_n` grows from it.
     first_cap_n: f64,
 }
 
@@ -112,8 +112,8 @@ impl Springs {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
     }
 
-    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is an end to
-    /// that.
+    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is
+    /// an end to that.
     pub fn tighten(&mut self, factor: f64) -> bool {
         let is_weaker = self.cap_n < MOST_GROWTH * self.first_cap_n;
         if is_weaker {

@@ -9,7 +9,7 @@ use pattern::{Garment, Role};
 struct Wall {
     /// A point of it, m.
     point: V3,
-    /// Unit normal.
+    /// Unit normal of the plane.
     normal: V3,
     /// Direction in which it goes on from its point; both ways without one.
     onwards: Option<V3>,

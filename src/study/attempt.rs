@@ -51,7 +51,7 @@ pub struct Attempt {
     pub allowance_m: f64,
     /// Answers to the questions of a proposal: number and letter.
     pub answers: Vec<(usize, char)>,
-    /// Simulator.
+    /// Simulator that drapes it.
     pub simulator: Simulator,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,

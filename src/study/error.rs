@@ -9,7 +9,7 @@ use rusqlite::ErrorCode;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// SQLite refused.
+    /// The database refused a statement, or its file is damaged or locked.
     #[error("database: {}", database_error(.0))]
     Database(#[from] rusqlite::Error),
     /// A database file could not be opened.
@@ -17,13 +17,13 @@ pub enum StudyError {
     Open {
         /// The database file.
         path: PathBuf,
-        /// Why not.
+        /// What stands in the way.
         reason: String,
     },
     /// The database was written by a newer program.
     #[error("database has schema version {found}, this program knows versions up to {known}; use the newer program")]
     TooNew {
-        /// Version found.
+        /// Schema version of the database.
         found: i64,
         /// Newest version known.
         known: i64,
@@ -34,9 +34,9 @@ pub enum StudyError {
     /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why not.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// Everything that is wrong with a study file.
@@ -82,7 +82,7 @@ pub enum StudyError {
         what: &'static str,
         /// What was asked for.
         name: String,
-        /// What there is.
+        /// Names that there are, for a suggestion.
         known: Vec<String>,
     },
     /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
@@ -104,7 +104,7 @@ pub enum StudyError {
     /// Stored bytes are not what the program wrote.
     #[error("artefact {hash}: {message}")]
     Artefact {
-        /// Content hash.
+        /// Hash under which the bytes are stored.
         hash: String,
         /// What is wrong.
         message: String,
@@ -137,16 +137,16 @@ impl StudyError {
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {source}")]
 pub struct InFile<E: std::error::Error + 'static> {
-    /// The file's name.
+    /// Name of the file, as messages show it.
     pub file: String,
-    /// What was said.
+    /// Error of the stage that read it.
     pub source: E,
 }
 
 /// One thing that is wrong with a study file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The file.
+    /// Path of the file, as messages show it.
     pub file: PathBuf,
     /// Line, from 1.
     pub line: Option<usize>,

@@ -113,7 +113,7 @@ impl From<&Progress> for JobProgress {
 /// A study and how far it has come; counts are of its current jobs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyRow {
-    /// Name.
+    /// Name of the study, unique in the database.
     pub name: String,
     /// Its `study.toml`.
     pub path: std::path::PathBuf,
@@ -142,21 +142,21 @@ impl StudyRow {
 /// A job as lists show it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobRow {
-    /// Number.
+    /// Number of the job, unique in the database.
     pub id: JobId,
-    /// Study.
+    /// Name of the study that queued it.
     pub study: String,
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator.
+    /// Simulator that it runs.
     pub simulator: Simulator,
     /// Which repeat of the same cell, from 1.
     pub repeat: u32,
-    /// State.
+    /// State in the queue.
     pub status: Status,
     /// Whether its inputs are the study's own now.
     pub is_current: bool,
@@ -172,7 +172,7 @@ pub struct JobRow {
     pub started_at_ms: Option<i64>,
     /// When it ended, ms since 1970 (UTC).
     pub finished_at_ms: Option<i64>,
-    /// Duration, ms.
+    /// Time from its last start to its end, ms; `None` until it ends.
     pub wall_ms: Option<i64>,
     /// Where it stands, while it runs.
     pub progress: Option<JobProgress>,
@@ -195,7 +195,7 @@ impl JobRow {
 pub struct Cell {
     /// The current job, if the study was queued.
     pub job: Option<JobId>,
-    /// Its state.
+    /// State of that job.
     pub status: Option<Status>,
     /// Share done while it runs, 0 to 1.
     pub fraction: Option<f64>,
@@ -206,7 +206,7 @@ pub struct Cell {
 /// The fit of one size on one subject: the ease that decides the fit class.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitCell {
-    /// Class.
+    /// Fit class that the ease means.
     pub class: FitClass,
     /// Pattern girth minus body girth, m.
     pub ease_m: f64,
@@ -219,9 +219,9 @@ pub struct FitCell {
 /// A study's garment as a grid of sizes (rows) by subjects (columns).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Study.
+    /// Name of the study.
     pub study: String,
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Sizes, in order of the study file.
     pub sizes: Vec<String>,
@@ -242,7 +242,7 @@ pub struct ChiRow {
     pub stage: String,
     /// Number in the style.
     pub no: u32,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
     /// Whether it goes once round.
     pub is_girth: bool,
@@ -269,7 +269,7 @@ impl ChiRow {
 pub struct MetricsRow {
     /// Number of measurements.
     pub n: u32,
-    /// Mean chi.
+    /// E: mean chi.
     pub e_chi: f64,
     /// Sample standard deviation of chi.
     pub sd_chi: f64,
@@ -279,7 +279,7 @@ pub struct MetricsRow {
     pub max_abs_error: f64,
     /// Vertices once sewn.
     pub vertices: u32,
-    /// Triangles.
+    /// Triangles of the mesh that was draped.
     pub faces: u32,
     /// Iterations over all levels.
     pub iterations: u32,
@@ -301,11 +301,11 @@ pub struct MetricsRow {
 /// Ease of a size on a subject at one level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EaseRow {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
     /// Body level (`chest`, `hip`, ...).
     pub level: String,
@@ -322,9 +322,9 @@ pub struct EaseRow {
 /// Which simulator to use for one garment and fit class, and how strong the evidence is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecommendationRow {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Fit class.
+    /// Fit class that the advice is for.
     pub class: FitClass,
     /// Simulator to use.
     pub recommended: Simulator,
@@ -355,7 +355,7 @@ pub struct LogLine {
     pub at_ms: i64,
     /// `info`, `warn` or `error`.
     pub level: String,
-    /// What happened.
+    /// What happened, as a sentence.
     pub text: String,
 }
 
@@ -364,7 +364,7 @@ pub struct LogLine {
 pub struct StageRow {
     /// `body`, `field`, `mesh` or `drape`.
     pub stage: String,
-    /// Content hash.
+    /// Hash of the stage's inputs, under which its product is kept.
     pub hash: String,
     /// Whether it was there already.
     pub was_cached: bool,
@@ -373,7 +373,7 @@ pub struct StageRow {
 /// A table of text and numbers: catalogue listings and SQL answers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// Column names.
+    /// Heading of each column.
     pub columns: Vec<String>,
     /// Rows of values, in order of the columns.
     pub rows: Vec<Vec<Value>>,
@@ -382,13 +382,13 @@ pub struct Table {
 /// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// SQL NULL.
+    /// No value: NULL in SQL.
     Null,
     /// A whole number.
     Integer(i64),
-    /// A number.
+    /// A number that need not be whole.
     Real(f64),
-    /// Text.
+    /// Text in UTF-8.
     Text(String),
     /// Bytes; only their number is kept.
     Blob(usize),

@@ -60,9 +60,9 @@ pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Pro
 
 /// A line `name = value` of a file.
 pub struct Entry<'a> {
-    /// Name.
+    /// Key at the top of the file.
     pub name: &'a str,
-    /// Value.
+    /// Value as TOML has it, with its place.
     pub value: &'a DeValue<'a>,
     /// Line of the file, the first is 1.
     pub line: usize,

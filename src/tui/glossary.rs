@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-/// The documents.
+/// Text of `docs/glossary.md`.
 const GLOSSARY: &str = include_str!("../../docs/glossary.md");
 const FIT: &str = include_str!("../../docs/fit.md");
 
@@ -23,7 +23,7 @@ pub struct Term {
 }
 
 impl Term {
-    /// Its own name.
+    /// The first of its names, by which it is listed.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.names[0]

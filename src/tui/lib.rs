@@ -55,7 +55,7 @@ use widgets::theme_file;
 
 /// How the workbench is started.
 pub struct Options {
-    /// The database.
+    /// Path of the database file.
     pub database: PathBuf,
     /// Whether it was named, so that commands have to name it too.
     pub is_database_named: bool,

@@ -42,7 +42,7 @@ impl LengthUnit {
         }
     }
 
-    /// Short name.
+    /// Its symbol, such as `mm`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -69,8 +69,8 @@ pub struct Imported {
 /// Reads a body mesh; the format is told from its first bytes.
 ///
 /// # Errors
-/// [`BodyError::File`] names the format, the place and what is wrong; [`BodyError::Unit`] refuses an extent that fits no
-/// unit.
+/// [`BodyError::File`] names the format, the place and what is wrong; [`BodyError::Unit`] refuses an extent that
+/// fits no unit.
 pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     settle(&read(bytes)?, unit)
 }

@@ -51,7 +51,7 @@ const VOLUME: &str = "volume_l";
 /// stored to the last bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Girths {
-    /// Millimetres.
+    /// What the tape reads of each dimension, by its number, millimetres.
     values: [Option<f64>; COUNT],
     /// Heights above the floor, millimetres.
     levels: [Option<f64>; COUNT],
@@ -85,7 +85,7 @@ impl Girths {
         self.values[dimension as usize].map(from_mm)
     }
 
-    /// Volume, litres.
+    /// Volume within the skin, litres.
     #[must_use]
     pub fn volume_l(&self) -> f64 {
         self.volume_l

@@ -36,7 +36,7 @@ pub struct Lengths {
 pub struct Measured {
     /// Girths and their levels, those of the limbs among them.
     pub girths: Girths,
-    /// Lengths.
+    /// Lengths over the skin and heights that are no level of a girth.
     pub lengths: Lengths,
     /// What a tailor takes beside them.
     pub tailor: Vec<Taken>,

@@ -11,8 +11,8 @@ use super::tape::{self, Neck};
 use crate::Sex;
 use geom::{TriMesh, V3};
 
-/// Mean distance of the shoulder point from the median plane and mean height of the back neck point [Gordon 2014], over
-/// stature.
+/// Mean distance of the shoulder point from the median plane and mean height of the back neck point, over stature
+/// [Gordon 2014].
 const SHOULDER: f64 = 0.1148;
 const CERVICALE: f64 = 0.8617;
 

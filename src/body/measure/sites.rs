@@ -134,8 +134,8 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex
     Ok((sites, sex))
 }
 
-/// Middle of the trunk of an upright body, whatever its arms do: where the median plane passes, and half way from front to
-/// back.
+/// Middle of the trunk of an upright body, whatever its arms do: where the median plane passes, and half way from
+/// front to back.
 pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     let middle = |share: f64| {
         let outlines = section(mesh, &Plane::horizontal(floor + share * stature));

@@ -87,7 +87,7 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
 /// The narrowest girth round the neck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neck {
-    /// Girth, metres.
+    /// What the tape reads, metres.
     pub girth: f64,
     /// Middle of the tape, metres.
     pub centre: V3,

@@ -37,8 +37,8 @@ pub(super) struct Fit<'a> {
 /// Makes the skin of a profile and fits it to the tape.
 ///
 /// # Errors
-/// [`BodyError::MissingPart`] where the skin has no such part, [`BodyError::Inconsistent`] for a given measurement that is not
-/// reached.
+/// [`BodyError::MissingPart`] where the skin has no such part, [`BodyError::Inconsistent`] for a given measurement that
+/// is not reached.
 pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
     static MALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Male));
     static FEMALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Female));

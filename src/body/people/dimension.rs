@@ -8,21 +8,21 @@ use crate::Sex;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Dimension {
-    /// Stature.
+    /// Height from the floor to the crown of the head.
     Stature,
-    /// Body mass.
+    /// Body mass, kg.
     Weight,
     /// Chest (men) or bust (women) girth.
     ChestGirth,
     /// Waist girth, at the ISO 8559-1 level.
     WaistGirth,
-    /// Hip girth.
+    /// Girth at the greatest protrusion of the buttocks.
     HipGirth,
-    /// Neck girth.
+    /// Least girth round the neck, the tape square to it.
     NeckGirth,
     /// Tape over the back neck point from shoulder point to shoulder point.
     AcrossShoulder,
-    /// Thigh girth.
+    /// Girth of the thigh just below the crotch.
     ThighGirth,
     /// Knee girth, at the middle of the kneecap.
     KneeGirth,
@@ -34,17 +34,17 @@ pub enum Dimension {
     UpperArmGirth,
     /// Forearm girth, relaxed.
     ForearmGirth,
-    /// Wrist girth.
+    /// Girth over the wrist bones.
     WristGirth,
     /// Inside leg height: floor to crotch.
     Inseam,
     /// Shoulder point over the elbow to the wrist.
     ArmLength,
-    /// Foot length.
+    /// Length of the foot, from the heel to the tip of the longest toe.
     FootLength,
     /// Breadth over the upper arms (bideltoid, ISO 7250-1); always estimated.
     ShoulderBreadth,
-    /// Under-bust girth.
+    /// Girth of the trunk under the bust.
     UnderbustGirth,
 }
 
@@ -149,7 +149,7 @@ impl Dimension {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "Written", try_from = "Written")]
 pub struct Measurements {
-    /// Sex.
+    /// Sex, which decides the tables that fill in what was not measured.
     pub sex: Sex,
     values: [Option<f64>; COUNT],
 }

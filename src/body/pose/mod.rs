@@ -236,7 +236,6 @@ impl Arm {
     }
 }
 
-/// One leg.
 struct Leg {
     side: f64,
     joint: V3,

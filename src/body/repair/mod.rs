@@ -205,8 +205,8 @@ fn patch(mesh: &mut TriMesh, rim: &[usize], length: f64) -> std::ops::Range<usiz
     first..tip + 1
 }
 
-/// Places the vertices of a patch as a thin plate clamped at its rim: the mean bend of every vertex is that of its
-/// neighbours.
+/// Places the vertices of a patch as a thin plate clamped at its rim: the mean bend of every vertex is that
+/// of its neighbours.
 fn fair(mesh: &mut TriMesh, around: &[Vec<usize>], fresh: std::ops::Range<usize>) {
     let count = fresh.len();
     let mut matrix = DMatrix::<f64>::zeros(count, count);

@@ -18,7 +18,7 @@ pub struct Scan {
     pub imported: Imported,
     /// Sex, given or told from neck, hip and waist girth.
     pub sex: Sex,
-    /// Measurements.
+    /// What the tape reads on it.
     pub girths: Girths,
 }
 

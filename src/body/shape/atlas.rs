@@ -32,8 +32,8 @@ const fn level(girth: f64, depth_over_width: [f64; 2], centre: [f64; 2], shape: 
 /// Proportions and mean sections of one sex.
 #[derive(Debug)]
 pub(crate) struct Atlas {
-    /// Heights over stature of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and front neck
-    /// point.
+    /// Heights over stature of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and
+    /// front neck point.
     pub crotch: f64,
     pub hip: f64,
     pub waist: f64,

@@ -77,7 +77,7 @@ impl Parts {
         smooth_step(share).max(HAND_FAIRING * on_hand)
     }
 
-    /// The field alone.
+    /// Signed distance of a point from the skin, m, without what else [`Self::sample`] finds.
     pub fn distance(&self, point: V3) -> f64 {
         self.sample(point).distance
     }

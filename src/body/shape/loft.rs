@@ -113,8 +113,8 @@ impl Part {
         places.map(|place| Ring::new(&curves.at(place))).collect()
     }
 
-    /// The part tabulated where `rings` of the same part of another figure are: at the same share of the way between its
-    /// sections.
+    /// The part tabulated where `rings` of the same part of another figure are: at the same share of the way
+    /// between its sections.
     pub fn like(&self, other: &Self, rings: &[Ring]) -> Vec<Ring> {
         let places = |part: &Self| part.stations.iter().map(|station| station.at).collect::<Vec<_>>();
         let course = Monotone::new(&places(other), &places(self));
@@ -151,8 +151,8 @@ impl Ring {
     }
 }
 
-/// Slope of the outline along the axis (the drift of the centre included) and its relative change with the angle, in each
-/// direction.
+/// Slope of the outline along the axis (the drift of the centre included) and its relative change with the angle,
+/// in each direction.
 type Slopes = Vec<[f64; 2]>;
 
 /// The field of a body part, tabulated.

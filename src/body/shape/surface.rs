@@ -7,8 +7,8 @@ use geom::{TriMesh, V3};
 /// Passes of tangential smoothing.
 const PASSES: usize = 8;
 
-/// Passes of the fairing of joints and of the whole skin, and its step: stable up to 0.5 where four edges meet, to less
-/// elsewhere.
+/// Passes of the fairing of joints and of the whole skin, and its step: stable up to 0.5 where four edges meet,
+/// to less elsewhere.
 const JOINT_PASSES: usize = 170;
 const BASE_PASSES: usize = 9;
 const FAIRING_STEP: f64 = 0.25;

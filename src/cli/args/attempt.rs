@@ -14,8 +14,8 @@ pub struct Try {
     /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON). Given several times, an outfit: the inner garment first.
     #[arg(long, value_name = "FILE", required = true)]
     pub pattern: Vec<PathBuf>,
-    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure. Of an outfit one for each pattern, `-` for
-    /// none.
+    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure. Of an outfit one for
+    /// each pattern, `-` for none.
     #[arg(long, value_name = "FILE")]
     pub seams: Vec<String>,
     /// Size, where the pattern has several; of an outfit one for all, or one for each pattern.
@@ -30,7 +30,7 @@ pub struct Try {
     /// Answer to a question of the proposal, by its number and the letter of the choice; may be given several times.
     #[arg(long, value_name = "N=x", value_parser = super::pattern::answer, conflicts_with = "seams")]
     pub answer: Vec<(usize, char)>,
-    /// Simulator.
+    /// Simulator that drapes it.
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
     /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]]; of an outfit one for all, or one for each pattern.
@@ -59,7 +59,7 @@ pub struct AuditGarments {
     /// with all.
     #[arg(long, value_name = "FILE")]
     pub pairs: Option<PathBuf>,
-    /// Simulators.
+    /// Simulators to drape with.
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
     pub sim: Vec<TrySimulator>,
     /// Fabric of the catalogue.

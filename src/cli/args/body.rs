@@ -9,24 +9,24 @@ use clap::{Args, Subcommand, ValueEnum};
 /// Sex of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Sex {
-    /// Male.
+    /// A male body.
     M,
-    /// Female.
+    /// A female body.
     F,
 }
 
 /// Unit of a body mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MeshUnit {
-    /// Millimetre.
+    /// Coordinates in millimetres.
     Mm,
-    /// Centimetre.
+    /// Coordinates in centimetres.
     Cm,
-    /// Metre.
+    /// Coordinates in metres.
     M,
-    /// Decimetre.
+    /// Coordinates in decimetres.
     Dm,
-    /// Inch.
+    /// Coordinates in inches.
     In,
 }
 
@@ -61,7 +61,7 @@ impl From<MeshUnit> for bodies::LengthUnit {
 pub enum Body {
     /// Measure any upright body mesh (OBJ, PLY, STL, GLB).
     Measure {
-        /// Mesh file.
+        /// Mesh file: OBJ, PLY, STL or GLB.
         file: PathBuf,
         /// Unit of the file; by default told from its height.
         #[arg(long, value_enum)]
@@ -111,7 +111,7 @@ pub struct BodyBuild {
     /// Subject of the catalogue to start from.
     #[arg(long, value_name = "NAME")]
     pub subject: Option<String>,
-    /// Sex.
+    /// Sex of the body.
     #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements", "scan"])]
     pub sex: Option<Sex>,
     /// Measurements: TOML as of a study's [[subject]], SeamlyMe (.smis), Valentina (.vit) or GarmentCode (.yaml, .json).

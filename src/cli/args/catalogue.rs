@@ -95,7 +95,7 @@ pub struct MeasuredValues(pub Vec<Given>);
 pub struct FabricValues {
     /// Fabric to start from.
     pub like: Option<String>,
-    /// The values.
+    /// Values as they were given, each with its key.
     pub given: Vec<Given>,
 }
 
@@ -119,7 +119,7 @@ pub struct StyleValues {
 /// Pattern of a size.
 #[derive(Debug, Args)]
 pub struct SizeValues {
-    /// Pattern.
+    /// Pattern file of the size.
     #[arg(long, value_name = "FILE")]
     pub pattern: Option<PathBuf>,
     /// Unit of the pattern, where it names none.

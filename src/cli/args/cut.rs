@@ -9,13 +9,13 @@ use study::seams::Asking;
 /// Unit of a pattern whose file names none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PatternUnit {
-    /// Millimetre.
+    /// Coordinates in millimetres.
     Mm,
-    /// Centimetre.
+    /// Coordinates in centimetres.
     Cm,
-    /// Inch.
+    /// Coordinates in inches.
     In,
-    /// Metre.
+    /// Coordinates in metres.
     M,
 }
 

@@ -142,7 +142,7 @@ pub enum Command {
     Info,
     /// Completion script for a shell.
     Completions {
-        /// Shell.
+        /// Shell to complete commands in.
         shell: Shell,
     },
     /// The manual page, as roff.
@@ -282,7 +282,7 @@ pub enum Job {
     },
     /// Run a job file within its limits, on any machine and without a database; its result lies beside it.
     Run {
-        /// Job file.
+        /// Job file to run.
         file: PathBuf,
         /// Result file to write.
         #[arg(long, short, value_name = "FILE")]
@@ -323,11 +323,11 @@ pub struct Sql {
 /// How rows are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// For reading.
+    /// For reading: a table in columns.
     Table,
-    /// For spreadsheets.
+    /// For spreadsheets: CSV.
     Csv,
-    /// For programs.
+    /// For programs: JSON.
     Json,
     /// For data frames: a Parquet file.
     Parquet,
@@ -374,7 +374,7 @@ pub enum View {
     Front,
     /// From the subject's right.
     Side,
-    /// From behind.
+    /// From behind the subject.
     Back,
     /// Between front and side.
     Quarter,
@@ -436,7 +436,7 @@ pub struct Render {
     /// How far the middle of an enlarged picture lies above the garment's, percent of half its height.
     #[arg(long, value_name = "PCT", default_value_t = 0, requires = "zoom", allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(-200..=200))]
     pub rise: i32,
-    /// Colours.
+    /// What colours the cloth.
     #[arg(long, value_enum, default_value_t = Map::Plain)]
     pub map: Map,
     /// Cut the garment, or one piece, from a cloth: fabric, plain, twill, jersey, rib, check, or an image file. MM is one
@@ -446,10 +446,10 @@ pub struct Render {
     /// Colour of the skin, like #dcb094; a dress form without.
     #[arg(long, value_name = "#RRGGBB")]
     pub skin: Option<String>,
-    /// Pixels across.
+    /// Width of the picture, pixels.
     #[arg(long, default_value_t = 800, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub width: u32,
-    /// Pixels down.
+    /// Height of the picture, pixels.
     #[arg(long, default_value_t = 1000, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub height: u32,
     /// PNG file to write.
@@ -475,10 +475,10 @@ pub enum MeshFormat {
 pub struct Export {
     /// Number of the job (`toile queue ls`).
     pub job: i64,
-    /// Format.
+    /// Format of the file.
     #[arg(long, value_enum)]
     pub format: MeshFormat,
-    /// Colours.
+    /// What colours the vertices.
     #[arg(long, value_enum, default_value_t = Map::Plain)]
     pub map: Map,
     /// File to write.
@@ -490,7 +490,7 @@ pub struct Export {
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("which").required(true).multiple(true))]
 pub struct Jobs {
-    /// Job numbers.
+    /// Numbers of the jobs.
     #[arg(group = "which")]
     pub jobs: Vec<i64>,
     /// All jobs of a study.
@@ -503,7 +503,7 @@ pub struct Jobs {
 /// Commands on the queue.
 #[derive(Debug, Subcommand)]
 pub enum Queue {
-    /// List jobs.
+    /// List jobs with their states.
     Ls {
         /// Only of this study.
         study: Option<String>,
@@ -527,7 +527,7 @@ pub enum Queue {
     Retry(Jobs),
     /// Set the priority of jobs: greater runs earlier, 0 is that of most.
     Priority {
-        /// Priority.
+        /// Priority that the jobs get.
         #[arg(long, value_name = "N", allow_negative_numbers = true)]
         to: i64,
         #[command(flatten)]
@@ -535,7 +535,7 @@ pub enum Queue {
     },
     /// A job's log.
     Log {
-        /// Job number.
+        /// Number of the job.
         job: i64,
     },
 }

@@ -10,9 +10,9 @@ use study::seams::pattern_files::Standard;
 /// Standard by which a DXF file is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DxfStandard {
-    /// ANSI/AAMA-292.
+    /// As ANSI/AAMA-292 has it.
     Aama,
-    /// ASTM D6673.
+    /// As ASTM D6673 has it.
     Astm,
 }
 
@@ -106,7 +106,7 @@ pub enum Pattern {
     Sew(SewFiles),
     /// Draft a built-in style in all its sizes, with its seam file.
     Draft {
-        /// Style.
+        /// Style to draft.
         #[arg(value_enum, default_value = "tshirt")]
         style: DraftStyle,
         /// Folder to write to.

@@ -47,18 +47,18 @@ pub struct NewSeam {
     eased: bool,
 }
 
-/// An edge.
+/// An edge that a step of work is about.
 #[derive(Clone, Debug, Args)]
 pub struct Edge {
-    /// The edge.
+    /// Edge by its name in the seam file, by its number, or by its corners.
     #[arg(value_name = "PIECE.EDGE")]
     edge: String,
 }
 
-/// A piece.
+/// A piece that a step of work is about.
 #[derive(Clone, Debug, Args)]
 pub struct OnePiece {
-    /// The piece.
+    /// Piece as the seam file names it.
     piece: String,
 }
 
@@ -75,7 +75,7 @@ pub struct DrawnPiece {
 /// What a piece is.
 #[derive(Clone, Debug, Args)]
 pub struct Worn {
-    /// The piece.
+    /// Piece as the seam file names it.
     piece: String,
     /// What it is: front, back, sleeve_right, ..., other.
     role: String,
@@ -88,7 +88,7 @@ pub struct Proposed {
     seam: Option<String>,
 }
 
-/// An answer.
+/// An answer to a question of the seam file.
 #[derive(Clone, Debug, Args)]
 pub struct Answered {
     /// The question, as it stands in the seam file, without its choices.
@@ -98,7 +98,7 @@ pub struct Answered {
     choice: usize,
 }
 
-/// A question.
+/// A question of the seam file.
 #[derive(Clone, Debug, Args)]
 pub struct Asked {
     /// The question, as it stands in the seam file.

@@ -5,9 +5,9 @@ use clap::ValueEnum;
 /// Simulator of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TrySimulator {
-    /// Physics alone.
+    /// FEM-GS: physics alone.
     Fem,
-    /// The pattern's size first.
+    /// Hybrid-GS: the pattern's size first.
     Hybrid,
 }
 

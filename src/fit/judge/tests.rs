@@ -2,8 +2,8 @@ use super::super::resample::Draw;
 use super::super::{Errors, rule_score, wins};
 use super::*;
 
-/// Pairs of `subjects` subjects whose EI differs by `effect` on average, `spread` over subjects, half of that over
-/// measurements.
+/// Pairs of `subjects` subjects whose EI differs by `effect` on average, `spread` over subjects, half of
+/// that over measurements.
 fn study(draw: &mut Draw, garments: usize, subjects: usize, effect: f64, spread: f64) -> (Vec<Cell>, Vec<Pair>) {
     let names: Vec<String> = (0..garments).map(|g| format!("g{g}")).collect();
     let mut pairs = Vec::new();

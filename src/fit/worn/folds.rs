@@ -33,11 +33,11 @@ pub struct Worn<'a> {
 pub struct Fold {
     /// Whether it is a drag line: cloth under tension along it, or a fold that hangs free.
     pub is_drag: bool,
-    /// Length, m.
+    /// Extent in its own direction, m.
     pub length_m: f64,
     /// Angle from the vertical, radians, 0 to a right angle.
     pub from_vertical_rad: f64,
-    /// Its middle.
+    /// Mean place of its vertices, m.
     pub middle: V3,
     /// Mean radius of its crest, m.
     pub radius_m: f64,
@@ -67,7 +67,7 @@ pub fn folds(worn: &Worn<'_>) -> Vec<Fold> {
     found
 }
 
-/// The fold of some vertices; `None` where it is too short, or no longer than wide.
+/// The fold of some vertices; `None` where it is too short.
 fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<Fold> {
     let count = group.len() as f64;
     let mean = |of: &dyn Fn(usize) -> f64| group.iter().map(|(_, v)| of(*v)).sum::<f64>() / count;

@@ -8,9 +8,9 @@ const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 /// Heights above the floor of an edge that goes round, m; `None` where no cloth lies on that side, as on the opening of a coat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sides {
-    /// In front.
+    /// At the front.
     pub front_m: Option<f64>,
-    /// Behind.
+    /// At the back.
     pub back_m: Option<f64>,
     /// On the subject's right.
     pub right_m: Option<f64>,

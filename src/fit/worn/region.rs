@@ -108,7 +108,7 @@ fn off_segment(point: V3, from: V3, to: V3) -> f64 {
 /// What presses on a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Where.
+    /// Part of the body that is pressed.
     pub region: Region,
     /// Area of the cloth that presses, m2.
     pub area_m2: f64,

@@ -89,7 +89,7 @@ pub struct Angle {
 /// Body and cloth in a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// Where.
+    /// Place on the body where the plane cuts.
     pub site: Site,
     /// Outline of the trunk or limb.
     pub skin: Outline,

@@ -19,11 +19,11 @@ pub use self::tshirt::{TSHIRT_SEAMS, TshirtSize, tshirt};
 /// Drafted pieces of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
-    /// Style name.
+    /// Name of the style, as its files begin: `tshirt`.
     pub style: String,
-    /// Size name.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Pieces, net.
+    /// Pieces with the sew line as outline, without allowances, m.
     pub pieces: Vec<Piece>,
 }
 
@@ -48,7 +48,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// All styles.
+    /// All styles that can be drafted.
     pub const ALL: [Self; 4] = [Self::Tshirt, Self::Trousers, Self::Teetop, Self::Dress];
 
     /// Its name, with which its files begin.

@@ -36,9 +36,9 @@ pub struct TrunkPlan {
     pub front_neck: FrontNeck,
     /// Neck opening, all round.
     pub neck: f64,
-    /// Shoulder length.
+    /// Length of each shoulder seam.
     pub shoulder: f64,
-    /// Armhole, all round.
+    /// Length of the armhole, front and back together.
     pub armhole: f64,
     /// How far the front and the back armhole run on square to the shoulder, in shares of their depth: the less, the
     /// rounder at the underarm.

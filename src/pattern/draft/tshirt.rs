@@ -25,11 +25,11 @@ pub const TSHIRT_SEAMS: &[u8] = include_bytes!("tshirt.seams.toml");
 /// Sizes of the T-shirt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TshirtSize {
-    /// Small.
+    /// Small: hem circumference 974 mm.
     S,
-    /// Medium.
+    /// Medium: hem circumference 1,034 mm.
     M,
-    /// Large.
+    /// Large: hem circumference 1,094 mm.
     L,
 }
 
@@ -37,7 +37,7 @@ impl TshirtSize {
     /// All sizes, smallest first.
     pub const ALL: [Self; 3] = [Self::S, Self::M, Self::L];
 
-    /// Its letter.
+    /// Its letter, as files and tables name it.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {

@@ -50,10 +50,10 @@ impl<'d> Library<'d> {
     }
 }
 
-/// A text.
+/// A text of a block, with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Its place.
+    /// Insertion point, m.
     pub at: V2,
     /// What it says.
     pub value: String,

@@ -47,7 +47,7 @@ impl CodePage {
         }
     }
 
-    /// Bytes as text.
+    /// The text that bytes of the file stand for.
     #[must_use]
     pub fn decoded(self, bytes: &[u8]) -> String {
         match self {

@@ -80,7 +80,7 @@ impl Placement {
 pub enum Figure {
     /// A chain of points; curves in it are flattened.
     Line {
-        /// Its points.
+        /// Points of the chain, m; the first is not repeated where it is closed.
         points: Vec<V2>,
         /// Whether its last point joins its first.
         is_closed: bool,
@@ -89,25 +89,25 @@ pub enum Figure {
     },
     /// A circle: a drill hole, a cut-out or a round outline.
     Circle {
-        /// Centre.
+        /// Centre, m.
         centre: V2,
         /// Points, the first not repeated.
         points: Vec<V2>,
     },
-    /// A point.
+    /// A POINT entity: a turn point, a curve point, a notch or a drill hole.
     Point {
-        /// Place.
+        /// Place in the plane, m.
         at: V2,
         /// Its z: the depth of a notch.
         depth_m: f64,
-        /// Direction, degrees.
+        /// Direction, degrees counter-clockwise from +u.
         angle_deg: f64,
     },
-    /// A text.
+    /// A TEXT entity, which may be a `key: value`.
     Text {
-        /// Place.
+        /// Insertion point, m.
         at: V2,
-        /// Text.
+        /// What it says.
         value: String,
     },
     /// Something else: labels, and what [`super::guard`] has counted as not read.

@@ -74,7 +74,7 @@ pub struct BlockCount<'a> {
     pub name: &'a [u8],
     /// Line of its `0/BLOCK`.
     pub line: usize,
-    /// Entities.
+    /// Number of entities that are read, by kind.
     pub counts: Counts,
     /// Entities of other kinds.
     pub foreign: Foreign<'a>,
@@ -83,9 +83,9 @@ pub struct BlockCount<'a> {
 /// A text value with its line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeaderValue<'a> {
-    /// Value.
+    /// The value, trimmed; empty where it is not UTF-8.
     pub value: &'a str,
-    /// Line.
+    /// Line of the value, from 1.
     pub line: usize,
 }
 

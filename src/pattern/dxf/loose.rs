@@ -18,7 +18,7 @@ const MOST_OUTLINES: usize = 500;
 /// What is drawn outside all blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loose {
-    /// Pieces.
+    /// Closed boundary lines as pieces, each with what lies within it.
     pub pieces: Vec<Piece>,
     /// Outlines that are no usable pieces.
     pub refused: Vec<Refused>,

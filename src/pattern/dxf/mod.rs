@@ -37,7 +37,7 @@ pub const NO_BLOCK: &str = "(no block)";
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
 pub struct DxfError {
-    /// File.
+    /// Name of the file, for the message.
     pub file: String,
     /// Line, where one can be named.
     pub line: Option<usize>,
@@ -64,7 +64,7 @@ fn place(file: &str, line: Option<usize>, block: Option<&str>) -> String {
 /// A block that is no usable piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Refused {
-    /// Block.
+    /// Name of the block, or words for what is drawn outside all blocks.
     pub block: String,
     /// Line at which the block begins; `None` for a file without blocks.
     pub line: Option<usize>,
@@ -78,7 +78,7 @@ pub struct Refused {
 /// A pattern file as read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatternFile {
-    /// File name.
+    /// Name of the file, for messages.
     pub file: String,
     /// What kind of file it is, with its version: `DXF AC1009`; `DXF` alone where the file names none.
     pub format: String,
@@ -319,8 +319,8 @@ impl PatternFile {
         }
     }
 
-    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the sample size
-    /// alone.
+    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the
+    /// sample size alone.
     fn share_texts(&mut self) {
         let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
         // Of several the first counts.

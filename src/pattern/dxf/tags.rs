@@ -10,7 +10,7 @@ const MOST_TAGS: usize = 5_000_000;
 /// One pair of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tag<'a> {
-    /// Group code.
+    /// Group code: what the value is.
     pub code: i32,
     /// Value without its line end.
     pub value: &'a [u8],

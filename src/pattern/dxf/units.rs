@@ -11,11 +11,11 @@ use super::tags::clipped;
 pub enum Unit {
     /// Millimetre (`Units: METRIC`).
     Mm,
-    /// Centimetre.
+    /// Centimetre (`Units: CM`).
     Cm,
     /// Inch (`Units: ENGLISH`).
     In,
-    /// Metre.
+    /// Metre (`Units: M`).
     M,
 }
 
@@ -34,7 +34,7 @@ impl Unit {
         }
     }
 
-    /// Short name.
+    /// Its symbol, as `--unit` takes it.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -60,11 +60,11 @@ pub enum UnitSource {
 /// A unit that the file names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Unit.
+    /// Unit that is named.
     pub unit: Unit,
     /// What names it.
     pub by: &'static str,
-    /// Line.
+    /// Line of the text or of the header's value, from 1.
     pub line: usize,
 }
 

@@ -26,7 +26,7 @@ const GREATEST_MM: f64 = 100_000.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct FeaturesError {
-    /// File.
+    /// Name of the file, for the message.
     pub file: String,
     /// Piece, or where in the text.
     pub place: String,
@@ -36,10 +36,10 @@ pub struct FeaturesError {
     pub accepted: String,
 }
 
-/// A place, mm.
+/// A place in the piece's plane, `[x, y]`, mm.
 type Place = [f64; 2];
 
-/// The file.
+/// Root of the JSON document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Features {

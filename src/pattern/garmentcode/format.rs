@@ -13,7 +13,7 @@ pub struct Document {
     /// Parameters of the program that made it; not used here.
     #[serde(default)]
     pub parameters: Map<String, Value>,
-    /// Their order.
+    /// Names of the parameters in the order of that program.
     #[serde(default)]
     pub parameter_order: Vec<String>,
     /// Units and conventions.
@@ -43,7 +43,7 @@ pub struct Panel {
     pub vertices: Vec<[f64; 2]>,
     /// Edges in the order of the loop.
     pub edges: Vec<PanelEdge>,
-    /// Body part.
+    /// Part of the body that the panel covers, where the file says it; not used here.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub label: String,
 }
@@ -51,12 +51,12 @@ pub struct Panel {
 /// An edge of a panel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PanelEdge {
-    /// Its vertices.
+    /// Indices of its start and its end among the panel's vertices.
     pub endpoints: [usize; 2],
     /// Its curve; straight without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curvature: Option<Curvature>,
-    /// Name.
+    /// Name that the program gives the edge; not used here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
 }
@@ -87,14 +87,14 @@ pub enum Curve {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StitchItem {
-    /// An edge.
+    /// An edge of a panel.
     Side {
-        /// Panel.
+        /// Name of the panel.
         panel: String,
         /// Index of the edge.
         edge: usize,
     },
-    /// A flag.
+    /// A word about the stitch, such as `right_wrong`.
     Flag(String),
 }
 

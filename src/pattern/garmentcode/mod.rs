@@ -33,7 +33,7 @@ const RIGHT_WRONG: &str = "right_wrong";
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
-    /// File.
+    /// Name of the file, for the message.
     pub file: String,
     /// Panel, edge or stitch.
     pub place: String,
@@ -46,7 +46,7 @@ pub struct GarmentCodeError {
 /// A specification as read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specification {
-    /// File name.
+    /// Name of the file, for messages.
     pub file: String,
     /// Millimetres in a unit of the file.
     pub mm_per_unit: f64,
@@ -61,7 +61,7 @@ pub struct Specification {
 /// Two edges sewn together; two edges of one panel are a dart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
-    /// Its sides.
+    /// The edges that are sewn together, in the order of the file.
     pub sides: [EdgeRef; 2],
     /// Whether start meets start (`right_wrong`), not end.
     pub same_direction: bool,

@@ -35,7 +35,7 @@ const PAIRS_A_LINE: usize = 4;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct GradeError {
-    /// File.
+    /// Name of the file, for the message.
     pub file: String,
     /// Line, where one can be named.
     pub line: Option<usize>,
@@ -48,7 +48,7 @@ pub struct GradeError {
 /// A grade rule table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeTable {
-    /// File name.
+    /// Name of the file, for messages.
     pub file: String,
     /// Sizes in their order.
     pub sizes: Vec<String>,

@@ -26,7 +26,7 @@ const LEAST_BELOW_BICEP_M: f64 = 60e-3;
 pub enum Limb {
     /// Trunk or bodice.
     Trunk,
-    /// Skirt.
+    /// Skirt of a skirt or a dress.
     Skirt,
     /// The outseam of a leg.
     Outer(Hand),
@@ -38,7 +38,7 @@ pub enum Limb {
 pub struct Side {
     /// What it belongs to.
     pub limb: Limb,
-    /// Its edges.
+    /// Its edges, from above.
     pub chain: Chain,
     /// Levels along it with their distances from its start, m.
     pub levels: Vec<(f64, Handle)>,
@@ -48,7 +48,7 @@ pub struct Side {
 
 /// One face's part of an armhole.
 pub struct Armhole {
-    /// Its edges.
+    /// Its edges, from the shoulder point to the underarm.
     pub edges: Vec<EdgeRef>,
     /// Its upper end, the shoulder point; none without a shoulder.
     pub tip: Option<EdgeEnd>,
@@ -62,7 +62,7 @@ pub struct Armhole {
 
 /// Half a sleeve: from the underarm up to the shoulder point, and the underarm seam on its side.
 pub struct HalfCap {
-    /// Piece.
+    /// Index of the sleeve's piece.
     pub piece: usize,
     /// The corner at the underarm.
     pub underarm: EdgeEnd,
@@ -78,13 +78,13 @@ pub struct HalfCap {
     pub out: V2,
 }
 
-/// A garment.
+/// A garment as handles see it: the parts that they move.
 pub struct Body<'a> {
     /// What its seams are.
     pub anatomy: &'a Anatomy<'a>,
-    /// Its trunk.
+    /// Its trunk; `None` without side seams between a front and a back.
     pub trunk: Option<Trunk<'a>>,
-    /// Its legs.
+    /// Its legs, the right one first; empty where it has none.
     pub legs: Vec<Legs<'a>>,
     /// Its side seams.
     pub sides: Vec<Side>,
@@ -93,7 +93,7 @@ pub struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Of a style.
+    /// Finds the parts that handles move; `points` are the style's points of measure.
     pub fn of(anatomy: &'a Anatomy<'a>, points: &[PointOfMeasure]) -> Self {
         let trunk = Trunk::of(anatomy);
         let legs: Vec<Legs<'a>> = Hand::BOTH.into_iter().filter_map(|hand| Legs::of(anatomy, hand)).collect();

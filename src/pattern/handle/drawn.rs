@@ -24,7 +24,7 @@ const ALIKE_M: f64 = 0.05e-3;
 /// Changed pieces, and the seam file that makes the changed style of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redrawn {
-    /// The pieces.
+    /// Pieces as drawn, in the order of the file, their outlines changed.
     pub pieces: Vec<Piece>,
     /// Bytes of the seam file: as they were, but for where corners lie on their pieces.
     pub seams: Vec<u8>,

@@ -313,7 +313,7 @@ pub enum HandleError {
     /// An amount that is no such length.
     #[error("handle `{handle}`: {amount_mm:.1} mm; accepted: -{most_mm} to {most_mm} mm", handle = .handle.as_str())]
     Amount {
-        /// Handle.
+        /// Handle that was to be moved.
         handle: Handle,
         /// Amount asked for, mm.
         amount_mm: f64,
@@ -323,9 +323,9 @@ pub enum HandleError {
     /// A handle that the style does not have.
     #[error("style `{style}`: there is no handle `{handle}`; there is: {accepted}", handle = .handle.as_str())]
     Absent {
-        /// Style.
+        /// Name of the style.
         style: String,
-        /// Handle.
+        /// Handle that was asked for.
         handle: Handle,
         /// Handles that it has.
         accepted: String,
@@ -335,7 +335,7 @@ pub enum HandleError {
         "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
     )]
     Length {
-        /// Handle.
+        /// Handle that was moved.
         handle: Handle,
         /// Amount asked for, mm.
         amount_mm: f64,
@@ -352,15 +352,15 @@ pub enum HandleError {
          amount that leaves it free of crossings", handle = .handle.as_str()
     )]
     Crossing {
-        /// Handle.
+        /// Handle that was moved.
         handle: Handle,
         /// Amount asked for, mm.
         amount_mm: f64,
-        /// Piece.
+        /// Identifier of the piece whose outline crosses itself.
         piece: String,
-        /// Where, mm.
+        /// First coordinate of the crossing in the piece's plane, mm.
         u_mm: f64,
-        /// Where, mm.
+        /// Second coordinate of the crossing in the piece's plane, mm.
         v_mm: f64,
     },
     /// A piece that is drawn once and worn twice, and would have to change in two ways.
@@ -368,7 +368,7 @@ pub enum HandleError {
         "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
     )]
     Drawn {
-        /// Block.
+        /// Name of the block in the pattern file.
         block: String,
         /// How far apart both changes are, mm.
         apart_mm: f64,

@@ -8,9 +8,9 @@ use geom::V2;
 /// Displacement of a place of an outline, per metre of the handle's amount.
 #[derive(Clone, Copy, Debug)]
 pub struct Move {
-    /// Where.
+    /// Place that moves.
     pub at: EdgePoint,
-    /// Displacement.
+    /// Displacement in the piece's plane, m per metre of amount.
     pub by: V2,
 }
 
@@ -24,14 +24,14 @@ impl Move {
 /// Part of an edge between two arc lengths of the edge as it was.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// Edge.
+    /// Edge of the outline.
     pub edge: EdgeRef,
     /// From and to, m; beyond the ends means the whole edge.
     pub arcs_m: [f64; 2],
 }
 
 impl Span {
-    /// A whole edge.
+    /// The whole of an edge, however long.
     pub fn whole(edge: EdgeRef) -> Self {
         Self { edge, arcs_m: [0.0, f64::INFINITY] }
     }
@@ -40,7 +40,7 @@ impl Span {
 /// A sum of lengths, each with its sign, that changes as is said.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// Lengths.
+    /// Parts of edges, each with the factor that its length counts with.
     pub spans: Vec<(Span, f64)>,
     /// Change of the sum per metre of the handle's amount.
     pub change: f64,
@@ -61,7 +61,7 @@ impl Condition {
 /// What a handle does to a style.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// What it moves.
+    /// Places that move with the amount.
     pub moves: Vec<Move>,
     /// Groups of places that may move besides, each by one amount of its own: as little as the conditions ask.
     pub gives: Vec<Vec<Move>>,
@@ -70,7 +70,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Moves a place.
+    /// Moves a place with the amount, by `by` per metre.
     pub fn drive(&mut self, at: EdgePoint, by: V2) {
         self.moves.push(Move::new(at, by));
     }

@@ -25,11 +25,11 @@ const GRAIN_SHARE: f64 = 0.5;
     row.map(|row| format!(", row {row}")).unwrap_or_default(),
     column.as_ref().map(|column| format!(", column `{column}`")).unwrap_or_default())]
 pub struct InfoError {
-    /// File.
+    /// Name of the file, for the message.
     pub file: String,
     /// Row, from 1 for the row of column names.
     pub row: Option<usize>,
-    /// Column.
+    /// Heading of the column, where one can be named.
     pub column: Option<String>,
     /// What was found.
     pub found: String,

@@ -42,7 +42,7 @@ pub enum MeshError {
     TooFine {
         /// Edge length asked for, mm.
         edge_length_mm: f64,
-        /// Triangles, thousands.
+        /// Number of triangles that it would have, in thousands.
         thousands: u64,
         /// Area of all pieces, m2.
         area_m2: f64,
@@ -54,7 +54,7 @@ pub enum MeshError {
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
     Piece {
-        /// Piece.
+        /// Identifier of the piece.
         piece: String,
         /// Edge length asked for, mm.
         edge_length_mm: f64,
@@ -68,11 +68,11 @@ pub enum MeshError {
     LineLeavesPiece {
         /// Measurement or fit level.
         place: String,
-        /// Piece.
+        /// Identifier of the piece.
         piece: String,
-        /// First end.
+        /// First end of the line in the piece's plane, as text, mm.
         from: String,
-        /// Second end.
+        /// Second end of the line in the piece's plane, as text, mm.
         to: String,
     },
 }
@@ -249,8 +249,8 @@ impl Style {
     }
 }
 
-/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is the first of the
-/// next.
+/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is
+/// the first of the next.
 fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
     let mut start = 0;

@@ -23,9 +23,9 @@ const AREA_TOLERANCE: f64 = 1e-9;
 /// Points (outline first, in its order) and counter-clockwise triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangulation {
-    /// Points.
+    /// Points, m: the outline first, in its order.
     pub points: Vec<V2>,
-    /// Triangles.
+    /// Points of each triangle, by their index.
     pub triangles: Vec<[usize; 3]>,
 }
 

@@ -23,7 +23,7 @@ pub enum Part {
     Sleeve(Hand),
     /// Leg: its side, and its face unless it is in one piece.
     Leg(Hand, Option<Face>),
-    /// Skirt.
+    /// Front or back of a skirt.
     Skirt(Face),
     /// Anything else, waistbands too.
     Other,
@@ -71,7 +71,7 @@ impl<'a> Anatomy<'a> {
         anatomy
     }
 
-    /// The style.
+    /// The style whose parts these are.
     pub fn style(&self) -> &'a Style {
         self.ways.style
     }

@@ -192,7 +192,7 @@ impl Point {
 /// A point of measure of a garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOfMeasure {
-    /// Which.
+    /// Which point of measure it is.
     pub point: Point,
     /// Its length, m: of a path `share` of that of the path, and of a length from the high point of the shoulder what lies above the
     /// path besides.

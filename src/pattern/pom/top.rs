@@ -27,7 +27,7 @@ fn is_face(face: Face) -> impl Fn(Part) -> bool {
 /// The trunk of a garment: its pieces alone, sewn to each other.
 pub struct Trunk<'a> {
     anatomy: &'a Anatomy<'a>,
-    /// Its openings.
+    /// Loops of its free edges: neck, armholes, lower end.
     pub openings: Vec<Vec<EdgeRef>>,
     /// Both sides of each side seam that ends at an armhole, or at the top edge: front and back, from there down.
     pub sides: Vec<[Chain; 2]>,

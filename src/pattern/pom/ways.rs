@@ -47,7 +47,7 @@ struct Sewn {
 
 /// The seams of a style as ways cross them.
 pub struct Ways<'a> {
-    /// The style.
+    /// The style whose pieces are crossed.
     pub style: &'a Style,
     sewn: BTreeMap<EdgeRef, Sewn>,
     /// Unit vector away from the neck in each piece; `None` of a piece that hangs as the seam it is sewn to.

@@ -15,13 +15,13 @@ pub struct Stand {
     pub side_neck_m: f64,
     /// Under the bust.
     pub underbust_m: f64,
-    /// Waist.
+    /// Waist level (ISO 8559-1).
     pub waist_m: f64,
-    /// Hip.
+    /// Hip, where the buttocks protrude most.
     pub hip_m: f64,
-    /// Crotch.
+    /// Crotch, at the upper end of the inside leg.
     pub crotch_m: f64,
-    /// Knee.
+    /// Middle of the knee.
     pub knee_m: f64,
     /// Forearm, along the arm.
     pub forearm_along_m: f64,

@@ -23,7 +23,7 @@ pub const TURNED: f64 = 0.12;
 pub struct Labelled {
     /// What it is.
     pub label: Label,
-    /// First corner.
+    /// Index of the corner at which it begins.
     pub from: usize,
     /// Number of edges.
     pub span: usize,
@@ -34,13 +34,13 @@ pub struct Labelled {
 /// A template laid round a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
-    /// Template.
+    /// Template that fits best.
     pub template: Template,
     /// Whether the template was mirrored: the wearer's outer side is to the left of the drawing.
     pub is_mirrored: bool,
     /// Quarter turns, counter-clockwise, that set the piece upright.
     pub quarter_turns: usize,
-    /// Stretches, counter-clockwise.
+    /// Stretches of the outline, one for each part of the template, counter-clockwise.
     pub parts: Vec<Labelled>,
     /// Goodness of fit, at most 1.
     pub score: f64,
@@ -191,7 +191,7 @@ type Values = Vec<Vec<Option<f64>>>;
 
 /// Dynamic programme over the edges passed since a corner.
 struct Reached {
-    /// The corner.
+    /// Index of the corner at which the first part begins.
     start: usize,
     /// Number of edges.
     edges: usize,

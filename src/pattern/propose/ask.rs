@@ -8,7 +8,7 @@ use std::fmt;
 pub struct Question {
     /// Number by which it is answered.
     pub number: usize,
-    /// The question.
+    /// The question in words.
     pub text: String,
     /// What may be answered, the likeliest first; empty where only an edit of the seam file helps.
     pub choices: Vec<String>,
@@ -119,7 +119,7 @@ impl<'a> Asker<'a> {
         self.answers.contains_key(text)
     }
 
-    /// What was asked.
+    /// All questions that were asked, in order.
     pub fn into_questions(self) -> Vec<Question> {
         self.asked
     }

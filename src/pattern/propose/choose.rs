@@ -87,8 +87,8 @@ fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<R
     left
 }
 
-/// Takes out an upper and an under sleeve: where their seams meet the armhole no outline says, and one of them alone is no
-/// sleeve.
+/// Takes out an upper and an under sleeve: where their seams meet the armhole no outline says, and one of them alone
+/// is no sleeve.
 fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_whole_sleeve = |one: &&Recognised| one.class == Class::Sleeve && one.face.is_none();
     let names: Vec<&str> =

@@ -18,9 +18,9 @@ const ALIKE: f64 = 0.05;
 /// How often a piece is cut: as drawn, and as its mirror image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cut {
-    /// As drawn.
+    /// Copies cut as drawn.
     pub plain: u32,
-    /// Mirrored.
+    /// Copies cut as its mirror image.
     pub mirrored: u32,
 }
 
@@ -35,7 +35,7 @@ impl Cut {
         }
     }
 
-    /// In all.
+    /// Copies of both kinds together.
     pub fn times(self) -> u32 {
         self.plain.saturating_add(self.mirrored)
     }
@@ -48,7 +48,7 @@ impl Cut {
     }
 }
 
-/// How each piece is cut as a gore; `None` of what is none.
+/// How each piece is cut as a gore; `None` for a piece that is no gore.
 pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
     let is_plain = |piece: &Piece| {
         let named = names::read(piece.words());

@@ -14,7 +14,7 @@ const MOVED_SHARE: f64 = 0.2;
 const GAIN: f64 = 0.05;
 /// Most corners that an end of an edge is moved by.
 const MOST_CORNERS: usize = 3;
-/// Most changes.
+/// Changes after which the search ends at the latest.
 const MOST_CHANGES: usize = 16;
 
 /// Moves ends of edges to other corners while the seams of the whole garment agree better for it.

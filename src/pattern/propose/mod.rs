@@ -67,9 +67,9 @@ pub enum Class {
     Skirt,
     /// Yoke: the part of a front or back over the shoulder, or of a leg or skirt below the waist, that is cut by itself.
     Yoke,
-    /// Waistband.
+    /// Band round the waist of a skirt or trousers.
     Waistband,
-    /// Cuff.
+    /// Band at the end of a sleeve.
     Cuff,
     /// Anything else: it takes part in no proposal.
     Other,
@@ -95,9 +95,9 @@ impl Class {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Face {
-    /// Front.
+    /// Front of the wearer.
     Front,
-    /// Back.
+    /// Back of the wearer.
     Back,
 }
 
@@ -166,15 +166,15 @@ impl fmt::Display for Face {
 pub enum Label {
     /// Free lower edge, or the lower edge of a bodice.
     Hem,
-    /// Side seam.
+    /// Side seam of the trunk or a skirt.
     Side,
     /// Princess seam: between a side panel and the panel in the middle.
     Princess,
     /// Armhole; of a raglan, the whole edge up to the neck.
     Armhole,
-    /// Shoulder.
+    /// Seam over the shoulder.
     Shoulder,
-    /// Neckline.
+    /// Neckline, from shoulder to shoulder or to the centre.
     Neck,
     /// Centre front or back.
     Centre,
@@ -184,7 +184,7 @@ pub enum Label {
     Outseam,
     /// Inner side of a leg.
     Inseam,
-    /// Seat seam.
+    /// Seat seam, from the waist to the fork.
     Crotch,
     /// Edge of a sleeve that meets the armhole; of a raglan sleeve, either side of its neck.
     Cap,

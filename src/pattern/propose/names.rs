@@ -21,7 +21,7 @@ const UNDER: [&str; 8] = ["under", "lower", "unter", "dessous", "inferior", "ond
 const DETAILS: [&str; 13] =
     ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
 
-/// Reads a name.
+/// Tells kind, face and hand of a piece from the words of its name.
 #[must_use]
 pub fn read(name: &str) -> Named {
     let lower = name.to_lowercase();

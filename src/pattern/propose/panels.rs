@@ -29,8 +29,9 @@ impl Panel {
 /// Greatest difference of the two sides of a princess seam, share of the longer: the bust is eased in at most.
 const UNLIKE: f64 = 0.08;
 
-/// What part each piece is; `None` of what is none: where a face has one piece, or two that fit a whole front or back, or half
-/// of one, better.
+/// What part each piece is, and `None` for a piece that is no part.
+///
+/// Nothing is a part where a face has one piece, or where two pieces fit a whole front or back, or half of one, better.
 pub fn panels(pieces: &[Piece]) -> Vec<Option<Panel>> {
     let mut found = vec![None; pieces.len()];
     for face in Face::BOTH {

@@ -47,23 +47,23 @@ const CLEAR_MARGIN: f64 = 0.15;
 pub struct Recognised {
     /// Index of the piece.
     pub piece: usize,
-    /// Kind.
+    /// Kind of piece that it was taken for.
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
     /// Side of the wearer that the name says.
     pub hand: Option<Hand>,
-    /// Outline.
+    /// Its outline as edges between corners.
     pub shape: Shape,
     /// Template laid round it.
     pub alignment: Alignment,
-    /// 0 to 1.
+    /// How sure that is, 0 to 1.
     pub confidence: f64,
     /// The next best reading of an outline whose name says no kind.
     rival: Option<Alignment>,
     /// Whether it is cut twice, for both sides of the wearer, though nothing in its outline says so: half a waistband.
     pub is_pair: bool,
-    /// How it is cut as a gore of a skirt; `None` of what is none.
+    /// How it is cut as a gore of a skirt; `None` where it is no gore.
     pub gore: Option<Cut>,
 }
 

@@ -17,7 +17,7 @@ const LEAST_LEG_M: f64 = 20e-3;
 const CLEAR_TURN_DEG: f64 = 20.0;
 /// Share of its turn that a neighbour has along a curve.
 const SAME_CURVE: f64 = 0.5;
-/// Growth of a mouth that is none, m.
+/// Growth of a mouth below which it does not count as growth, m.
 const LEAST_STEP_M: f64 = 1e-3;
 /// Greatest distance of corners from the images of others in an outline that is its own mirror image, share of its size.
 const MIRRORED: f64 = 0.003;
@@ -27,11 +27,11 @@ const MOST_CORNERS: usize = 100;
 /// The outline that is sewn, cut at its corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Outline, counter-clockwise.
+    /// Vertices of the outline, counter-clockwise, m.
     outline: Vec<V2>,
     /// Corners, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
     corners: Vec<usize>,
-    /// Darts.
+    /// Darts cut into the outline.
     darts: Vec<Dart>,
 }
 

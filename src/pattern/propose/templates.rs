@@ -22,11 +22,11 @@ pub struct Part {
 /// A kind of piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Template {
-    /// Kind.
+    /// Kind of piece that it stands for.
     pub class: Class,
     /// Whether the whole width is drawn; else it is one half, with the wearer's outer side to the right.
     pub is_whole: bool,
-    /// Parts, counter-clockwise.
+    /// Parts of the outline, counter-clockwise.
     pub parts: &'static [Part],
 }
 
@@ -37,7 +37,7 @@ impl Template {
         self.parts.iter().any(|part| part.label == label)
     }
 
-    /// Whether it is worn under or over shoulders: a yoke of which not, is one below the waist.
+    /// Whether its outline has a shoulder; a yoke without one lies below the waist.
     #[must_use]
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)

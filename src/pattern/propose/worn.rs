@@ -25,7 +25,7 @@ pub struct WornEdge {
     /// Side of the wearer on which it is, where the piece has it on both; front or back half of a sleeve likewise by
     /// [`Hand::Right`] for the front of a right sleeve.
     pub hand: Option<Hand>,
-    /// Length, m.
+    /// Length of the sew line, m.
     pub length: f64,
     /// Arc lengths of its notches, m, as worn.
     pub notches: Vec<f64>,
@@ -38,7 +38,7 @@ pub struct Worn {
     pub piece: usize,
     /// Identifier in the seam file.
     pub id: String,
-    /// Kind.
+    /// Kind of piece.
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
@@ -54,16 +54,16 @@ pub struct Worn {
     pub darts: Vec<[String; 2]>,
     /// Entry of the seam file.
     pub entry: PieceEntry,
-    /// 0 to 1.
+    /// How sure the proposal is of it, 0 to 1.
     pub confidence: f64,
 }
 
 /// An edge of a piece, as one side of a seam runs along it; its text is that of seam files.
 #[derive(Clone, Copy, Debug)]
 pub struct Along<'w> {
-    /// The piece.
+    /// Piece that the seam joins.
     pub piece: &'w Worn,
-    /// Its edge.
+    /// Edge of that piece.
     pub edge: &'w WornEdge,
 }
 

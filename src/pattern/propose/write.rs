@@ -12,7 +12,7 @@ use geom::units::mm;
 const EASED_RATIO: f64 = 1.01;
 
 impl Proposal {
-    /// The seam file.
+    /// The proposal as the seam file of a style of this name.
     #[must_use]
     pub fn seam_file(&self, name: &str) -> SeamFile {
         SeamFile {

@@ -10,7 +10,7 @@ use geom::V2;
 
 /// Distance that a corner is worth, over the size of the piece: a vertex that does not turn is taken where no corner is nearer by this.
 const CORNER_WORTH: f64 = 0.03;
-/// Distance at which a corner is none of those of the seam file, over the size of the piece.
+/// Distance from which on a corner stands for none of the seam file's, over the size of the piece.
 const TOO_FAR: f64 = 0.15;
 /// Rounds of scaling and matching; the first scales by the extents of the outline.
 const ROUNDS: usize = 3;

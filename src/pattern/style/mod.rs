@@ -27,7 +27,7 @@ pub struct EdgeRef {
 /// A point of an edge, by arc length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgePoint {
-    /// Edge.
+    /// Edge that it lies on.
     pub edge: EdgeRef,
     /// Arc length from the edge's start, m.
     pub arc_m: f64,
@@ -45,11 +45,11 @@ pub enum PathPart {
 /// A seam: `a` walked forwards meets `b` walked as `b_forwards` says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
-    /// Name.
+    /// Name in the seam file, for messages.
     pub name: String,
-    /// One side.
+    /// Edges of one side, in order along the seam.
     pub a: Vec<EdgeRef>,
-    /// The other side.
+    /// Edges of the other side, in order along the seam.
     pub b: Vec<EdgeRef>,
     /// Whether `b` runs counter-clockwise too.
     pub b_forwards: bool,
@@ -58,9 +58,9 @@ pub struct Seam {
 /// A measurement on the pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StyleMeasurement {
-    /// Number.
+    /// Number by which tables and drawings name it (`#1`).
     pub no: u32,
-    /// Name.
+    /// Name for people to read, such as `Neck Opening`.
     pub name: String,
     /// Loop or length.
     pub kind: MeasurementKind,
@@ -75,7 +75,7 @@ pub struct StyleMeasurement {
 /// An edge with a stiffness of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StyleReinforcement {
-    /// Edge.
+    /// Edge that is strengthened.
     pub edge: EdgeRef,
     /// What strengthens it.
     pub band: Band,
@@ -88,17 +88,17 @@ pub struct StyleReinforcement {
 /// The pieces of one size with their seams and measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
-    /// Style name.
+    /// Name of the style, from its seam file.
     pub name: String,
     /// Size name, empty where the file names none.
     pub size: String,
     /// Pieces, in the alphabetical order of their ids.
     pub pieces: Vec<StylePiece>,
-    /// Seams.
+    /// Seams between edges of the pieces.
     pub seams: Vec<Seam>,
-    /// Measurements.
+    /// Measurements of the seam file, or those found on openings and seams.
     pub measurements: Vec<StyleMeasurement>,
-    /// Strengthened edges.
+    /// Edges that a band strengthens.
     pub reinforcements: Vec<StyleReinforcement>,
     /// Body level and pattern path.
     pub fit_levels: Vec<(String, Vec<PathPart>)>,

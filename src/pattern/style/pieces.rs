@@ -19,7 +19,7 @@ pub struct Edge {
 /// A piece as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StylePiece {
-    /// Identifier.
+    /// Identifier in the seam file, such as `front`.
     pub id: String,
     /// How it is worn.
     pub role: Role,
@@ -27,7 +27,7 @@ pub struct StylePiece {
     pub edges: Vec<Edge>,
     /// Unit vector of the grain.
     pub grain: V2,
-    /// Notches.
+    /// Notches on the outline as worn.
     pub notches: Vec<Notch>,
     /// Corners as worn, by their number in the seam file.
     pub corners: Vec<V2>,
@@ -55,7 +55,7 @@ impl StylePiece {
         self.grain = turned(self.grain);
     }
 
-    /// Moves it, m.
+    /// Moves the piece in its plane, m.
     pub fn shift(&mut self, by: V2) {
         self.place(|p| p + by);
     }

@@ -54,7 +54,7 @@ impl Buffer {
     }
 }
 
-/// The file.
+/// The parts as one file, ready to be written to disk.
 pub(super) fn write(parts: &[Part<'_>]) -> Vec<u8> {
     let mut buffer = Buffer::default();
     let meshes: Vec<Value> = parts.iter().map(|part| mesh(part, &mut buffer)).collect();

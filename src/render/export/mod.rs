@@ -15,7 +15,7 @@ use super::Rgb;
 pub struct Part<'a> {
     /// Name of the object (`body`, `garment`).
     pub name: &'a str,
-    /// Its surface.
+    /// Surface of the part, lengths in metres.
     pub mesh: &'a TriMesh,
     /// Colour of each vertex.
     pub colours: Vec<Rgb>,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Part, Rgb};
 
-/// Wavefront OBJ.
+/// Wavefront OBJ: positions and colours of the vertices, texture coordinates where a part has places.
 pub(super) fn obj(parts: &[Part<'_>]) -> String {
     let mut file = "# metres; x to the subject's right, y to the front, z up\n".to_owned();
     let (mut vertices, mut places) = (1, 1);

@@ -95,7 +95,7 @@ impl Canvas<'_> {
         self.area.draw(&Rectangle::new([from, to], colour(fill).filled())).map_err(refused)
     }
 
-    /// Filled polygon.
+    /// Polygon filled with one colour, without an outline.
     pub fn area(&self, corners: Vec<(i32, i32)>, fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Polygon::new(corners, colour(fill).filled())).map_err(refused)
     }

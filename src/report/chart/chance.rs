@@ -14,7 +14,7 @@ const SHARES: i32 = 150;
 /// A level of a size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probable {
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Level, in words.
     pub level: String,

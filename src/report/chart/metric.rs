@@ -15,11 +15,11 @@ const GAP: i32 = ROW - BAR;
 /// A summary of a run's measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
-    /// Mean chi.
+    /// E: mean chi.
     E,
-    /// Sample standard deviation of chi.
+    /// SD: sample standard deviation of chi.
     Sd,
-    /// Mean |chi - 1|.
+    /// EI: mean |chi - 1|.
     Ei,
 }
 

@@ -97,9 +97,9 @@ pub struct Drape<'a> {
     pub names: [&'a str; 4],
     /// Whether it is of the size to wear.
     pub is_to_wear: bool,
-    /// Vertices, m.
+    /// Places of the sewn vertices, m.
     pub positions: &'a [V3],
-    /// Triangles.
+    /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: &'a [[usize; 3]],
     /// Values of the vertices by the name of their map, with its scale.
     pub maps: Vec<(&'static str, Scale, Vec<f64>)>,

@@ -17,7 +17,7 @@ pub const STEP_MM: f64 = 0.25;
 /// Triangles in an order in which each lies beside an earlier one, their vertices numbered by first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
-    /// The triangles.
+    /// Triangles in that order, by the new numbers of their vertices.
     triangles: Vec<[usize; 3]>,
     /// The vertices' numbers in the mesh that they are of.
     pub vertices: Vec<usize>,

@@ -65,14 +65,14 @@ impl Bands {
         Self { links: self.links.iter().filter_map(renamed).collect() }
     }
 
-    /// Energy, J.
+    /// Elastic energy of the bands at `x`, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         let of = |link: &Link| 0.5 * link.pull(x).0.powi(2) / link.stiffness_n.max(f64::MIN_POSITIVE) * link.length_m;
         self.links.iter().map(of).sum()
     }
 
-    /// Adds the forces, N.
+    /// Adds the forces of the bands at `x`, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for link in &self.links {
             let (tension, direction) = link.pull(x);

@@ -152,8 +152,8 @@ impl Plate {
     }
 }
 
-/// Stiffness of hinges that know nothing of each other, as stiff as the plate is against being rolled up: N/m, the same in x, y and
-/// z.
+/// Stiffness of hinges that know nothing of each other, as stiff as the plate is against being rolled up: N/m, the same
+/// in x, y and z.
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// Off-diagonal entries for the sides of the triangles, in the order of the membrane's pairs.

@@ -287,7 +287,7 @@ fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
 pub struct Assembly<'a> {
     /// Laws of the fours, by their numbers.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// The triangles.
+    /// Triangles of the membrane, four to a register.
     pub fours: &'a [Four],
     /// Places of the vertices, m.
     pub x: &'a [V3],
@@ -357,13 +357,13 @@ impl Kernel for Assembly<'_> {
 
 /// A share of the forces (N) that the compressive part of stresses has in first order along a displacement.
 pub struct Compression<'a> {
-    /// The triangles.
+    /// Triangles of the membrane, four to a register.
     pub fours: &'a [Four],
     /// Their stresses, N/m.
     pub stresses: &'a [Tensor],
     /// The displacement, m.
     pub d: &'a [V3],
-    /// The share.
+    /// Share of the compressive forces that is added, 0 to 1.
     pub share: f64,
     /// To add the forces to.
     pub forces: &'a mut [V3],
@@ -388,7 +388,7 @@ impl Kernel for Compression<'_> {
 pub struct Correction<'a> {
     /// Laws of the fours, by their numbers.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// The triangles.
+    /// Triangles of the membrane, four to a register.
     pub fours: &'a [Four],
     /// Places of the vertices before, m.
     pub x: &'a [V3],

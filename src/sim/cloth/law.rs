@@ -80,11 +80,11 @@ geom::constants! {
 
 /// The law of one direction of the grain: stress against Green strain, N/m.
 ///
-/// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from its
-/// value at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien,
-/// Ramamoorthi 2011]. Beyond that the stress goes on along its tangent. Compression keeps the modulus at rest. The
-/// stress is the derivative of an energy, once continuously differentiable, and its slope never falls below that at
-/// rest.
+/// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from
+/// its value at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang,
+/// O'Brien, Ramamoorthi 2011]. Beyond that the stress goes on along its tangent. Compression keeps the modulus at
+/// rest. The stress is the derivative of an energy, once continuously differentiable, and its slope never falls
+/// below that at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre<N = f64> {
     /// Modulus at rest, N/m.

@@ -23,7 +23,7 @@ use linalg::PairList;
 use linalg::quad::Block;
 use linalg::simd;
 
-/// One triangle.
+/// A constant-strain triangle of the membrane.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
     /// Simulated vertices, counter-clockwise.
@@ -92,7 +92,7 @@ impl Element {
 /// Stress of an element, and what a displacement adds to it in first order, N/m.
 #[derive(Clone, Copy, Debug)]
 pub struct Foreseen {
-    /// Stress before.
+    /// Stress before the displacement.
     pub stress: Tensor,
     /// What the displacement adds.
     pub change: Tensor,
@@ -111,13 +111,13 @@ impl Foreseen {
 pub struct Membrane {
     /// Laws, by their numbers.
     laws: Vec<Orthotropic>,
-    /// Triangles.
+    /// Triangles of the garment, in its order.
     pub elements: Vec<Element>,
-    /// The same as they are met.
+    /// The triangles four by four, as kernels take them.
     fours: Vec<Four>,
     /// The laws of four triangles, each once.
     mixtures: Vec<[u32; 4]>,
-    /// The same as they are met.
+    /// The laws of `mixtures`, a lane a triangle.
     packed: Vec<Orthotropic<[f64; 4]>>,
     /// Pairs of vertices that share a triangle.
     pub pairs: PairList,
@@ -130,7 +130,7 @@ pub struct Membrane {
 /// Stiffness that arcs have, with what is assembled for it.
 #[derive(Clone, Debug, Default)]
 pub struct Bowed {
-    /// The arcs.
+    /// Stiffness of the sides as arcs.
     pub bent: Bent,
     /// Tensions of the sides, N/m, without compression.
     pub tensions: Vec<f64>,

@@ -55,11 +55,11 @@ pub struct Cloth {
     pub areas: Vec<f64>,
     /// Coulomb coefficients of the vertices.
     pub frictions: Vec<Friction>,
-    /// Membrane.
+    /// Stretch and shear of the triangles.
     pub membrane: Membrane,
-    /// Bending.
+    /// Bending across the edges that two triangles share.
     pub bending: Bending,
-    /// Strengthened edges.
+    /// Strengthened edges, as threads along them.
     pub bands: Bands,
 }
 

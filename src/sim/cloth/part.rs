@@ -111,8 +111,8 @@ impl Tangent {
     }
 }
 
-/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of the vertices
-/// does.
+/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of
+/// the vertices does.
 fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
     let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
     let (pairs, entries): (Vec<[usize; 2]>, _) = pairs.pairs().iter().zip(entries).filter_map(renamed).unzip();

@@ -3,11 +3,11 @@
 /// What a contact does at some distance, over its penalty stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// Energy, m2.
+    /// Energy over the stiffness, m2.
     pub energy: f64,
-    /// Force, m.
+    /// Force over the stiffness, m; it pushes apart.
     pub force: f64,
-    /// Slope of the force.
+    /// Slope of the force with the depth of the contact, over the stiffness.
     pub stiffness: f64,
 }
 

@@ -49,7 +49,7 @@ struct Sample {
 /// When a sample was last looked up in the field.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
-    /// Where it was.
+    /// Place of the sample then, m.
     place: V3,
     /// How far it may go from there before it can touch, m.
     slack_m: f64,

@@ -25,7 +25,7 @@ pub fn rounded(p: &V3) -> f32x4 {
 }
 
 impl Bounds {
-    /// Of no points.
+    /// The box about no points: it meets no other.
     pub const NOTHING: Self = Self {
         low: f32x4::new([f32::MAX, f32::MAX, f32::MAX, 0.0]),
         high: f32x4::new([f32::MIN, f32::MIN, f32::MIN, 0.0]),
@@ -58,7 +58,7 @@ impl Bounds {
         Self { low: low - (low.abs() + reach) * rounding, high: high + (high.abs() + reach) * rounding }
     }
 
-    /// About both.
+    /// The box about both boxes.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { low: self.low.fast_min(other.low), high: self.high.fast_max(other.high) }

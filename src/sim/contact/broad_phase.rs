@@ -26,7 +26,7 @@ pub struct BroadPhase<'a> {
     extents: Vec<Bounds>,
     /// Clusters that were near each other when the cloth was last looked at, but for flat ones, in rising order.
     near: Vec<Near>,
-    /// How near, m.
+    /// Distance within which clusters are near, m.
     horizon_m: f64,
     /// The pairs that are known, by clusters that are near.
     pairs: Vec<Pair>,
@@ -56,7 +56,7 @@ struct Near {
     apart_m: f64,
     /// Distance within which pairs of their parts are known, m.
     known_m: f64,
-    /// Where those stand.
+    /// Range of those pairs in the list of all.
     pairs: Range<usize>,
 }
 
@@ -68,7 +68,7 @@ impl Near {
 }
 
 impl<'a> BroadPhase<'a> {
-    /// Of `vertices` vertices.
+    /// Prepares the search in a cloth of `vertices` vertices.
     #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
         let edges = edges_of(triangles);
@@ -119,7 +119,7 @@ impl<'a> BroadPhase<'a> {
         self.clusters.motion(displacements)
     }
 
-    /// No motion.
+    /// The motion of a cloth that stays where it is.
     #[must_use]
     pub fn rest(&self) -> Motion {
         self.clusters.rest()

@@ -50,14 +50,14 @@ geom::constants! {
     /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
     /// in which they face each other.
     const MOLLIFIED_BELOW: f64 = 0.01;
-    /// Steps like the last that pairs are known for at least, and at best.
+    /// For how many steps as long as the last pairs are known: at least, and at best.
     const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
     /// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
     const SLACK_M: [f64; 2] = [1e-3, 4e-3];
-    /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
-    /// as within twice as far.
+    /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs, and
+    /// a quarter as many as within twice that distance.
     const REACH_SIZES: f64 = 0.7;
-    /// Least greatest search distance, m: two vertices go half as far towards each other in a step at most.
+    /// Least value of that limit, m: in a step two vertices approach each other by at most half of it.
     const LEAST_REACH_M: f64 = 8e-3;
     /// Share of the way to what is unknown that a step may take: corrections come on top.
     const FREE_SHARE: f64 = 0.9;

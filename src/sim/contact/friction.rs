@@ -13,7 +13,7 @@ geom::constants! {
 pub struct Friction {
     /// Energy of the spring and of what slides beyond it, J.
     pub energy_j: f64,
-    /// Force, N.
+    /// Force across the normal, against the slip, N.
     pub force: V3,
     /// Stiffness across the normal, N/m.
     pub stiffness_n_m: f64,

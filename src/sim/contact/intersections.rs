@@ -87,7 +87,7 @@ pub struct Wings {
 }
 
 impl Wings {
-    /// Collects them.
+    /// Collects the opposite corners of every edge of some triangles.
     #[must_use]
     pub fn new(triangles: &[[usize; 3]]) -> Self {
         let of = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];

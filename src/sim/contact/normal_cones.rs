@@ -35,7 +35,7 @@ pub struct Clusters {
 /// What belongs to a cluster.
 #[derive(Clone, Debug, Default)]
 pub struct Members {
-    /// Vertices.
+    /// Vertices that belong to no other cluster.
     pub vertices: Vec<usize>,
     /// Triangles, by their first vertex.
     pub triangles: Vec<usize>,

@@ -9,7 +9,7 @@ use linalg::Contact4;
 pub struct Point {
     /// Vertices; one alone three times, of two the second twice.
     pub vertices: [usize; 3],
-    /// Their weights.
+    /// Weight of each vertex; they sum to one.
     pub weights: [f64; 3],
 }
 

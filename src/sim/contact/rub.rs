@@ -21,7 +21,7 @@ geom::constants! {
 
 /// Two primitives that push each other.
 pub struct Pressed {
-    /// Which they are.
+    /// A vertex and a triangle, or two edges.
     pub primitives: Primitives,
     /// Weights of their vertices; they sum to zero.
     pub weights: [f64; 4],

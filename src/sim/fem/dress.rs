@@ -42,7 +42,7 @@ geom::constants! {
 
 /// A garment, placed, and the body that is to wear it.
 pub struct Dressing<'a> {
-    /// The body.
+    /// Body that wears it.
     pub body: &'a Body,
     /// Its exact surface, where it bounds a solid.
     pub skin: Option<&'a Skin<'a>>,

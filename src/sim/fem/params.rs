@@ -87,11 +87,11 @@ pub struct Params {
     pub distortion_limit: f64,
     /// Whether more than that ends the simulation, as soon as a mesh has settled.
     pub distortion_stops: bool,
-    /// Body contact.
+    /// How the cloth meets the body.
     pub contact: ContactParams,
     /// Contact of the cloth with itself.
     pub self_contact: ClothContactParams,
-    /// Stepping.
+    /// Step sizes, tolerances and limits of the solver.
     pub step: StepParams,
 }
 

@@ -106,7 +106,7 @@ impl<'a> Simulation<'a> {
         self.worn_at_m = Some(top_m(garment, sewn));
     }
 
-    /// The finest level.
+    /// Number of the finest level; the coarsest is 0.
     pub fn levels(&self) -> usize {
         self.levels
     }

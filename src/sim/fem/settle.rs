@@ -90,7 +90,7 @@ pub struct Settled {
 pub struct Settling<'a> {
     /// What it lies on.
     pub around: Around<'a>,
-    /// Its mesh.
+    /// Mesh of this level, its pieces apart.
     pub garment: &'a Garment,
     /// The same, sewn.
     pub cloth: &'a Cloth,

@@ -171,7 +171,7 @@ fn slippery(more: &str) -> (Garment, Fabric) {
     (style.expect("drafted").mesh(0.04).expect("it meshes"), Fabric { friction_body: 0.05, ..knit })
 }
 
-/// Their drape.
+/// Drapes slippery trousers on a man of 1.75 m; `more` adds to their seam file.
 fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
     let measurements = Measurements::of(Sex::Male, 1.75)
         .with(Dimension::ChestGirth, 0.94)

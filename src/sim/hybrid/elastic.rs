@@ -77,10 +77,10 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to be
-    /// kept, and their weight. `bending` are pairs of sewn vertices with their entry of the bending matrix over the
-    /// membrane's stiffness. `open` are pairs of seams that are still to be closed, `weights` those of the vertices'
-    /// targets.
+    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to
+    /// be kept, and their weight. `bending` are pairs of sewn vertices with their entry of the bending matrix
+    /// over the membrane's stiffness. `open` are pairs of seams that are still to be closed, `weights` those of
+    /// the vertices' targets.
     ///
     /// `None` when a triangle of the pattern has no area or the weights do not hold the garment anywhere.
     #[must_use]

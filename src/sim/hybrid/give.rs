@@ -18,7 +18,7 @@ geom::constants! {
 /// Insets of sewn vertices, m.
 #[derive(Clone, Debug)]
 pub struct Give {
-    /// Of each vertex.
+    /// Inset of each vertex, m.
     pub now_m: Vec<f64>,
     /// Whether the body gives way to it.
     gives: Vec<bool>,

@@ -28,9 +28,9 @@ pub struct Layers {
 /// Edges that pierced cloth, and those that still do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parted {
-    /// Before.
+    /// Edges that pierced a triangle before.
     pub found: usize,
-    /// After.
+    /// Edges that still pierce one after the last round.
     pub left: usize,
 }
 

@@ -273,7 +273,7 @@ fn on_circle(turn: f64) -> V2 {
 
 /// Where vertices came to lie on the form.
 struct Laid {
-    /// Positions, m.
+    /// Places of the vertices on the form, m.
     x: Vec<V3>,
     /// Unit normals of the form there.
     outwards: Vec<V3>,

@@ -8,7 +8,7 @@ use pattern::{Garment, PieceMesh};
 /// What a stretch of outline is sewn to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Partner {
-    /// Nothing.
+    /// No other piece: the edge stays free.
     Free,
     /// A piece, by its index.
     Piece(usize),
@@ -30,13 +30,13 @@ impl Chain {
         garment.rest[self.last()] - garment.rest[self.first()]
     }
 
-    /// First vertex.
+    /// Garment vertex at which it begins.
     #[must_use]
     pub fn first(&self) -> usize {
         self.vertices[0]
     }
 
-    /// Last vertex.
+    /// Garment vertex at which it ends.
     #[must_use]
     pub fn last(&self) -> usize {
         self.vertices[self.vertices.len() - 1]

@@ -102,7 +102,7 @@ impl<'a> PathGraph<'a> {
         self.len() == 0
     }
 
-    /// The mesh.
+    /// The coarse surface on which paths run.
     #[must_use]
     pub fn mesh(&self) -> &TriMesh {
         self.mesh

@@ -42,9 +42,9 @@ pub enum Backend {
 /// A sewn garment.
 #[derive(Clone, Copy)]
 pub struct Cloth<'a> {
-    /// As cut.
+    /// The garment as cut, whose sizes it takes back.
     pub garment: &'a Garment,
-    /// As sewn.
+    /// The same with the seams welded.
     pub sewn: &'a Sewn,
 }
 

@@ -29,7 +29,7 @@ pub struct Pyramids {
 
 /// The plane of a ring with what stands over it.
 struct Base {
-    /// Unit normal.
+    /// Unit normal of the plane.
     normal: V3,
     /// Mean of the ring.
     centre: V3,

@@ -30,8 +30,8 @@ pub struct Ring {
     cuts: Vec<Cut>,
     /// Length in the pattern, m.
     pub rest_m: f64,
-    /// Number of its plane, of no meaning for the line below the underarms: those with the next numbers are the rings above and
-    /// below.
+    /// Number of its plane, of no meaning for the line below the underarms: those with the next numbers are the rings
+    /// above and below.
     level: i32,
 }
 

@@ -39,9 +39,9 @@ pub enum Experiment {
 /// What an experiment found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Experiment.
+    /// Experiment that found it.
     pub experiment: Experiment,
-    /// Specimen.
+    /// Specimen and load, in words.
     pub case: String,
     /// What is compared, with its unit.
     pub quantity: &'static str,
@@ -54,7 +54,7 @@ pub struct Finding {
 }
 
 impl Experiment {
-    /// All experiments.
+    /// All experiments, in the order in which they are listed.
     pub const ALL: [Self; 7] =
         [Self::Strip, Self::Cantilever, Self::Buckling, Self::Bending, Self::Incline, Self::Tube, Self::Drape];
 

@@ -14,7 +14,7 @@ use geom::{V2, V3};
 pub enum Mesh {
     /// Squares, cut along either diagonal by turns.
     Squares,
-    /// Equilateral triangles.
+    /// Equilateral triangles, six about each inner vertex.
     Hexagons,
     /// Equilateral triangles whose corners are moved by up to a tenth of an edge each way.
     Irregular,
@@ -166,13 +166,14 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     Ok(weight * span.powi(3) / critical)
 }
 
-/// What a sheet is bent about, by its radius in edges: that of a cone, which opens by 20 degrees to either side of its axis, is that of its
-/// curvature in the middle of the sheet.
+/// What a sheet is bent about, with its radius of curvature in edges.
+///
+/// A cone opens by 20 degrees to either side of its axis; its radius is the one at the middle of the sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bent {
-    /// A cylinder.
+    /// A cylinder of this radius, in edges.
     Cylinder(f64),
-    /// A cone.
+    /// A cone with this radius of curvature at the middle of the sheet, in edges.
     Cone(f64),
 }
 
@@ -204,9 +205,10 @@ impl std::fmt::Display for Bent {
     }
 }
 
-/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent about something, its ends held there, over that of a plate;
-/// `turned_rad` is the angle between the way it bends and the weft. The membrane is that of a light cotton, the bending the same in all
-/// directions.
+/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent about something, over that of a plate.
+///
+/// The ends of the sheet are held there. `turned_rad` is the angle between the direction in which it bends and the
+/// weft. The membrane is that of a light cotton; the bending is the same in all directions.
 ///
 /// # Errors
 /// When the mesh is degenerate.

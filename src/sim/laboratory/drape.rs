@@ -83,7 +83,7 @@ fn carried(rings: usize) -> (Flat, f64) {
 pub struct OverSphere {
     /// Residual it came to rest with.
     pub residual: f64,
-    /// Steps taken.
+    /// Steps of the solver until then.
     pub steps: usize,
     /// Where it lies, m.
     pub positions: Vec<V3>,

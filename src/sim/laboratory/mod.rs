@@ -25,7 +25,7 @@ use sheets::Flat;
 pub struct Specimen {
     /// The piece as a garment without seams.
     pub garment: Garment,
-    /// Its energies.
+    /// The piece as the solver sees it, with its elastic energies.
     pub cloth: Cloth,
     /// Where its vertices are, m.
     pub positions: Vec<V3>,

@@ -29,7 +29,7 @@ geom::constants! {
 
 /// Sleeve pieces of one arm, placed: where the points of each go.
 pub struct Sleeve {
-    /// The arm.
+    /// The arm that the sleeve goes round.
     pub limb: Limb,
     /// Pieces with the angle of their middle.
     pub parts: Vec<(Sheet, f64)>,

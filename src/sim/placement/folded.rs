@@ -21,7 +21,7 @@ geom::constants! {
 
 /// Pieces of a garment that are folded onto others.
 pub struct Folded {
-    /// Their numbers.
+    /// Indices of those pieces in the garment.
     pub pieces: Vec<usize>,
 }
 

@@ -5,7 +5,7 @@ use geom::V3;
 
 geom::constants! {
     "solver.line_search",
-    /// Armijo's constant.
+    /// Armijo's constant: share of the predicted decrease that a step must reach.
     const SUFFICIENT_DECREASE: f64 = 1e-4;
     const MOST_HALVINGS: usize = 12;
     /// The stiffness leaves compression out and so is too stiff where cloth buckles: a full step is lengthened by this factor

@@ -24,7 +24,7 @@ use geom::V3;
 use linalg::linear;
 use linalg::pcg::PcgParams;
 
-/// How to step.
+/// Step sizes of the solver, and tolerances of its linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepParams {
     /// First step size, s.

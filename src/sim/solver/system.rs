@@ -31,7 +31,7 @@ geom::constants! {
 pub struct Assembled<'a> {
     /// Potential energy, J.
     pub energy: f64,
-    /// Forces, N.
+    /// Force on each vertex, N.
     pub forces: Vec<V3>,
     /// What contacts and walls have of them, N.
     pub contact_forces: Vec<V3>,
@@ -51,7 +51,7 @@ pub struct Excess<'a> {
 
 /// A cloth with everything that acts on it.
 pub struct System<'a> {
-    /// The cloth.
+    /// Masses, areas and elastic energies of the cloth.
     pub cloth: &'a Cloth,
     /// Weight of each vertex, N.
     pub weights: Vec<f64>,

@@ -88,7 +88,7 @@ impl Wish {
 /// A handle that moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MovedHandle {
-    /// Its name.
+    /// Name of the handle.
     pub handle: &'static str,
     /// By how much, mm.
     pub amount_mm: f64,
@@ -99,7 +99,7 @@ pub struct MovedHandle {
 /// A level before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredLevel {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Least and greatest ease that is meant, mm.
     pub target_mm: Option<[f64; 2]>,
@@ -145,17 +145,17 @@ pub struct Standing {
 /// A quantity of the drape before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredReading {
-    /// Its name.
+    /// Name of the quantity, such as `off_neck_side`.
     pub reading: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
     /// Least and greatest that is asked for.
     pub target: [f64; 2],
-    /// Before.
+    /// Value on the pattern as it was.
     pub before: f64,
     /// What the change promises.
     pub promised: f64,
-    /// Of the changed pattern, draped.
+    /// Value on the drape of the changed pattern.
     pub achieved: f64,
 }
 
@@ -208,15 +208,15 @@ impl Redraped {
 /// A change of a pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Alteration {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
     /// Size that is changed.
     pub size: String,
     /// The handles that move.
     pub moves: Vec<MovedHandle>,
-    /// Its levels.
+    /// Ease at every level, from the neck down.
     pub levels: Vec<AlteredLevel>,
     /// What is asked of the drape.
     pub readings: Vec<AlteredReading>,
@@ -312,7 +312,7 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
 
 /// What is asked for.
 struct Asked {
-    /// The job.
+    /// Job of the garment's size on the subject.
     spec: JobSpec,
     /// Jobs of the garment's other sizes on the same subject.
     others: Vec<JobSpec>,

@@ -40,7 +40,7 @@ impl Tried {
     /// The same, draped; where that fails the change stays, and it is said.
     ///
     /// # Errors
-    /// Likewise.
+    /// As [`Self::flat`].
     pub fn flat_and_draped(bench: &Bench, room: &FittingRoom) -> Result<Self> {
         let flat = Self::flat(bench)?;
         match room.drape(&bench.moved(&flat.amounts)?) {

@@ -12,9 +12,9 @@ use fit::{self, Simulator};
 /// Every size of a garment on a subject, and the one to wear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeAnswer {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
     /// The size to wear.
     pub wear: String,
@@ -27,7 +27,7 @@ pub struct SizeAnswer {
 /// One size on the subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeOn {
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Levels of the body at which the garment has a girth.
     pub levels: Vec<LevelFit>,
@@ -38,7 +38,7 @@ pub struct SizeOn {
 /// A garment at one level of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelFit {
-    /// Ease there.
+    /// Ease of the size on the subject, with the fit class that it means.
     pub ease: EaseRow,
     /// Mean greatest tension of the FEM-GS drape near that height, N/m; `None` without such a drape.
     pub tension_n_m: Option<f64>,

@@ -12,7 +12,7 @@ use fit::Simulator;
 /// How one job of a study ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Size of it.
     pub size: String,
@@ -32,7 +32,7 @@ pub struct Dressed {
     pub vertices: Option<i64>,
     /// How deep it lies inside the body, mm. By Hybrid-GS that is no fault: what is too small lies inside by design.
     pub inside_mm: Option<f64>,
-    /// What it lacks most about the body, mm.
+    /// Greatest length by which a girth of the body exceeds that of the garment, mm.
     pub shortfall_mm: Option<f64>,
     /// Time of its job, ms.
     pub wall_ms: Option<i64>,

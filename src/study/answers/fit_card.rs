@@ -9,7 +9,7 @@ use crate::store::Store;
 /// How one size sits at one level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelSits {
-    /// Body level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Length of the pattern there, mm.
     pub pattern_girth_mm: f64,
@@ -29,11 +29,11 @@ const DEPARTURE_MM: f64 = 0.5;
 /// Where an ease lies beside its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sits {
-    /// Below it.
+    /// Below the target: too little ease.
     Tight,
-    /// Within it.
+    /// Within the target.
     AsMeant,
-    /// Above it.
+    /// Above the target: too much ease.
     Loose,
 }
 
@@ -71,7 +71,7 @@ impl LevelSits {
 /// How one size sits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeSits {
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// 1 of the size to wear, 2 of the next best.
     pub place: Option<i64>,
@@ -101,11 +101,11 @@ impl SizeSits {
 /// How a garment sits on a subject.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FitCard {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Who wears it.
     pub subject: String,
-    /// Intended fit.
+    /// Fit that is meant, as the study file has it; `None` where it says none.
     pub intended: Option<String>,
     /// Its sizes, in order.
     pub sizes: Vec<SizeSits>,

@@ -28,16 +28,16 @@ pub struct ProvenanceRow {
     pub git_commit: Option<String>,
     /// Whether that had uncommitted changes.
     pub git_dirty: Option<bool>,
-    /// Machine.
+    /// Name of the machine that ran the job.
     pub machine: String,
-    /// Seed.
+    /// Seed of the start that the job drew.
     pub seed: i64,
 }
 
 /// Everything that is stored of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// The job.
+    /// The job as lists show it.
     pub job: JobRow,
     /// Every value it was made from.
     pub inputs: Inputs,
@@ -47,23 +47,23 @@ pub struct Record {
     pub provenance: Option<ProvenanceRow>,
     /// Its numbers; once there is a result.
     pub metrics: Option<MetricsRow>,
-    /// Its measurements.
+    /// Measurements of the result, at every stage; empty without a result.
     pub chi: Vec<ChiRow>,
 }
 
 /// A measurement of two results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChiPair {
-    /// Number.
+    /// Number of the measurement in the style (`#1`).
     pub no: u32,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length and garment length of the one and the other, m; `None` where a result has no such measurement.
+    /// Pattern length and garment length in each result, m; `None` where a result has no such measurement.
     pub lengths_m: [Option<(f64, f64)>; 2],
 }
 
 impl ChiPair {
-    /// L3D / L2D of the one and the other.
+    /// L3D / L2D in each result.
     #[must_use]
     pub fn chi(&self) -> [Option<f64>; 2] {
         self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
@@ -82,7 +82,7 @@ impl ChiPair {
 pub struct Comparison {
     /// Inputs that differ, before and after.
     pub inputs: Vec<Change>,
-    /// Numbers of both.
+    /// Numbers of both results; `None` where there is none.
     pub metrics: [Option<MetricsRow>; 2],
     /// Measurements of both, by number.
     pub chi: Vec<ChiPair>,

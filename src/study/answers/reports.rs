@@ -14,7 +14,7 @@ use crate::store::Store;
 pub struct ReportRow {
     /// Name of its folder: that of its study, unless it was built elsewhere.
     pub name: String,
-    /// Its page.
+    /// Path of its HTML page.
     pub page: PathBuf,
     /// Size of the page, bytes.
     pub bytes: u64,

@@ -29,7 +29,7 @@ pub enum CutAt {
 /// A line of a section, mm from the axis of trunk or limb: towards the subject's right, and to the front.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutLine {
-    /// Its points.
+    /// Points of the line, mm; the first is not repeated where it is closed.
     pub points: Vec<[f64; 2]>,
     /// Whether the last point goes on to the first.
     pub closed: bool,
@@ -38,13 +38,13 @@ pub struct CutLine {
 /// The cloth of one result in a section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutCloth {
-    /// Result.
+    /// Number of the job whose drape is cut.
     pub job: i64,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// `fem` or `hybrid`.
     pub simulator: String,
-    /// Its outlines.
+    /// Outlines of the cloth in the plane.
     pub lines: Vec<CutLine>,
     /// Gap from the skin by direction, from the front towards the subject's right: degrees, mm; below 0 inside the body.
     pub gaps: Vec<(f64, Option<f64>)>,

@@ -137,7 +137,7 @@ pub(crate) fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (((low - 10.0) / 100.0).floor() * 100.0, ((high + 10.0) / 100.0).ceil() * 100.0)
 }
 
-/// Text between tags.
+/// Text with the characters escaped that XML reserves.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -16,7 +16,7 @@ const LEVEL_MM: f64 = 5.0;
 pub struct Balance {
     /// What, such as `hem_front`.
     pub quantity: String,
-    /// How much.
+    /// Value of the quantity, in `unit`.
     pub value: f64,
     /// `mm` or `deg`.
     pub unit: String,
@@ -25,7 +25,7 @@ pub struct Balance {
 /// Pressure on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RegionPressure {
-    /// Region.
+    /// Name of the region, such as `lower_legs`.
     pub region: String,
     /// Area that is pressed, cm2.
     pub area_cm2: f64,
@@ -42,7 +42,7 @@ pub struct RegionPressure {
 pub struct FoldLine {
     /// `fold` or `drag_line`.
     pub kind: String,
-    /// Length, mm.
+    /// Extent in its own direction, mm.
     pub length_mm: f64,
     /// Angle from the vertical, degrees.
     pub from_vertical_deg: f64,
@@ -55,7 +55,7 @@ pub struct FoldLine {
 /// A point of measure, flat and worn.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WornPoint {
-    /// Point of measure.
+    /// Name of the point of measure.
     pub point: String,
     /// Flat on the pieces, mm.
     pub flat_mm: f64,
@@ -68,26 +68,26 @@ pub struct WornPoint {
 /// The gap at a level, mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelGap {
-    /// Level.
+    /// Level of the body, such as `waist`.
     pub level: String,
     /// Least gap; below 0 where cloth lies inside the body.
     pub least_gap_mm: Option<f64>,
-    /// Mean gap.
+    /// Mean over all directions that meet cloth.
     pub mean_gap_mm: Option<f64>,
-    /// Greatest gap.
+    /// Greatest of all directions that meet cloth.
     pub greatest_gap_mm: Option<f64>,
 }
 
 /// What is measured on the drape of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeWorn {
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Its result.
+    /// Job whose drape is measured.
     pub job: JobId,
     /// Gaps at the levels of the body.
     pub gaps: Vec<LevelGap>,
-    /// Balance.
+    /// How level it hangs: hem, waist edge and side seams.
     pub balance: Vec<Balance>,
     /// Pressure by region; none of Hybrid-GS.
     pub pressure: Vec<RegionPressure>,

@@ -22,7 +22,7 @@ const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
 pub struct SubjectRow {
     /// Number of the revision's row: stands for these measurements for good.
     pub id: SubjectId,
-    /// Name.
+    /// Name by which studies call it, the same in all its revisions.
     pub name: String,
     /// Number of the revision.
     pub revision: i64,

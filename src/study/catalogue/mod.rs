@@ -37,13 +37,13 @@ pub use style::StyleGiven;
 /// A part of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Bodies.
+    /// Bodies: measurements or a scan.
     Subject,
     /// How pieces are sewn and measured.
     Style,
     /// A pattern of a style; named `STYLE/SIZE`.
     Size,
-    /// Cloths.
+    /// Cloths with their mechanical numbers.
     Fabric,
 }
 
@@ -71,9 +71,9 @@ impl fmt::Display for Part {
 pub enum Mode {
     /// It must not.
     Add,
-    /// It must.
+    /// It must be there.
     Edit,
-    /// It may.
+    /// It may be there or not.
     Import,
 }
 

@@ -16,11 +16,11 @@ use crate::store::Store;
 pub struct SizeRow {
     /// Rows of the two revisions.
     pub key: SizeKey,
-    /// Style.
+    /// Name of the style.
     pub style: String,
     /// Revision of the style.
     pub style_revision: i64,
-    /// Size.
+    /// Name of the size within the style.
     pub size: String,
     /// Revision of the size.
     pub revision: i64,

@@ -18,11 +18,11 @@ use pattern::{Style, source};
 /// What is given of a style or a size; an edit keeps what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleGiven {
-    /// Seam file.
+    /// Seam file of the style.
     pub seams: Option<PathBuf>,
     /// Whether seams are proposed where a new style has none: no seam file, and patterns that hold none.
     pub is_proposed: bool,
-    /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
+    /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
     /// Patterns, each with the size it is; a file without one brings all sizes in it.
     pub patterns: Vec<(Option<String>, PathBuf)>,
@@ -36,7 +36,7 @@ type Sized = (SizeFile, Option<String>);
 
 /// What becomes of the seams of a style.
 enum Seams {
-    /// They stay.
+    /// They stay those that the style has.
     Kept,
     /// They are those of a file, or of the patterns themselves.
     Given(Option<SourceFile>),

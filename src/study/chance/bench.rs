@@ -15,7 +15,7 @@ const REACH: f64 = 1.281_551_565_544_6;
 
 /// A level of a size.
 pub(super) struct Level {
-    /// Its name.
+    /// Level of the body, such as `chest`.
     pub name: String,
     /// Least and greatest ease that is meant, m.
     pub band_m: Option<[f64; 2]>,
@@ -29,9 +29,9 @@ pub(super) struct Level {
 
 /// A size on a subject.
 pub(super) struct Sized {
-    /// Its name.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Its levels.
+    /// Levels at which the size has an ease.
     pub levels: Vec<Level>,
 }
 

@@ -25,7 +25,7 @@ use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 
-/// What is asked.
+/// Whose fit is asked for, and what is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Garment; needed where the study has several.
@@ -60,7 +60,7 @@ pub struct LikelyDimension {
 /// A level of a size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelChance {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Least and greatest ease that is meant, mm; `None` where none is.
     pub target_mm: Option<[f64; 2]>,
@@ -82,10 +82,10 @@ impl LevelChance {
     }
 }
 
-/// A size.
+/// How probable it is that a size is to wear, and that it fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeChance {
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// That it is the size to wear.
     pub wear: Share,
@@ -95,7 +95,7 @@ pub struct SizeChance {
     pub tight: f64,
     /// Share in which its worst level is too loose.
     pub loose: f64,
-    /// Its levels.
+    /// Each level of the size, from the neck down.
     pub levels: Vec<LevelChance>,
 }
 
@@ -111,15 +111,15 @@ impl SizeChance {
 /// How probable it is that a garment fits somebody.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chance {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Intended fit.
+    /// Fit that is meant, as study files name it.
     pub intended: &'static str,
-    /// Draws.
+    /// Number of draws that shares are counted over.
     pub draws: usize,
-    /// Their seed.
+    /// Seed of the draws: the same seed gives the same answer.
     pub seed: u64,
     /// What is known of the subject.
     pub body: Vec<LikelyDimension>,

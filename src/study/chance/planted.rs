@@ -20,7 +20,7 @@ use pattern::Style;
 /// A level over all people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedLevel {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// People who have it.
     pub people: usize,
@@ -35,7 +35,7 @@ pub struct PlantedLevel {
 pub struct Reliability {
     /// Least and greatest probability that was told.
     pub told: [f64; 2],
-    /// Cases.
+    /// Number of cases, each a size on a person.
     pub cases: usize,
     /// Mean of what was told.
     pub mean: f64,
@@ -52,7 +52,7 @@ pub struct PlantedTally {
     pub read: Vec<&'static str>,
     /// Over all levels that have a target.
     pub held: Share,
-    /// Each level.
+    /// The same by level, over the people who have it.
     pub levels: Vec<PlantedLevel>,
     /// That a size fits, over all sizes.
     pub fits: Vec<Reliability>,
@@ -105,7 +105,7 @@ struct Plot<'a> {
 }
 
 impl Plot<'_> {
-    /// One person.
+    /// Plants a person, measures them with errors, and compares what is told with the truth.
     fn case(&self, number: usize) -> Result<Case> {
         let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
         let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };

@@ -38,7 +38,7 @@ const ANY_M: f64 = 1e3;
 /// A level with the ease that is meant there.
 #[derive(Clone, Debug)]
 pub struct Band {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Least and greatest ease, m.
     pub band_m: [f64; 2],

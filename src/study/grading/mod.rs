@@ -40,7 +40,7 @@ const ROUNDS: usize = 4;
 const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
-/// What is asked.
+/// For whom a grade is sought, and from what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeWish {
     /// Garment; needed where the study has several.
@@ -82,7 +82,7 @@ impl Default for GradeWish {
 /// A handle of a size with its amount.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Turn {
-    /// Its name.
+    /// Name of the handle.
     pub handle: &'static str,
     /// Amount beside the base pattern, mm.
     pub amount_mm: f64,
@@ -91,7 +91,7 @@ pub struct Turn {
 /// A dimension of the people who wear a size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// Dimension.
+    /// Key of the dimension, such as `chest_girth_mm`.
     pub dimension: &'static str,
     /// 5th percentile, median and 95th percentile, in the unit of its key.
     pub values: [f64; 3],
@@ -100,7 +100,7 @@ pub struct Range {
 /// A size of a set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeShare {
-    /// Its name.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Share of the people held out whom it fits, %.
     pub fits_percent: f64,
@@ -130,7 +130,7 @@ pub struct SizeSet {
 /// What sets do at a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelShare {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Least and greatest ease that is meant, mm.
     pub target_mm: [f64; 2],
@@ -154,20 +154,20 @@ pub struct PartShare {
 pub struct DrapedAgain {
     /// How many were draped.
     pub people: usize,
-    /// How many agree.
+    /// How many of them fit on the drape too.
     pub agree: usize,
     /// What is against each that does not.
     pub against: Vec<String>,
 }
 
-/// A grade.
+/// A grade that fits a population, beside the pattern's own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Grading {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Base size.
+    /// Name of the size that the grade starts from.
     pub base: String,
-    /// Intended fit.
+    /// Fit that is meant, as study files name it.
     pub intended: &'static str,
     /// Sex of the people.
     pub sex: Sex,

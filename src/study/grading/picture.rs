@@ -19,9 +19,9 @@ const MOST: usize = 800;
 pub struct Drawn<'a> {
     /// What it is called.
     pub title: &'static str,
-    /// Its sizes.
+    /// Pattern of each size, in order.
     pub styles: &'a [Style],
-    /// Their names.
+    /// Name of each size, in the same order.
     pub names: &'a [String],
     /// Whom they fit.
     pub tally: &'a Tally,

@@ -28,11 +28,11 @@ pub enum PatternSource {
 /// A size that a study may wear.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wearable {
-    /// Style.
+    /// Name of the style, in the catalogue or as it is drafted.
     pub style: String,
-    /// Size.
+    /// Name of the size within the style.
     pub size: String,
-    /// Its pattern.
+    /// Where its pattern and its seams come from.
     pub source: PatternSource,
 }
 
@@ -49,7 +49,7 @@ pub struct NewStudy {
     pub sizes: Vec<Wearable>,
     /// Name of a fabric of the catalogue.
     pub fabric: String,
-    /// Simulators.
+    /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
 }
 

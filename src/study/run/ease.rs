@@ -70,7 +70,7 @@ fn of(levels: &[Length], body: &Body) -> Vec<Ease> {
 
 /// What a garment has at a level.
 pub(crate) struct Length {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Length of the pattern there, m.
     pub length_m: f64,

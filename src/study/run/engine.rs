@@ -62,7 +62,7 @@ struct Run<'a> {
 pub(crate) struct Work<'a> {
     /// Name of the study.
     pub study: &'a str,
-    /// Its jobs.
+    /// Jobs of the study, in the order of its cells.
     pub jobs: &'a [Planned],
 }
 

@@ -25,9 +25,9 @@ pub enum Why {
     New,
     /// An input changed since the latest earlier job of the same cell.
     Changed {
-        /// That job.
+        /// The latest earlier job of that cell.
         since: JobId,
-        /// What changed.
+        /// Inputs that differ from that job's.
         changes: Vec<Change>,
     },
     /// Queued or running already.
@@ -64,7 +64,7 @@ impl std::fmt::Display for Why {
 /// A job of the queue for a specification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
-    /// Its number.
+    /// Number of the job in the queue.
     pub id: JobId,
     /// What it does.
     pub spec: JobSpec,

@@ -66,7 +66,7 @@ struct Product {
 /// A job that was handed out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HandedOut {
-    /// The job.
+    /// The job as it was queued.
     pub job: Planned,
     /// Its file; `None` where it need not run.
     pub file: Option<PathBuf>,

@@ -134,7 +134,7 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// From now on.
+    /// Starts the clock of a job.
     pub fn start(limits: &Limits) -> Self {
         Self { began: Instant::now(), limit_s: limits.time_s }
     }

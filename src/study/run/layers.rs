@@ -21,9 +21,9 @@ pub(crate) struct Drapes(pub Vec<Drape>);
 
 /// A garment that is worn with others.
 pub(crate) struct Garb {
-    /// Its pieces.
+    /// Its pieces with their seams and measurements.
     pub style: Style,
-    /// Their meshes.
+    /// Meshes of the pieces, coarse to fine.
     pub meshes: Arc<Meshes>,
     /// What it is cut from.
     pub fabric: Fabric,

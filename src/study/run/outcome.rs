@@ -22,7 +22,7 @@ use sim::{Monitor, Stage, Step};
 pub struct Measured {
     /// Stage at which it was taken.
     pub stage: Stage,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
     /// Loop or length.
     pub kind: MeasurementKind,
@@ -30,14 +30,14 @@ pub struct Measured {
     pub is_free_edge: bool,
     /// Whether the simulator restores it by construction.
     pub is_controlled: bool,
-    /// Its lengths.
+    /// Its number, with its lengths in the pattern and on the drape.
     pub chi: Chi,
 }
 
 /// A point of measure of a result.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeasuredPoint {
-    /// Its name.
+    /// Name of the point of measure in tables and SQL.
     pub point: String,
     /// Flat on the pieces, m.
     pub flat_m: f64,
@@ -56,7 +56,7 @@ pub struct Outcome {
     pub metrics: Metrics,
     /// Vertices once sewn.
     pub vertices: usize,
-    /// Triangles.
+    /// Triangles of the mesh that was draped.
     pub faces: usize,
     /// Iterations over all levels.
     pub iterations: u32,
@@ -108,7 +108,7 @@ impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F
 pub(crate) struct Provenance {
     /// Commit of the repository the study file lies in, and whether it has uncommitted changes.
     pub git: Option<(String, bool)>,
-    /// Machine.
+    /// Host name of the machine.
     pub machine: String,
     /// Version of the program.
     pub program_version: String,

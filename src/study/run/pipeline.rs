@@ -190,13 +190,13 @@ impl Executor for Pipeline {
 
 /// A garment and the body that is to wear it.
 pub(crate) struct Fitting<'a> {
-    /// The body.
+    /// The body that wears it.
     pub body: &'a Body,
     /// Distance from its skin.
     pub field: &'a DistanceField,
     /// The garment's pieces.
     pub style: &'a Style,
-    /// Their meshes.
+    /// Meshes of those pieces, coarse to fine.
     pub meshes: &'a Meshes,
     /// What it is cut from.
     pub fabric: &'a Fabric,

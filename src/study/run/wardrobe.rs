@@ -35,7 +35,7 @@ pub struct Wardrobe {
     pub allowance_m: f64,
     /// Fabric of the library.
     pub fabric: String,
-    /// Simulators.
+    /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
 }
 
@@ -166,7 +166,7 @@ impl Wardrobe {
         Ok(())
     }
 
-    /// The study file.
+    /// Text of the study file.
     fn text(
         &self,
         garments: &BTreeMap<String, PathBuf>,

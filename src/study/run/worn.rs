@@ -21,7 +21,7 @@ pub(crate) const CM2: f64 = 1e4;
 /// Body and cloth at a level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
-    /// Level.
+    /// Level of the body, such as `chest`.
     pub level: String,
     /// Height above the floor, m.
     pub height_m: f64,
@@ -38,7 +38,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// Of a section.
+    /// Girths, areas and gaps of a section.
     pub fn of(section: &Section) -> Self {
         Self {
             level: section.site.level.clone(),
@@ -55,7 +55,7 @@ impl Level {
 /// What presses on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pressing {
-    /// Region.
+    /// Name of the region, such as `lower_legs`.
     pub region: String,
     /// Area that is pressed, m2.
     pub area_m2: f64,
@@ -70,7 +70,7 @@ pub struct Pressing {
 pub struct WornOn {
     /// Cross sections at the levels that the garment covers.
     pub levels: Vec<Level>,
-    /// Balance.
+    /// Balance of hem, waist edge and side seams.
     pub hang: Hang,
     /// Folds, the longest first.
     pub folds: Vec<Fold>,

@@ -13,7 +13,7 @@ const OWN_TABLES: [&str; 3] = ["measurement", "reinforce", "fit"];
 /// Two texts of a seam file: as it was proposed, and what somebody has made of it.
 #[derive(Clone, Copy)]
 pub struct Reworked<'a> {
-    /// The proposal.
+    /// Text of the seam file as it was proposed.
     pub proposed: &'a str,
     /// What became of it.
     pub own: &'a str,

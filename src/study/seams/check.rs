@@ -17,15 +17,15 @@ pub const CHECK_EDGE_MM: f64 = 15.0;
 /// What a check found of one size of a garment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SizeCheck {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Pieces as worn.
     pub pieces: usize,
-    /// Seams.
+    /// Number of seams.
     pub seams: usize,
-    /// Measurements.
+    /// Number of measurements.
     pub measurements: usize,
     /// Girths for the fit by body level, mm.
     pub fit_mm: Vec<(String, f64)>,

@@ -28,7 +28,7 @@ pub struct DeskEdge {
     pub name: Option<String>,
     /// Points, counter-clockwise, mm: `x` to the wearer's right, `y` positive for fronts, the head at the origin.
     pub line_mm: Vec<[f64; 2]>,
-    /// Length, mm.
+    /// Length of the sew line, mm.
     pub length_mm: f64,
     /// Name of the seam that holds it.
     pub seam: Option<String>,
@@ -58,7 +58,7 @@ impl DeskEdge {
 /// A piece where it lies in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskPiece {
-    /// Identifier.
+    /// Identifier of the piece in the seam file.
     pub id: String,
     /// What it is worn as.
     pub role: Role,
@@ -71,7 +71,7 @@ pub struct DeskPiece {
 /// A seam, with the lengths of its sides.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskSeam {
-    /// Name.
+    /// Name of the seam in the seam file.
     pub name: String,
     /// Edges of one side as (index of the piece, index of the edge), in order.
     pub a: Vec<(usize, usize)>,
@@ -92,7 +92,7 @@ pub struct DeskSeam {
 pub struct Desk {
     /// Pieces as they lie.
     pub pieces: Vec<DeskPiece>,
-    /// Seams.
+    /// Seams between edges of those pieces.
     pub seams: Vec<DeskSeam>,
     /// Names of pieces that are drawn and that the seams leave out.
     pub left_out: Vec<String>,
@@ -247,8 +247,8 @@ pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
 }
 
-/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None` where there is no such
-/// seam.
+/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None`
+/// where there is no such seam.
 pub(crate) fn confirmed(text: &str, is_sure: impl Fn(&str, Option<f64>) -> bool) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;

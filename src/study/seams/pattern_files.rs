@@ -23,7 +23,7 @@ pub struct Beside<'a> {
     pub unit: Option<Unit>,
     /// Grade rule table: the file is of the sample size, and all sizes are made.
     pub rules: Option<&'a Path>,
-    /// Piece information.
+    /// Path of the table of piece information, CSV or XLSX.
     pub info: Option<&'a Path>,
 }
 
@@ -117,7 +117,7 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> R
 pub struct Graded {
     /// The sample size.
     pub dxf: Vec<u8>,
-    /// The table.
+    /// Text of the grade rule table.
     pub rules: String,
     /// What has no rules of its own.
     pub notes: Vec<String>,

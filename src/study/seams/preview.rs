@@ -55,7 +55,7 @@ const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
 
 /// A body ready to be dressed again and again.
 pub struct Mannequin {
-    /// Its subject.
+    /// Name of the subject whose body it is.
     pub name: String,
     model: Arc<Model>,
     field: DistanceField,

@@ -16,9 +16,9 @@ use pattern::pom::Point;
 /// A point of measure of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecifiedPoint {
-    /// Its name.
+    /// Name of the point in tables and SQL.
     pub point: &'static str,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
     /// Its length, mm.
     pub length_mm: f64,

@@ -29,9 +29,9 @@ const SAME_NOTCH: f64 = 0.03;
 /// An answer, and the step of work that it asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// What it says.
+    /// The answer in words.
     pub label: String,
-    /// What is done.
+    /// Step of work that carries it out.
     pub step: SeamStep,
     /// Edges that it speaks of.
     pub edges: Vec<EdgeAt>,
@@ -40,7 +40,7 @@ pub struct Choice {
 /// What a person must decide.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Undecided {
-    /// The question.
+    /// The question in words.
     pub text: String,
     /// Edges that it is about.
     pub edges: Vec<EdgeAt>,
@@ -213,7 +213,7 @@ impl Undecided {
 }
 
 impl Desk {
-    /// An edge.
+    /// The edge at an index of a piece and of its edges.
     #[must_use]
     pub fn edge(&self, (piece, edge): EdgeAt) -> &DeskEdge {
         &self.pieces[piece].edges[edge]

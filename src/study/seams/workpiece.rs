@@ -27,11 +27,11 @@ const ANSWERED: &str = "# ANSWERED: ";
 /// A pattern and the seams of one of its sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workpiece {
-    /// Pattern.
+    /// Pattern file with its bytes.
     pub pattern: SourceFile,
     /// Seam file; `None` where the pattern holds its seams, or has none yet.
     pub seams: Option<SourceFile>,
-    /// Size.
+    /// Name of the size that is worked on.
     pub size: String,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
@@ -40,9 +40,9 @@ pub struct Workpiece {
 /// A measurement on the pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeskLength {
-    /// Number.
+    /// Number by which tables and drawings name it (`#1`).
     pub no: u32,
-    /// Name.
+    /// Name for people to read, such as `Neck Opening`.
     pub name: String,
     /// Pattern length L2D, mm.
     pub l2d_mm: f64,
@@ -53,7 +53,7 @@ pub struct DeskLength {
 pub struct LaidOut {
     /// Pieces and seams; a seam that was proposed and not confirmed has its confidence.
     pub desk: Desk,
-    /// Measurements.
+    /// Measurements of the seam file, in its order.
     pub lengths: Vec<DeskLength>,
     /// What a person must decide: questions of a proposal, unsure seams, and what a check finds.
     pub undecided: Vec<Undecided>,

@@ -236,7 +236,7 @@ pub type Given = (String, String);
 
 /// What can be made from keys and texts: a subject or a fabric.
 pub(crate) trait Entry: Clone + 'static {
-    /// Its numbers.
+    /// Every number that the entry has, with its key, unit and accepted values.
     fn fields() -> &'static [Field<Self>];
 
     /// Other ways to give its numbers; a later one may depend on an earlier one.

@@ -50,7 +50,7 @@ fn short(value: &str) -> &str {
 }
 
 impl Inputs {
-    /// Sets a value.
+    /// Sets the value of a name, in place of an earlier one.
     pub fn set(&mut self, name: impl Into<String>, value: impl fmt::Display) {
         self.0.insert(name.into(), value.to_string());
     }

@@ -24,7 +24,7 @@ use sim::Fabric;
 /// What a job may take; one that takes more is ended and has failed. Results do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Limits {
-    /// Time, s.
+    /// Time from its start, s.
     pub time_s: Option<f64>,
     /// Memory, MB (10^6 bytes).
     pub memory_mb: Option<u32>,
@@ -58,15 +58,15 @@ pub struct Schedule {
 /// One simulation with everything it needs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct JobSpec {
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Its style in the catalogue.
     pub style: String,
-    /// Size.
+    /// Name of the size, such as `M`.
     pub size: String,
-    /// Subject.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator.
+    /// Simulator that drapes it.
     pub simulator: Simulator,
     /// Which repeat, from 1.
     pub repeat: u32,
@@ -79,7 +79,7 @@ pub struct JobSpec {
     pub unit: Option<String>,
     /// Seam file; `None` where the pattern holds its own seams.
     pub seams: Option<SourceFile>,
-    /// Cloth.
+    /// Fabric that it is cut from.
     pub fabric: Fabric,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
@@ -120,13 +120,13 @@ impl Outfit {
 /// Which part of a study to run; empty lists take all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Simulators.
+    /// Names of simulators, `fem` and `hybrid`.
     pub simulators: Vec<String>,
     /// Sizes; case does not matter.
     pub sizes: Vec<String>,
-    /// Subjects.
+    /// Names of subjects of the study.
     pub subjects: Vec<String>,
-    /// Garments.
+    /// Names of garments of the study.
     pub garments: Vec<String>,
 }
 

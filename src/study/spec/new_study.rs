@@ -18,7 +18,7 @@ use geom::units::from_mm;
 pub(crate) struct Outline<'a> {
     /// Its name; that of its folder where it says none.
     pub name: Option<&'a str>,
-    /// Simulators.
+    /// Simulators that drape every garment.
     pub simulators: &'a [Simulator],
     /// Subjects of the catalogue.
     pub known: Vec<&'a str>,
@@ -26,7 +26,7 @@ pub(crate) struct Outline<'a> {
     pub measured: Vec<(&'a str, Measurements)>,
     /// Subjects with the paths of their scans.
     pub scanned: Vec<(&'a str, String)>,
-    /// Garments.
+    /// Garments in the order in which they are written.
     pub garments: Vec<Worn<'a>>,
     /// Fabric of all garments.
     pub fabric: &'a str,
@@ -35,7 +35,7 @@ pub(crate) struct Outline<'a> {
 /// A garment of a new study.
 #[derive(Default)]
 pub(crate) struct Worn<'a> {
-    /// Style.
+    /// Name of the style, which becomes that of the garment.
     pub style: &'a str,
     /// Path of the seam file.
     pub seams: Option<String>,

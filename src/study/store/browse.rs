@@ -24,7 +24,7 @@ pub struct SqlAnswer {
 /// A table or view, and its columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
-    /// Name.
+    /// Name of the table or view.
     pub name: String,
     /// Names of its columns, in order.
     pub columns: Vec<String>,

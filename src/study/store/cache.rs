@@ -18,7 +18,7 @@ use crate::store::{self, Access, now_ms};
 
 /// A product that can be stored.
 pub(crate) trait Artefact: Sized + Send + Sync + 'static {
-    /// As bytes.
+    /// The product as bytes, to be stored.
     fn encode(&self) -> Result<Vec<u8>>;
     /// From the bytes of [`Artefact::encode`].
     fn decode(bytes: &[u8]) -> std::result::Result<Self, String>;

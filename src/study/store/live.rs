@@ -12,7 +12,7 @@ const NOBODY: i64 = 0;
 /// The garment of a running job at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveFrame {
-    /// Its job.
+    /// Job whose simulation it is of.
     pub job: JobId,
     /// Place of every vertex of the mesh that is worked on, m; meshes grow finer as a simulation goes on.
     pub positions: Vec<V3>,

@@ -23,7 +23,7 @@ impl Owner {
         Self(format!("{}/{}/{pid}/{start}/{}", host(), boot(), RUNS.fetch_add(1, Ordering::Relaxed)))
     }
 
-    /// As stored.
+    /// The owner as the column `owner` stores it.
     pub(crate) fn as_str(&self) -> &str {
         &self.0
     }

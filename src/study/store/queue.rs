@@ -145,8 +145,8 @@ pub(crate) fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     Ok(())
 }
 
-/// Takes the next queued job that is wanted for `owner` and waits for no other: greatest priority first, then in order of
-/// queueing.
+/// Takes the next queued job that is wanted for `owner` and waits for no other: greatest priority first, then in
+/// order of queueing.
 pub(crate) fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) -> Result<Option<JobId>> {
     take_over(transaction, watch)?;
     let next = transaction

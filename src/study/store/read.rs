@@ -17,9 +17,9 @@ use sim::Step;
 /// Which jobs to list; empty fields accept all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JobFilter {
-    /// Study.
+    /// Only jobs of the study of this name.
     pub study: Option<String>,
-    /// State.
+    /// Only jobs in this state.
     pub status: Option<Status>,
     /// Also jobs whose inputs are no longer the study's.
     pub superseded: bool,

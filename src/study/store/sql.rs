@@ -28,11 +28,11 @@ const SAVED: [(&str, &str); 8] = [
 /// A query that has a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedQuery {
-    /// Name.
+    /// Name by which it is asked for.
     pub name: String,
     /// What it asks: its first line, where that is a comment.
     pub about: String,
-    /// The query.
+    /// Text of the query.
     pub sql: String,
 }
 

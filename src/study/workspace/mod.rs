@@ -103,7 +103,7 @@ impl Workspace {
     /// The same body, ready to be dressed again and again.
     ///
     /// # Errors
-    /// Likewise.
+    /// Those of [`Self::figure`].
     pub fn mannequin(&self, id: SubjectId) -> Result<Mannequin> {
         preview::mannequin(&self.store, id)
     }

@@ -20,7 +20,6 @@ use study::Status;
 /// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
 const SHORT: u16 = 66;
 
-/// Draws the workbench.
 pub fn draw(frame: &mut Frame<'_>, state: &State) {
     let [top, body, bottom] = rows(frame.area());
     frame.render_widget(tabs(state, top.width), top);

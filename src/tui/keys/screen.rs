@@ -9,7 +9,7 @@ pub enum Screen {
     Subjects,
     /// The styles and sizes of the catalogue, and the seams of one.
     Styles,
-    /// The queue.
+    /// Jobs of the study in the queue.
     Jobs,
     /// One result: its measurements and its picture.
     Results,

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub struct AlterRequest {
     /// File of the study.
     pub study: PathBuf,
-    /// Garment.
+    /// Name of the garment in the study.
     pub garment: String,
     /// Who is to wear it.
     pub subject: String,

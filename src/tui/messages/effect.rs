@@ -13,7 +13,7 @@ use study::files::SourceFile;
 /// What is written in an editor of the user's own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Writing {
-    /// The query.
+    /// The query of the SQL screen.
     Query(String),
     /// The seam file of a size.
     Seams(LayoutRequest, SourceFile),
@@ -26,7 +26,7 @@ pub enum Writing {
 pub enum Effect {
     /// Read what the screens show.
     Read(Focus),
-    /// Draw pictures.
+    /// Draw drapes and bodies as pictures.
     Draw(Vec<PictureRequest>),
     /// Cut the bodies and the cloth of results.
     Cut(Vec<JobId>),
@@ -58,6 +58,6 @@ pub enum Effect {
     Copy(String),
     /// Draw the whole screen anew.
     Clear,
-    /// Leave.
+    /// Leave the workbench.
     Quit,
 }

@@ -9,7 +9,7 @@ use study::{SizeKey, SubjectId};
 /// A size to lay out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LayoutRequest {
-    /// Style.
+    /// Name of the style in the catalogue.
     pub style: String,
     /// Its revision and the size.
     pub key: SizeKey,
@@ -59,7 +59,7 @@ impl PreviewRequest {
 pub struct Previewed {
     /// Who wears it.
     pub subject: String,
-    /// The cloth.
+    /// Name of the fabric that it is cut from.
     pub fabric: String,
     /// How far it came.
     pub hung: Hung,

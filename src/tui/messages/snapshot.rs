@@ -8,9 +8,9 @@ use study::{
 /// What the user looks at; whatever is `None` or gone is chosen when it is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
-    /// Study.
+    /// Name of the study.
     pub study: Option<String>,
-    /// Garment.
+    /// Name of the garment within the study.
     pub garment: Option<String>,
     /// Job whose details are wanted.
     pub job: Option<JobId>,
@@ -31,7 +31,7 @@ pub struct Snapshot {
     pub fabrics: Vec<FabricRow>,
     /// The sizes of the styles of the catalogue.
     pub sizes: Vec<SizeRow>,
-    /// All studies.
+    /// All studies of the database, by name.
     pub studies: Vec<StudyRow>,
     /// The study looked at, an index into `studies`.
     pub study: usize,
@@ -68,7 +68,7 @@ impl Snapshot {
 /// What is stored of one job.
 #[derive(Clone, Debug)]
 pub struct Detail {
-    /// Its number.
+    /// Number of the job.
     pub job: JobId,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,
@@ -87,7 +87,7 @@ pub struct Detail {
 /// A run as it is compared.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// The job.
+    /// The job as lists show it.
     pub job: JobRow,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,

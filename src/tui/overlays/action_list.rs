@@ -15,10 +15,10 @@ use crate::widgets::text::{self, left};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
 
-/// A row.
+/// A row of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row<'a> {
-    /// An action.
+    /// An action with its keys.
     Action(&'static Binding),
     /// Something to go to.
     Thing(&'a Thing),
@@ -32,7 +32,7 @@ const MOST: u16 = 40;
 enum Reach {
     /// On the screen in hand, and not everywhere.
     Here,
-    /// Everywhere.
+    /// On every screen.
     Everywhere,
     /// On other screens.
     Elsewhere,
@@ -41,7 +41,7 @@ enum Reach {
 /// A list that what is typed narrows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
-    /// The actions.
+    /// All actions with their keys.
     pub bindings: &'static [Binding],
     /// The screen in hand.
     pub screen: Screen,
@@ -49,7 +49,7 @@ pub struct List {
     pub things: Vec<Thing>,
     /// What is typed.
     pub text: String,
-    /// Row selected.
+    /// Index of the row selected, of those shown.
     pub row: usize,
 }
 

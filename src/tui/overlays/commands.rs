@@ -19,7 +19,7 @@ use crate::widgets::theme::Theme;
 pub struct CommandLog {
     /// Commands, the latest last.
     pub commands: Vec<String>,
-    /// Line selected.
+    /// Index of the line selected.
     pub row: usize,
 }
 

@@ -33,7 +33,7 @@ const VALUE: usize = 12;
 /// What stands beside a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// Nothing.
+    /// The value needs no remark.
     None,
     /// Where it stands among adults of the sex, or among the fabrics of the catalogue.
     Place(String),

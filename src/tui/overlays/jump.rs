@@ -12,7 +12,7 @@ use crate::widgets::theme::Theme;
 /// Places that can be gone to, and what is typed of a label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Jump {
-    /// The places.
+    /// Places on the screen, each with its label.
     pub targets: Vec<Target>,
     /// What is typed.
     pub typed: String,

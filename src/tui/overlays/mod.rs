@@ -58,11 +58,11 @@ pub enum Overlay {
     StyleForm(Box<StyleForm>),
     /// What a new study is made of.
     StudyForm(Box<StudyForm>),
-    /// Saved queries.
+    /// The list of saved queries.
     Queries(QueryList),
     /// The log of commands.
     Commands(CommandLog),
-    /// The tour.
+    /// The tour of the workbench, at a step.
     Tour(Tour),
     /// A question; `y` has the effects happen.
     Question {

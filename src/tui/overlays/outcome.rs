@@ -10,7 +10,7 @@ use crate::widgets::jump::Goal;
 pub enum Outcome {
     /// It stays open.
     Open,
-    /// It closes.
+    /// It closes, and nothing follows.
     Closed,
     /// It closes and an action follows.
     Action(Action),

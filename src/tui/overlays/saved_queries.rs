@@ -22,7 +22,7 @@ pub struct QueryList {
     pub queries: Vec<SavedQuery>,
     /// What is typed.
     pub text: String,
-    /// Row selected.
+    /// Index of the row selected, of those shown.
     pub row: usize,
 }
 

@@ -26,7 +26,7 @@ const SECTION: usize = 17;
 /// A line of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormLine {
-    /// The name.
+    /// The name of the study, which is typed.
     Name,
     /// The fabric, one of a list.
     Fabric,
@@ -55,7 +55,7 @@ impl FormLine {
 /// What the lines of a part must contain to be shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
-    /// The part.
+    /// Heading of the part whose lines are narrowed.
     section: &'static str,
     /// What its lines contain, in small letters.
     text: String,
@@ -66,7 +66,7 @@ pub struct Filter {
 /// A new study as it is filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyForm {
-    /// Name.
+    /// Name as it is typed.
     pub name: String,
     /// Folder of all studies.
     pub folder: PathBuf,
@@ -82,7 +82,7 @@ pub struct StudyForm {
     pub subjects: Vec<(String, bool)>,
     /// What the sizes or subjects shown contain.
     pub filter: Filter,
-    /// Line selected.
+    /// Index of the line selected.
     pub at: usize,
     /// Whether it is being written.
     pub is_busy: bool,
@@ -291,7 +291,6 @@ impl StudyForm {
     }
 }
 
-/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     let width = area.width.min(90);
     let columns = usize::from(width.saturating_sub(2));

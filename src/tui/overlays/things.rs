@@ -6,13 +6,13 @@ use crate::messages::snapshot::Snapshot;
 /// Something with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Thing {
-    /// A study.
+    /// A study of the database.
     Study(String),
     /// A subject of the catalogue.
     Subject(String),
     /// A size of a style.
     Size(String, String),
-    /// A fabric.
+    /// A fabric of the catalogue.
     Fabric(String),
 }
 

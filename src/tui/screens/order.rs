@@ -3,14 +3,14 @@
 /// An order and whether it is reversed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Order<T> {
-    /// By what.
+    /// What rows are ordered by.
     pub by: T,
     /// Whether it is reversed.
     pub reversed: bool,
 }
 
 impl<T> Order<T> {
-    /// Reverses it.
+    /// Turns the order round.
     pub fn reverse(&mut self) {
         self.reversed = !self.reversed;
     }

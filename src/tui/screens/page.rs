@@ -14,7 +14,7 @@ use crate::widgets::picture::Pictured;
 
 /// What a screen does with the state, and how it shows it.
 pub trait Page {
-    /// Draws it.
+    /// Draws the screen from the state.
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State);
 
     /// Moves up or down in the pane that has the focus.

@@ -67,7 +67,7 @@ pub struct Folders {
 
 /// What this session was started with.
 pub struct Setup {
-    /// Keys.
+    /// Actions with their keys: built in, and from a file of one's own.
     pub bindings: &'static [Binding],
     /// What can be done.
     pub abilities: Abilities,
@@ -77,9 +77,9 @@ pub struct Setup {
     pub database: Option<PathBuf>,
 }
 
-/// The terminal.
+/// What is known of the terminal.
 pub struct Terminal {
-    /// Its size.
+    /// Columns and rows of the terminal.
     pub size: Size,
     /// Whether the mouse is taken.
     pub has_mouse: bool,
@@ -102,7 +102,7 @@ pub struct Running {
 
 /// Which screen is shown, and what of it.
 pub struct Navigation {
-    /// Screen shown.
+    /// Screen that is shown.
     pub screen: Screen,
     /// Screens to go back to, the last first.
     pub trail: Vec<Screen>,
@@ -120,7 +120,7 @@ pub struct State {
     pub theme: Theme,
     /// What this session was started with.
     pub setup: Setup,
-    /// The terminal.
+    /// What is known of the terminal.
     pub terminal: Terminal,
     /// What was last read; `None` before the first time.
     pub data: Option<Box<Snapshot>>,
@@ -136,25 +136,15 @@ pub struct State {
     pub running: Running,
     /// How drapes are seen.
     pub pictures: Pictures,
-    /// Study.
     pub study: Study,
-    /// Subjects.
     pub subjects: Subjects,
-    /// Styles.
     pub styles: Styles,
-    /// Jobs.
     pub jobs: Jobs,
-    /// Results.
     pub results: Results,
-    /// Compare.
     pub compare: Compare,
-    /// SQL.
     pub sql: Sql,
-    /// Reports.
     pub reports: Reports,
-    /// Fabrics.
     pub fabrics: Fabrics,
-    /// Fit.
     pub fit: Fit,
 }
 

@@ -37,9 +37,9 @@ struct Slot {
 /// What was drawn and is not sent yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Late {
-    /// Nothing.
+    /// All that was drawn is sent.
     Nothing,
-    /// Only pictures.
+    /// Pictures alone.
     Pictures,
     /// Texts, and perhaps pictures.
     Texts,

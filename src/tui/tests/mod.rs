@@ -124,7 +124,7 @@ impl Bench {
         effects.into_iter().filter(|e| !is_done(e)).collect()
     }
 
-    /// The screen.
+    /// The screen as a test backend holds it, with its styles.
     fn drawn(&self) -> TestBackend {
         let Size { width, height } = self.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");

@@ -9,9 +9,9 @@ const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]]
 /// A line of dots: so many drawn, so many left out, over and over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dash {
-    /// Dots drawn.
+    /// Dots drawn in a row.
     pub on: usize,
-    /// Dots left out.
+    /// Dots left out after them.
     pub off: usize,
 }
 
@@ -22,7 +22,7 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// Empty cells.
+    /// Cells without a dot.
     #[must_use]
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, cells: vec![(0, Style::new()); columns * rows] }

@@ -36,30 +36,31 @@ const WORDS: [&str; 24] = [
 /// Edits that can be taken back.
 const REMEMBERED: usize = 100;
 
-/// Whose keys edit.
+/// By whose keys a text is edited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Editing {
     /// Those of readline: letters are typed, keys with Ctrl and Alt move and cut.
     #[default]
     Readline,
-    /// Those of vim.
+    /// Those of vim, which have two modes.
     Vim,
 }
 
-/// What letters do.
+/// What a key with a letter does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// They are typed.
+    /// It types the letter.
     #[default]
     Insert,
-    /// They are vim's commands.
+    /// It is a command of vim.
     Normal,
 }
 
 /// A text and the place in it where typing goes on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
-    /// The text.
+    /// What is written, lines parted by `
+    /// `.
     text: String,
     /// Where the cursor is, a byte of `text` between characters.
     pub(super) cursor: usize,
@@ -80,14 +81,14 @@ pub struct Editor {
 pub struct Offer {
     /// Where the word begins.
     start: usize,
-    /// The words.
+    /// What the word may become, in order.
     pub words: Vec<String>,
     /// The one put into the text; `None` while they are only offered.
     pub taken: Option<usize>,
 }
 
 impl Editor {
-    /// The text.
+    /// What is written.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text

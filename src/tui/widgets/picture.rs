@@ -19,9 +19,9 @@ pub enum Images {
     /// As pixels where the environment says that the terminal can, as half blocks otherwise.
     #[default]
     Auto,
-    /// As half blocks.
+    /// As half blocks, which every terminal with colours shows.
     Halfblocks,
-    /// Not at all.
+    /// No pictures.
     Off,
 }
 
@@ -117,9 +117,9 @@ pub enum Pictured {
 pub struct PictureRequest {
     /// What is shown.
     pub of: Pictured,
-    /// From where.
+    /// From where the drape is looked at.
     pub look: Look,
-    /// In which colours.
+    /// Map that colours the cloth.
     pub map: Map,
     /// Width of the pane, cells.
     pub columns: u16,
@@ -129,9 +129,9 @@ pub struct PictureRequest {
 
 /// A picture as the terminal shows it.
 pub enum Drawn {
-    /// Pixels.
+    /// Pixels, by a protocol for pictures.
     Pixels(Protocol),
-    /// Half blocks.
+    /// Half blocks, each with two colours.
     Blocks(Blocks),
     /// Letters of growing density, for terminals without colours.
     Letters(Vec<String>),

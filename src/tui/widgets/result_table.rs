@@ -23,7 +23,7 @@ pub struct ResultTable {
     shown: Vec<usize>,
     /// Row selected, one of those shown.
     pub row: usize,
-    /// Column selected.
+    /// Index of the column selected.
     pub column: usize,
     /// Column that sorts and whether it falls; the query's own order otherwise.
     pub order: Option<(usize, bool)>,

@@ -11,7 +11,7 @@ use study::{FitCell, FitClass, Status};
 /// How many colours the terminal shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// None.
+    /// No colour at all.
     None,
     /// The 16 of the terminal's own palette.
     Basic,
@@ -56,11 +56,11 @@ pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
 pub enum Role {
     /// Right or finished.
     Good,
-    /// Questionable.
+    /// Worth a second look.
     Warn,
     /// Wrong or failed.
     Bad,
-    /// Going on.
+    /// Not finished yet.
     Busy,
     /// The border of the pane that has the focus.
     Focus,
@@ -109,11 +109,11 @@ impl Default for Roles {
 /// The styles of the workbench.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
-    /// Colours there are.
+    /// How many colours the terminal shows.
     pub colours: Colours,
     /// Whether only ASCII is shown.
     pub ascii: bool,
-    /// What colours say.
+    /// Colour of each role.
     pub roles: Roles,
 }
 
@@ -152,7 +152,7 @@ impl Theme {
         self.plain(Role::Good)
     }
 
-    /// Questionable.
+    /// Style of what is worth a second look.
     #[must_use]
     pub fn warn(self) -> Style {
         self.plain(Role::Warn)
@@ -164,7 +164,7 @@ impl Theme {
         self.plain(Role::Bad)
     }
 
-    /// Going on.
+    /// Style of what is not finished yet.
     #[must_use]
     pub fn busy(self) -> Style {
         self.plain(Role::Busy)

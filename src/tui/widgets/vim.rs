@@ -61,7 +61,7 @@ impl Editor {
         }
     }
 
-    /// Where a motion leads; `None` where it is none.
+    /// Where a motion leads; `None` for a letter that is no motion.
     fn target(&self, motion: char) -> Option<usize> {
         Some(match motion {
             'h' => self.before().max(self.line_start()),

@@ -28,7 +28,7 @@ geom::constants! {
 /// A corner or auxiliary point of a piece: a boundary vertex and its place on the form, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
-    /// Garment vertex.
+    /// Vertex of the garment, on the piece's outline.
     pub vertex: usize,
     /// Place on the form, m.
     pub place: V3,
@@ -48,7 +48,7 @@ pub struct Mapped {
 pub enum Kind {
     /// Hangs from shoulders or waist: tops, dresses, skirts.
     Hung,
-    /// Trousers.
+    /// Hangs from the waist and goes round each leg: trousers.
     Legs,
     /// A top and trousers in one.
     Suit,
@@ -89,9 +89,9 @@ pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
 /// Side of the trunk that a piece lies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Face {
-    /// Front.
+    /// The side that the wearer's front is on.
     Front,
-    /// Back.
+    /// The side that the wearer's back is on.
     Back,
     /// All round a limb.
     Round,

@@ -44,7 +44,7 @@ impl Row {
         self.l3d_mm[subject] / self.l2d_mm
     }
 
-    /// Where it stands.
+    /// Where the row stands in the thesis, in words.
     pub fn place(&self) -> String {
         format!("table {}, row #{} {}", self.table, self.no, self.name)
     }
@@ -83,7 +83,7 @@ pub(super) struct Preposition {
     pub chi: f64,
 }
 
-/// All of them.
+/// All printed tables, as the database holds them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tables {
     pub rows: Vec<Row>,
@@ -95,7 +95,7 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    /// Reads them.
+    /// Reads the published tables from the database.
     pub fn read(connection: &Connection) -> Result<Self> {
         let rows = "SELECT table_no, garment, size, simulator, measurement_no, measurement, l2d_mm, l3d_mm, chi,
             chi_mean, chi_sd FROM published ORDER BY garment, size, simulator, measurement_no";

@@ -35,7 +35,7 @@ const CHI_REACH: f64 = 0.15;
 const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
-    /// All maps.
+    /// All maps, in the order in which they are offered.
     pub const ALL: [Self; 7] =
         [Self::Plain, Self::Check, Self::Stretch, Self::Tension, Self::Pressure, Self::Gap, Self::Chi];
 

@@ -45,7 +45,7 @@ const SCENES_KEPT: usize = 3;
 pub struct Look {
     /// Angle about the vertical from the front towards the subject's right, degrees.
     pub azimuth_deg: i32,
-    /// Enlargement, percent.
+    /// Enlargement of the picture about its middle, percent.
     pub zoom_pct: u32,
     /// How far the picture's middle lies above the garment's, percent of half its height.
     pub rise_pct: i32,

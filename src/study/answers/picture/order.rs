@@ -27,7 +27,7 @@ pub struct Zoom {
 /// One picture of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shot {
-    /// A side.
+    /// From one of the four sides.
     View(View),
     /// From near, so that the cloth shows.
     CloseUp,

@@ -158,9 +158,9 @@ pub struct ScanFile {
 /// One size of a garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeFile {
-    /// Name (`S`).
+    /// Name of the size, such as `S`.
     pub name: String,
-    /// Its pattern.
+    /// Pattern file of the size, with its bytes.
     pub pattern: SourceFile,
 }
 
@@ -175,7 +175,7 @@ pub struct GarmentEntry {
     pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
     pub unit: Option<String>,
-    /// The cloth.
+    /// Fabric that it is cut from.
     pub fabric: Fabric,
     /// Sizes, in order.
     pub sizes: Vec<SizeFile>,
@@ -220,9 +220,9 @@ impl GarmentEntry {
 /// A study, checked and with all its inputs read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Name.
+    /// Name of the study: that in the file, or that of its folder.
     pub name: String,
-    /// Its file.
+    /// Path of the `study.toml`.
     pub path: PathBuf,
     /// Subjects, in order.
     pub subjects: Vec<Subject>,
@@ -263,13 +263,13 @@ pub struct KnownStyle {
 /// An entry of a file, and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Placed<T> {
-    /// The file.
+    /// Path of the file.
     pub file: PathBuf,
     /// Its line, from 1.
     pub line: usize,
     /// Name of the entry.
     pub name: String,
-    /// The entry.
+    /// What the file says there.
     pub entry: T,
 }
 

@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         self.problem(&place.span.clone(), format!("{}: `{key}` is missing; give {wanted}", place.name));
     }
 
-    /// Optional text.
+    /// Text that need not be there; a value of another type is a problem.
     pub fn text<'t>(&mut self, place: &Place<'t>, key: &str) -> Option<Spanned<&'t str>> {
         let value = place.table.get(key)?;
         let Some(text) = value.get_ref().as_str() else {

@@ -14,7 +14,7 @@ use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
 /// What else a subject of a study may be.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";
 
-/// All subjects.
+/// Reads every `[[subject]]` table, with its problems noted in the reader.
 pub(super) fn subjects(
     reader: &mut Reader<'_>,
     top: &Place<'_>,

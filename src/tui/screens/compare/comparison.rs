@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.01;
 pub struct ComparisonRow {
     /// Number in the style.
     pub no: u32,
-    /// Name.
+    /// Name of the measurement in the style.
     pub name: String,
     /// Pattern length of the first run that has it, m.
     pub l2d_m: f64,

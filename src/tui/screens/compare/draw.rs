@@ -93,7 +93,6 @@ pub fn targets(state: &State, area: Rect) -> Vec<Target> {
     rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
 }
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let runs = state.compared();
     if runs.is_empty() {

@@ -8,7 +8,7 @@ pub const FABRIC_SHOWN: [usize; 7] = [0, 1, 2, 3, 5, 6, 7];
 /// How fabrics are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum FabricOrder {
-    /// By name.
+    /// By name, alphabetically.
     #[default]
     Name,
     /// By a number of [`FABRIC_SHOWN`], the smallest first.
@@ -16,7 +16,7 @@ pub enum FabricOrder {
 }
 
 impl FabricOrder {
-    /// The next one.
+    /// The order that `sort` comes to next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -30,7 +30,7 @@ impl FabricOrder {
 /// Where the user is among fabrics.
 #[derive(Debug, Default)]
 pub struct Fabrics {
-    /// Fabric selected.
+    /// Name of the fabric selected.
     pub chosen: Option<String>,
     /// Order of fabrics.
     pub order: Order<FabricOrder>,

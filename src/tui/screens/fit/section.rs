@@ -31,7 +31,6 @@ const TRUNK: [&str; 4] = ["chest", "underbust", "waist", "hip"];
 /// Dots between those that fill the body.
 const FILL: usize = 4;
 
-/// Draws the pane.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let section = state.section();
     let title = match (section, state.level()) {

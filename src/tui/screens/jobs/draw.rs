@@ -15,7 +15,6 @@ use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, LogLine, Status};
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
         frame.render_widget(Paragraph::new(list(state, area)), area);

@@ -12,7 +12,7 @@ const MAX_TRACE: usize = 4096;
 /// How jobs are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum JobOrder {
-    /// As queued.
+    /// By number, as they were queued.
     #[default]
     Number,
     /// By state: what runs, what went wrong, what waits, what is done.
@@ -24,7 +24,7 @@ pub enum JobOrder {
 }
 
 impl JobOrder {
-    /// The next one.
+    /// The order that `sort` comes to next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {

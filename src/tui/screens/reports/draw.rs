@@ -13,7 +13,6 @@ use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [list, facts] = panes(area);
     draw_list(frame, list, state);

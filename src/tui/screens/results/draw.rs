@@ -50,7 +50,6 @@ pub fn targets(state: &State, area: Rect) -> Vec<Target> {
     rows.into_iter().chain(panes.picture.map(|picture| jump::pane(picture, 1))).collect()
 }
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let panes = panes(area, state);
     if let Some(area) = panes.table {

@@ -100,8 +100,8 @@ fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
     ])
 }
 
-/// The state of the selected job and the numbers of its result, the most important first, side by side where there is
-/// room.
+/// The state of the selected job and the numbers of its result, the most important first, side by side where
+/// there is room.
 pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let Some(job) = state.job() else { return vec![] };
     let wall = job.wall_ms.map_or(String::new(), |ms| format!(" in {}", text::duration(ms)));

@@ -5,7 +5,7 @@ use crate::screens::order::Order;
 /// How measurements are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum ChiOrder {
-    /// By number.
+    /// By number in the style.
     #[default]
     Number,
     /// By distance from 1, the greatest first.

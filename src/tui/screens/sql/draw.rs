@@ -23,7 +23,6 @@ const KEYWORDS: [&str; 34] = [
 /// Words offered at once.
 const OFFERED: usize = 6;
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [editor, result] = panes(area, state);
     draw_result(frame, result, state);

@@ -21,7 +21,7 @@ pub struct Sql {
     pub running: Option<String>,
     /// The query that was answered last: that of the table.
     pub answered: String,
-    /// The answer.
+    /// Rows of the last answer, as they are looked at.
     pub table: Option<ResultTable>,
     /// How it went: rows and time, or what was wrong.
     pub outcome: Option<Result<String, String>>,

@@ -16,7 +16,7 @@ use crate::widgets::text;
 use study::{Cell, FitCell, Grid, JobId, USUAL_FABRIC, wearables};
 
 impl State {
-    /// The grid.
+    /// The grid looked at; `None` where it has no size or no subject.
     #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         self.data.as_ref()?.grid.as_ref().filter(|grid| !grid.sizes.is_empty() && !grid.subjects.is_empty())

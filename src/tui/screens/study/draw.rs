@@ -24,7 +24,6 @@ const LEAST_PICTURE: u16 = 14;
 /// What the marks of fits mean.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(grid) = state.grid() else {
         let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";

@@ -3,11 +3,11 @@
 /// Place in the grid: indices of size, simulator and subject.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Size.
+    /// Row of the size, from 0.
     pub size: usize,
-    /// Simulator.
+    /// Index among the simulators that have jobs.
     pub simulator: usize,
-    /// Subject.
+    /// Column of the subject, from 0.
     pub subject: usize,
 }
 

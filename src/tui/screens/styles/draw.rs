@@ -60,7 +60,6 @@ fn panes(area: Rect, state: &State) -> Panes {
     Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
 }
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
     let panes = panes(area, state);

@@ -27,7 +27,6 @@ pub fn letter(seam: usize) -> char {
     ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
 }
 
-/// Draws the pane.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
     let room = usize::from(area.width).saturating_sub(26);

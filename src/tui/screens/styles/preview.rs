@@ -137,7 +137,6 @@ fn split(pane: Rect, inner: Rect) -> [Rect; 2] {
     [picture, told]
 }
 
-/// Draws the pane.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let view = look_name(state.pictures.look);
     let seen = state.styles.preview.seen.as_ref();

@@ -26,7 +26,7 @@ pub struct Styles {
     pub requested: Option<LayoutRequest>,
     /// What was laid out last, or why it could not be.
     pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
-    /// Edge selected.
+    /// Edge selected: its piece and its index there.
     pub edge: EdgeAt,
     /// Line of the table selected.
     pub line: usize,
@@ -43,7 +43,7 @@ pub struct Styles {
 pub struct Edited {
     /// The size that was worked on, `STYLE/SIZE`.
     pub size: String,
-    /// The step.
+    /// Step of work that made it.
     pub step: SeamStep,
     /// The seam file then.
     pub seams: SourceFile,
@@ -85,11 +85,11 @@ pub struct Preview {
 /// A line of the table beside the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableLine {
-    /// A seam.
+    /// A seam, by its index on the desk.
     Seam(usize),
     /// What a person must decide.
     Question(usize),
-    /// A measurement.
+    /// A measurement, by its index among the lengths.
     Length(usize),
 }
 

@@ -44,7 +44,6 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
-/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
         frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);

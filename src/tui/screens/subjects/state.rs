@@ -12,10 +12,10 @@ pub const SHOWN: usize = 5;
 /// How subjects are ordered: by name, or by the measurement of a number in [`study::MEASUREMENTS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
-    /// By name.
+    /// By name, alphabetically.
     #[default]
     Name,
-    /// By sex.
+    /// By sex, then by name.
     Sex,
     /// By a measurement, the smallest first.
     Measurement(usize),
@@ -37,7 +37,7 @@ impl SubjectOrder {
 /// Where the user is among subjects.
 #[derive(Debug, Default)]
 pub struct Subjects {
-    /// Subject selected.
+    /// Name of the subject selected.
     pub chosen: Option<String>,
     /// Order of subjects.
     pub order: Order<SubjectOrder>,
