@@ -196,9 +196,10 @@ fn pictured(
     }
     for level in &found.levels {
         let name = level.name;
-        let [width, depth, height, girth] = [level.width_m, level.depth_m, level.level_m, level.girth_m].map(mm);
+        let [width, depth, height] = [level.width_m, level.depth_m, level.level_m].map(mm);
+        let [girth, within] = [level.girth_m, level.within_m].map(mm);
         context
-            .say(format_args!("{name}: {width:.0} mm wide, {depth:.0} mm deep at {height:.0} mm, girth {girth:.0} mm"));
+            .say(format_args!("{name}: {width:.0} mm wide, {depth:.0} mm deep at {height:.0} mm, girth {girth:.0} mm (within {within:.0} in four of five)"));
     }
     Ok(found.measurements)
 }

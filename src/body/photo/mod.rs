@@ -2,5 +2,7 @@
 
 mod outline;
 pub mod pictures;
+mod sections;
 mod segment;
 mod silhouette;
+mod trunk;

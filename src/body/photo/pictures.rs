@@ -1,8 +1,9 @@
 //! Bodies from a front and a side picture: silhouettes, their camera, widths and depths at the girth levels, girths.
 
-use super::outline::{Outlines, Profile, View};
+use super::outline::{Outlines, View};
 use super::segment;
 use super::silhouette::Mask;
+use super::trunk;
 use crate::{BodyError, Dimension, Measurements, Sex};
 use image::DynamicImage;
 use std::io::Cursor;
@@ -52,8 +53,6 @@ pub struct Pictured {
     pub levels: Vec<PicturedLevel>,
     /// Height of the crotch, m.
     pub crotch_level_m: f64,
-    /// The trunk's outlines.
-    pub trunk: Profile,
     /// What had to be assumed, as sentences for the user.
     pub notes: Vec<String>,
 }
@@ -67,6 +66,8 @@ pub struct PicturedLevel {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
+    /// Four girths in five lie so near to the one read.
+    pub within_m: f64,
 }
 
 /// Reads a body from a front and a side picture (PNG or JPEG: photographs against a plain background, or black and
@@ -89,14 +90,23 @@ pub fn from_pictures(
     }
     let outlines = Outlines::new(front, side, stature_m)?;
     notes.extend([("front", false), ("side", true)].into_iter().filter_map(|(name, side)| outlines.doubt(name, side)));
-    let found = outlines.sections(sex, &mut notes)?;
-    let girths = found.map(|section| section.girth(sex));
-    let levels = found.iter().zip(girths).map(|(section, girth)| PicturedLevel {
+    let (sections, is_chest_hidden) = outlines.sections(sex, &mut notes)?;
+    let read = trunk::read(&trunk::Seen {
+        sex,
+        stature_m,
+        crotch_m: outlines.crotch,
+        profile: outlines.trunk(),
+        sections,
+        is_chest_hidden,
+    });
+    let girths = read.map(|of| of.girth_m);
+    let levels = sections.iter().zip(&read).map(|(section, of)| PicturedLevel {
         name: section.level.name(),
         level_m: section.height,
-        width_m: section.width,
-        depth_m: section.depth,
-        girth_m: girth,
+        width_m: of.width_m,
+        depth_m: of.depth_m,
+        girth_m: of.girth_m,
+        within_m: of.within_m,
     });
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
@@ -105,8 +115,7 @@ pub fn from_pictures(
         .with(Dimension::WaistGirth, waist)
         .with(Dimension::HipGirth, hip)
         .with(Dimension::NeckGirth, neck);
-    let trunk = outlines.trunk_profile().ok_or_else(|| refused("side", "no trunk is found"))?;
-    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, trunk, notes })
+    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, notes })
 }
 
 pub(super) fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {

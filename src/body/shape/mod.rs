@@ -6,5 +6,4 @@ pub mod figure;
 mod interpolate;
 pub mod limbs;
 pub mod loft;
-pub mod sections;
 pub mod surface;

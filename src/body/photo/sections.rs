@@ -1,0 +1,57 @@
+//! Girth levels that pictures show, and the ellipse that a section is compared with.
+
+use geom::{V2, hull};
+
+/// A girth level that pictures show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Level {
+    Neck,
+    Chest,
+    Waist,
+    Hip,
+}
+
+impl Level {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Neck => "neck",
+            Self::Chest => "chest",
+            Self::Waist => "waist",
+            Self::Hip => "hip",
+        }
+    }
+}
+
+/// A section read from both views, metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Section {
+    pub level: Level,
+    pub height: f64,
+    pub width: f64,
+    pub depth: f64,
+}
+
+/// Length of the ellipse with the diameters `width` and `depth`.
+pub fn ellipse(width: f64, depth: f64) -> f64 {
+    const SIDES: u32 = 720;
+    let point = |i: u32| {
+        let (sin, cos) = (f64::from(i) / f64::from(SIDES) * std::f64::consts::TAU).sin_cos();
+        V2::new(width / 2.0 * cos, depth / 2.0 * sin)
+    };
+    hull::perimeter(&(0..SIDES).map(point).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ellipse_has_its_length() {
+        assert!((ellipse(2.0, 2.0) - std::f64::consts::TAU).abs() < 1e-4);
+        // Ramanujan's second formula.
+        let (a, b) = (0.17, 0.12_f64);
+        let h = ((a - b) / (a + b)).powi(2);
+        let known = std::f64::consts::PI * (a + b) * (1.0 + 3.0 * h / (10.0 + (4.0 - 3.0 * h).sqrt()));
+        assert!((ellipse(2.0 * a, 2.0 * b) - known).abs() < 1e-5);
+    }
+}
