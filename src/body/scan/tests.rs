@@ -1,7 +1,7 @@
 use super::*;
 use crate::Dimension;
 use crate::testing::{Noise, ascii_ply, binary_ply, binary_stl, in_mm, pierce, placed, roughen};
-use crate::{Joint, Measurements, build, measure, write_obj};
+use crate::{Joint, Measurements, build, lengths, measure, write_obj};
 use geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
@@ -90,6 +90,27 @@ fn a_scan_becomes_a_body_with_the_features_of_the_built_one() {
     }
     for (i, (found, truth)) in body.skeleton.joints.iter().zip(&known.skeleton.joints).enumerate() {
         assert!((found - truth).norm() < 0.04, "joint {i}: {found:?} for {truth:?}");
+    }
+}
+
+#[test]
+fn a_scan_keeps_all_that_is_measured_on_it() {
+    for (sex, stature_m, weight_kg) in [(Sex::Male, 1.78, 80.0), (Sex::Female, 1.65, 58.0)] {
+        let bytes = write_obj(&built(sex, stature_m, weight_kg).mesh);
+        let scan = from_scan(bytes.as_bytes(), None, Some(sex)).expect("a scan of a body");
+        let measured = lengths(&scan.imported.mesh, Some(sex), scan.girths.clone()).expect("a standing body").girths;
+        let of_subject = scan.girths.measurements(sex);
+        let body = scan.into_body().expect("a body that wears garments");
+        let check = |dimension: Dimension| {
+            let known = measured.get(dimension).expect("it is read");
+            let off = |found: Option<f64>| found.map_or(f64::INFINITY, |found| (found - known).abs());
+            assert!(off(body.girths.get(dimension)) < 1e-9, "{dimension:?} of the body");
+            assert!(off(of_subject.get(dimension)) < 5.1e-5, "{dimension:?} of the subject");
+        };
+        use Dimension::*;
+        [Stature, NeckGirth, ChestGirth, UnderbustGirth, WaistGirth, HipGirth, ThighGirth].into_iter().for_each(check);
+        [UpperArmGirth, ForearmGirth, WristGirth, ArmLength, AcrossShoulder, Inseam].into_iter().for_each(check);
+        [KneeGirth, CalfGirth, AnkleGirth].into_iter().for_each(check);
     }
 }
 
