@@ -35,7 +35,7 @@ fn table(card: &FitCard) -> Table {
     let sizes = card.beside();
     let mut columns = vec!["level".to_owned(), "body_mm".to_owned(), "target_mm".to_owned()];
     columns.extend(sizes.iter().map(|size| {
-        let mark = if size.place == Some(1) { " (wear)" } else { "" };
+        let mark = size.mark().map_or(String::new(), |mark| format!(" ({mark})"));
         format!("{} ease_mm{mark}", size.size)
     }));
     let row = |level: &str| {

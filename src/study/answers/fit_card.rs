@@ -5,6 +5,8 @@ use serde::Serialize;
 
 use crate::error::{Result, StudyError};
 use crate::store::Store;
+use fit::target::{is_within_reach, weight_m};
+use geom::units::from_mm;
 
 /// How one size sits at one level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -88,6 +90,21 @@ impl SizeSits {
         self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
     }
 
+    /// Whether it may be worn: its worst level lies no farther from its target than a grade step, what is too tight counting
+    /// double. So does a size without any target.
+    #[must_use]
+    pub fn is_within_reach(&self) -> bool {
+        let weight_m = self.worst().and_then(|level| level.off_mm).map(|off| weight_m(from_mm(off)));
+        weight_m.is_none_or(is_within_reach)
+    }
+
+    /// What stands beside its name: `wear`, `nearest` where no size fits; `None` of those that are not to be worn.
+    #[must_use]
+    pub fn mark(&self) -> Option<&'static str> {
+        let mark = if self.is_within_reach() { "wear" } else { "nearest" };
+        (self.place == Some(1)).then_some(mark)
+    }
+
     /// What is worst with it.
     #[must_use]
     pub fn words(&self) -> String {
@@ -141,22 +158,31 @@ impl FitCard {
         found
     }
 
-    /// What to wear, and what is worst with it.
+    /// What to wear, and what is worst with it; the nearest size, where none fits.
     #[must_use]
     pub fn verdict(&self) -> String {
-        let size = self.to_wear();
-        size.map_or("no level has a target".to_owned(), |size| format!("wear {}: {}", size.size, size.words()))
+        let told = |size: &SizeSits| match size.is_within_reach() {
+            true => format!("wear {}: {}", size.size, size.words()),
+            false => format!("{NONE_FITS}; nearest is {}: {}", size.size, size.words()),
+        };
+        self.to_wear().map_or("no level has a target".to_owned(), told)
     }
 
     /// Why the size to wear is the one: what is worst with it, and with those beside it.
     #[must_use]
     pub fn reasons(&self) -> String {
-        let own = self.to_wear().map(SizeSits::words);
+        let own = self.to_wear().map(|size| match size.is_within_reach() {
+            true => size.words(),
+            false => format!("{NONE_FITS}, it is the nearest: {}", size.words()),
+        });
         let others = self.beside().iter().filter(|size| size.place != Some(1));
         let others = others.map(|size| format!("{}: {}", size.size, size.words()));
         own.into_iter().chain(others).collect::<Vec<_>>().join("; ")
     }
 }
+
+/// What is said where the size to wear is none to wear.
+const NONE_FITS: &str = "no size fits";
 
 /// Sizes that stand side by side on a card.
 const BESIDE: usize = 3;
@@ -308,11 +334,28 @@ mod tests {
         let reasons = "chest loose by 18 mm; M: hip tight by 30 mm; XL: chest loose by 78 mm";
         assert_eq!(card.reasons(), reasons);
         assert_eq!(card.beside().iter().map(|size| size.size.as_str()).collect::<Vec<_>>(), ["M", "L", "XL"]);
+        let marks: Vec<Option<&str>> = card.sizes.iter().map(SizeSits::mark).collect();
+        assert_eq!(marks, [None, None, Some("wear"), None, None]);
         let at_end = FitCard { sizes: card.sizes[..3].to_vec(), ..card.clone() };
         assert_eq!(at_end.beside().len(), 3, "at an end the next two");
         assert_eq!(card.levels(), ["chest", "hip"]);
         let worst = |at: usize| card.sizes[at].worst().map(|level| (level.level.as_str(), level.words()));
         assert_eq!(worst(0), Some(("hip", "tight by 90 mm, smaller than the body".to_owned())));
         assert_eq!(worst(1), Some(("hip", "tight by 30 mm".to_owned())));
+    }
+
+    #[test]
+    fn where_no_size_fits_the_nearest_is_told() {
+        let check = |off_mm: f64, verdict: &str, mark: &str| {
+            let sizes = vec![size("40", 1, "waist", &[("chest", 78.0, 0.0), ("waist", 140.0 + off_mm, off_mm)])];
+            let card = FitCard { garment: "top".into(), subject: "a".into(), intended: None, sizes };
+            assert_eq!((card.verdict().as_str(), card.sizes[0].mark()), (verdict, Some(mark)));
+            assert_eq!(card.reasons().starts_with("no size fits, it is the nearest: "), mark == "nearest");
+        };
+        check(0.0, "wear 40: every level as meant", "wear");
+        check(59.0, "wear 40: waist loose by 59 mm", "wear");
+        check(121.0, "no size fits; nearest is 40: waist loose by 121 mm", "nearest");
+        check(-29.0, "wear 40: waist tight by 29 mm", "wear");
+        check(-31.0, "no size fits; nearest is 40: waist tight by 31 mm", "nearest");
     }
 }
