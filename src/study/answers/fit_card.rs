@@ -23,6 +23,9 @@ pub struct LevelSits {
     pub target_mm: Option<[f64; 2]>,
     /// How far outside that the ease lies, mm: negative where too tight.
     pub off_mm: Option<f64>,
+    /// How far round the body its drape covers the level, degrees, where that is not all round: the hem hangs above it elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covered_deg: Option<f64>,
 }
 
 /// Least departure from a target that counts, mm: below it, it is none when it is written.
@@ -40,10 +43,10 @@ pub enum Sits {
 }
 
 impl LevelSits {
-    /// Where its ease lies beside its target; `None` where none is meant.
+    /// Where its ease lies beside its target; `None` where none is meant, and where the drape does not cover it all round.
     #[must_use]
     pub fn sits(&self) -> Option<Sits> {
-        self.off_mm.map(|off| match off {
+        self.off_mm.filter(|_| self.covered_deg.is_none()).map(|off| match off {
             off if off <= -DEPARTURE_MM => Sits::Tight,
             off if off >= DEPARTURE_MM => Sits::Loose,
             _ => Sits::AsMeant,
@@ -60,6 +63,9 @@ impl LevelSits {
     #[must_use]
     pub fn words(&self) -> String {
         let by_mm = self.departure_mm();
+        if let Some(covered_deg) = self.covered_deg {
+            return format!("covered {covered_deg:.0} of 360 degrees");
+        }
         match self.sits() {
             None => "as designed".to_owned(),
             Some(Sits::Tight) if self.ease_mm < 0.0 => format!("tight by {by_mm:.0} mm, smaller than the body"),
@@ -84,6 +90,15 @@ pub struct SizeSits {
 }
 
 impl SizeSits {
+    /// What its worst level counts, m, of those that its drape covers all round; none where no such level has a target.
+    fn judge(&mut self) -> Option<f64> {
+        let all = self.levels.iter().filter(|level| level.covered_deg.is_none());
+        let weighed = all.filter_map(|level| Some((level, weight_m(from_mm(level.off_mm?)))));
+        let worst = weighed.reduce(|worst, next| if next.1 > worst.1 { next } else { worst });
+        self.worst_level = worst.map(|(level, _)| level.level.clone());
+        worst.map(|(_, weight_m)| weight_m)
+    }
+
     /// The level that is worst, where any has a target.
     #[must_use]
     pub fn worst(&self) -> Option<&LevelSits> {
@@ -129,6 +144,32 @@ pub struct FitCard {
 }
 
 impl FitCard {
+    /// Takes in where drapes do not cover a level all round, and judges by the other levels where there are any such.
+    fn take(&mut self, bare: &[Bare]) {
+        let own = bare.iter().filter(|bare| bare.garment == self.garment && bare.subject == self.subject);
+        let mut is_other = false;
+        for Bare { size, level, bare_deg, .. } in own {
+            let of_size = self.sizes.iter_mut().filter(|one| one.size == *size).flat_map(|one| &mut one.levels);
+            for known in of_size.filter(|known| known.level == *level) {
+                known.covered_deg = Some(360.0 - bare_deg);
+                is_other = true;
+            }
+        }
+        if !is_other {
+            return;
+        }
+        let mut weights: Vec<(usize, f64)> = Vec::new();
+        for (number, size) in self.sizes.iter_mut().enumerate() {
+            size.place = None;
+            weights.extend(size.judge().map(|weight_m| (number, weight_m)));
+        }
+        // Of two alike the smaller stays before.
+        weights.sort_by(|a, b| a.1.total_cmp(&b.1));
+        for (place, (number, _)) in (1..).zip(weights) {
+            self.sizes[number].place = Some(place);
+        }
+    }
+
     /// The size to wear; `None` where no level has a target.
     #[must_use]
     pub fn to_wear(&self) -> Option<&SizeSits> {
@@ -242,7 +283,51 @@ pub(crate) fn fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
             last.levels.sort_by_key(|level| order(&level.level));
         }
     }
+    let bare = bare(store, study)?;
+    cards.iter_mut().for_each(|card| card.take(&bare));
     Ok(cards)
+}
+
+/// A level that the drape of a size does not cover all round.
+struct Bare {
+    garment: String,
+    subject: String,
+    size: String,
+    level: String,
+    /// How far round the body there is no cloth, degrees.
+    bare_deg: f64,
+}
+
+/// Where a drape leaves so little of a level bare, degrees, it covers it: one direction of a section may lie between two.
+const LEAST_BARE_DEG: f64 = 15.0;
+
+/// The levels of a study that a drape does not cover all round, by FEM-GS where it has draped a size: directions of a section
+/// without cloth, where the hem of that side hangs above the level. Elsewhere another limb is in the way.
+fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
+    let sql = "WITH drape AS (
+            SELECT job_id, garment, subject, size, row_number() OVER (
+                PARTITION BY garment, subject, size ORDER BY simulator = 'hybrid', repeat
+            ) AS rank
+            FROM v_metrics WHERE study = ?1
+        )
+        SELECT garment, subject, size, level, 10.0 * count(*) AS bare_deg
+        FROM drape JOIN section USING (job_id) JOIN section_gap USING (job_id, level)
+            JOIN balance ON balance.job_id = drape.job_id
+                AND quantity = CASE CAST((angle_deg + 45) / 90 AS INTEGER) % 4
+                    WHEN 0 THEN 'hem_front' WHEN 1 THEN 'hem_right' WHEN 2 THEN 'hem_back' ELSE 'hem_left' END
+        WHERE rank = 1 AND gap_mm IS NULL AND height_mm < value
+        GROUP BY garment, subject, size, level HAVING bare_deg > ?2";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement.query_map((study, LEAST_BARE_DEG), |row| {
+        Ok(Bare {
+            garment: row.get(0)?,
+            subject: row.get(1)?,
+            size: row.get(2)?,
+            level: row.get(3)?,
+            bare_deg: row.get(4)?,
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Those of a garment and a subject, where one is asked for.
@@ -294,6 +379,7 @@ fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
             ease_mm: row.get(8)?,
             target_mm: target[0].zip(target[1]).map(|(least, most)| [least, most]),
             off_mm: row.get(11)?,
+            covered_deg: None,
         },
         worst_level: row.get(12)?,
     })
@@ -311,9 +397,38 @@ mod tests {
             ease_mm: *ease_mm,
             target_mm: Some([ease_mm - off_mm, ease_mm - off_mm + 50.0]),
             off_mm: Some(*off_mm),
+            covered_deg: None,
         };
         let levels = eases_mm.iter().map(level).collect();
         SizeSits { size: size.to_owned(), place: Some(place), worst_level: Some(worst.to_owned()), levels }
+    }
+
+    #[test]
+    fn a_level_that_is_not_covered_all_round_does_not_decide() {
+        let check = |bare: &[(&str, &str, f64)], verdict: &str, hip_of_s: &str| {
+            let sizes = vec![
+                size("S", 2, "hip", &[("chest", 60.0, 0.0), ("hip", 30.0, -10.0), ("upper_arm", 200.0, 8.0)]),
+                size("M", 1, "upper_arm", &[("chest", 118.0, 0.0), ("hip", 90.0, 0.0), ("upper_arm", 219.0, 19.0)]),
+            ];
+            let mut card = FitCard { garment: "top".into(), subject: "a".into(), intended: None, sizes };
+            let bare: Vec<Bare> = bare
+                .iter()
+                .map(|(size, level, bare_deg)| Bare {
+                    garment: "top".into(),
+                    subject: "a".into(),
+                    size: (*size).to_owned(),
+                    level: (*level).to_owned(),
+                    bare_deg: *bare_deg,
+                })
+                .collect();
+            card.take(&bare);
+            assert_eq!((card.verdict().as_str(), card.sizes[0].levels[1].words().as_str()), (verdict, hip_of_s));
+        };
+        check(&[], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
+        let both = [("S", "hip", 140.0), ("M", "hip", 90.0)];
+        check(&both, "wear S: upper arm loose by 8 mm", "covered 220 of 360 degrees");
+        check(&both[1..], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
+        check(&[("S", "upper_arm", 20.0)], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
     }
 
     #[test]
