@@ -94,6 +94,8 @@ pub struct MovedHandle {
     pub amount_mm: f64,
     /// What a positive amount does.
     pub does: &'static str,
+    /// Whether that is half of a girth, which changes by twice as much.
+    pub is_half_girth: bool,
 }
 
 /// A level before and after.
@@ -269,6 +271,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         handle: handle.as_str(),
         amount_mm: mm(*amount_m),
         does: handle.definition(),
+        is_half_girth: handle.is_half_girth(),
     };
     Ok(Alteration {
         garment: spec.garment.clone(),
