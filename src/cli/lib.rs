@@ -108,9 +108,11 @@ pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
     workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
 ) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
+            let error = args::without_environment(error, &arguments);
             // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
             // stream that cannot be written.
             let _ = error.print();

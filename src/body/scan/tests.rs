@@ -168,7 +168,7 @@ fn meshes_that_are_no_body_are_refused_with_the_reason() {
         let error = from_scan(write_obj(mesh).as_bytes(), unit, None).expect_err(needle).to_string();
         assert!(error.contains(needle), "{error}");
     };
-    check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0000 m high");
+    check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0 m high");
     check(&part(&|p| p.x > 0.0), None, "half a body");
     check(&part(&|p| p.z > 0.8 && p.x.abs() < 0.3), Some(LengthUnit::Metre), "no adult");
     let mut two = whole.clone();
