@@ -96,7 +96,7 @@ pub enum BodyError {
     )]
     Several,
     /// A mesh that is no adult in the unit given.
-    #[error("the body is {extent:.4} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?")]
+    #[error("the body is {} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?", short(.extent))]
     WrongUnit {
         /// Height in the unit given.
         extent: f64,
@@ -105,10 +105,33 @@ pub enum BodyError {
     },
     /// A mesh whose size fits a standing adult in no unit.
     #[error(
-        "the body is {extent} high, which is no adult in mm, cm, dm, m or inches; accepted: 1.2 to 2.4 m, or say the unit"
+        "the body is {} high, which is no adult in mm, cm, dm, m or inches; accepted: 1.2 to 2.4 m, or say the unit",
+        short(.extent)
     )]
     Unit {
         /// Height in the file's unit.
         extent: f64,
     },
+}
+
+/// A length of an unknown unit in few digits: five, and four decimals at most.
+fn short(length: &f64) -> String {
+    let decimals = 4.0 - length.abs().max(1.0).log10().floor();
+    format!("{length:.*}", decimals.clamp(0.0, 4.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_told_in_few_digits() {
+        let check = |length: f64, expect: &str| assert_eq!(short(&length), expect);
+        check(1738.6642, "1738.7");
+        check(173.86642, "173.87");
+        check(1.7386642, "1.7387");
+        check(0.0173866, "0.0174");
+        check(1234567.8, "1234568");
+        check(0.0, "0.0000");
+    }
 }

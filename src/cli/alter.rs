@@ -67,10 +67,15 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 }
 
 fn moves(found: &Alteration) -> Table {
-    let columns = ["handle", "by_mm"].map(str::to_owned).to_vec();
+    let columns = ["handle", "by_mm", "of", "girth_mm"].map(str::to_owned).to_vec();
     let row = |one: &study::MovedHandle| {
-        let by = Value::Text(format!("{:+.1}", one.amount_mm));
-        vec![Value::Text(one.handle.replace('_', " ")), by]
+        let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
+        // A girth changes by twice what half of it does.
+        let [of, girth] = match one.is_half_girth {
+            true => [Value::Text("half girth".to_owned()), by(2.0 * one.amount_mm)],
+            false => [Value::Null, Value::Null],
+        };
+        vec![Value::Text(one.handle.replace('_', " ")), by(one.amount_mm), of, girth]
     };
     Table { columns, rows: found.moves.iter().map(row).collect() }
 }

@@ -9,7 +9,7 @@ use super::args::{Audit as AuditArguments, AuditCommand, Format, Sql, StudyPath}
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
-use study::{Finding, StudyError, Table, Value, saved_queries, saved_query};
+use study::{EaseRow, Finding, StudyError, Table, Value, saved_queries, saved_query};
 
 /// `toile sql`. Ctrl-C ends a query that takes too long.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
@@ -84,6 +84,26 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     Ok(if of_thesis || found == 0 { End::Done } else { End::CheckFailed })
 }
 
+/// A row of `toile ease`. Only the level that decides has a class: the thesis's is by chest and hip, and what is meant elsewhere is
+/// told by `toile fit`.
+fn ease_row(ease: EaseRow) -> Vec<Value> {
+    let tenth = |length_m: f64| Value::Real((mm(length_m) * 10.0).round() / 10.0);
+    let mark = |holds: bool| Value::Text(if holds { "yes" } else { "" }.to_owned());
+    let class = if ease.decides { ease.fit.class.as_str() } else { "" };
+    vec![
+        Value::Text(ease.garment),
+        Value::Text(ease.size),
+        Value::Text(ease.subject),
+        Value::Text(ease.level),
+        tenth(ease.pattern_girth_m),
+        tenth(ease.body_girth_m),
+        tenth(ease.fit.ease_m),
+        Value::Text(class.to_owned()),
+        mark(ease.fit.undersized),
+        mark(ease.decides && ease.fit.borderline),
+    ]
+}
+
 /// Runs `toile ease`: prints ease and fit class of every size on every subject, level by level.
 pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     let (workspace, name) = context.eased(&arguments.study)?;
@@ -99,22 +119,7 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
         "undersized",
         "borderline",
     ];
-    let rows = workspace.ease(&name)?.into_iter().map(|ease| {
-        let tenth = |length_m: f64| Value::Real((mm(length_m) * 10.0).round() / 10.0);
-        let mark = |holds: bool| Value::Text(if holds { "yes" } else { "" }.to_owned());
-        vec![
-            Value::Text(ease.garment),
-            Value::Text(ease.size),
-            Value::Text(ease.subject),
-            Value::Text(ease.level),
-            tenth(ease.pattern_girth_m),
-            tenth(ease.body_girth_m),
-            tenth(ease.fit.ease_m),
-            Value::Text(ease.fit.class.as_str().to_owned()),
-            mark(ease.fit.undersized),
-            mark(ease.fit.borderline),
-        ]
-    });
+    let rows = workspace.ease(&name)?.into_iter().map(ease_row);
     let table = Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() };
     if context.json {
         let quoted = name.replace('\'', "''");
@@ -133,3 +138,33 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
 /// What is said where no level of a garment was found.
 pub const NO_EASE: &str =
     "no ease is known: no piece has a role by which levels are found, and the seam file names none ([fit.*])";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use study::{FitCell, FitClass};
+
+    #[test]
+    fn only_the_level_that_decides_has_a_class() {
+        let check = |ease_mm: f64, class: FitClass, decides: bool, expect: [&str; 3]| {
+            let ease_m = 1e-3 * ease_mm;
+            let [garment, size, subject, level] = ["top", "40", "a", "wrist"].map(str::to_owned);
+            let row = EaseRow {
+                garment,
+                size,
+                subject,
+                level,
+                pattern_girth_m: 0.9 + ease_m,
+                body_girth_m: 0.9,
+                decides,
+                fit: FitCell { ease_m, class, undersized: ease_m < 0.0, borderline: (40.0..50.0).contains(&ease_mm) },
+            };
+            let told: Vec<String> = ease_row(row)[7..].iter().map(Value::to_string).collect();
+            assert_eq!(told, expect, "{ease_mm}, {decides}");
+        };
+        check(41.0, FitClass::Tight, true, ["tight", "", "yes"]);
+        check(41.0, FitClass::Tight, false, ["", "", ""]);
+        check(-7.0, FitClass::Tight, false, ["", "yes", ""]);
+        check(211.0, FitClass::Loose, true, ["loose", "", ""]);
+    }
+}

@@ -153,9 +153,10 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     Ok(End::Done)
 }
 
-/// Says what was saved and what is doubtful about it.
+/// Says what was saved, what was guessed or repaired of it, and what is doubtful about it.
 pub fn say(context: &Context, saved: &[Saved]) {
     for entry in saved {
+        entry.notes.iter().for_each(|note| context.say(format_args!("{} {}: {note}", entry.part, entry.name)));
         context.say(entry);
         for doubt in &entry.doubts {
             context.say(format_args!("{} {}: {doubt}", entry.part, entry.name));

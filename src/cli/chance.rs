@@ -57,7 +57,8 @@ fn print(context: &Context, found: &Chance) -> Result<(), CliError> {
     let [low, high] = size.fits.interval.map(percent);
     let (fits, wear) = (percent(size.fits.share), percent(size.wear.share));
     output::text(&format!(
-        "{garment} on {subject} ({intended} fit): {told} fits with {fits} % (80 % interval {low} to {high}), and is the one to wear with {wear} %\n"
+        "{garment} on {subject} ({intended} fit): {told} fits with {fits} % (80 % interval {low} to {high}), and is {} with {wear} %\n",
+        size.place()
     ))?;
     context.print(&sizes(&found.sizes))?;
     output::text(&format!("{told}\n"))?;

@@ -23,6 +23,11 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     if cards.iter().any(|card| card.beside().iter().flat_map(|size| &size.levels).any(|level| level.ease_mm < 0.0)) {
         output::text("! smaller than the body\n")?;
     }
+    let told: Vec<String> =
+        cards.iter().flat_map(|card| card.beside().iter().flat_map(|size| uncovered(card, size))).collect();
+    if !told.is_empty() {
+        output::text(&format!("~ not covered all round by the drape, and so not judged: {}\n", told.join("; ")))?;
+    }
     if cards.is_empty() {
         context.say(NO_EASE);
         return Ok(End::CheckFailed);
@@ -35,7 +40,7 @@ fn table(card: &FitCard) -> Table {
     let sizes = card.beside();
     let mut columns = vec!["level".to_owned(), "body_mm".to_owned(), "target_mm".to_owned()];
     columns.extend(sizes.iter().map(|size| {
-        let mark = if size.place == Some(1) { " (wear)" } else { "" };
+        let mark = size.mark().map_or(String::new(), |mark| format!(" ({mark})"));
         format!("{} ease_mm{mark}", size.size)
     }));
     let row = |level: &str| {
@@ -53,7 +58,17 @@ fn table(card: &FitCard) -> Table {
     Table { columns, rows: card.levels().into_iter().map(row).collect() }
 }
 
-/// An ease in few letters: a mark stands for smaller than the body.
+/// The levels of a size that its drape does not cover all round, in words.
+fn uncovered(card: &FitCard, size: &SizeSits) -> Vec<String> {
+    let is_bare = |level: &&LevelSits| level.covered_deg.is_some();
+    let words = |level: &LevelSits| {
+        let (name, told) = (level.level.replace('_', " "), level.words());
+        format!("{name} of {} {} on {} ({told})", card.garment, size.size, card.subject)
+    };
+    size.levels.iter().filter(is_bare).map(words).collect()
+}
+
+/// An ease in few letters: marks stand for smaller than the body, and for not covered all round.
 fn short(level: &LevelSits) -> String {
     let mark = if level.ease_mm < 0.0 { "!" } else { "" };
     let by_mm = level.departure_mm();
@@ -61,6 +76,7 @@ fn short(level: &LevelSits) -> String {
         Some(Sits::Tight) => format!("tight {by_mm:.0}"),
         Some(Sits::Loose) => format!("loose {by_mm:.0}"),
         Some(Sits::AsMeant) => "as meant".to_owned(),
+        None if level.covered_deg.is_some() => "~".to_owned(),
         None => String::new(),
     };
     format!("{:+.0}{mark} {words}", level.ease_mm).trim_end().to_owned()

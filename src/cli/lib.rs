@@ -125,7 +125,7 @@ fn with_values_in_line(argument: clap::Arg) -> clap::Arg {
 }
 
 /// Reads the arguments (the first is the program's own name).
-fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, clap::Error> {
+fn read(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches_mut(&mut command().try_get_matches_from(arguments)?)
 }
 
@@ -135,9 +135,11 @@ pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
     workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
 ) -> ExitCode {
-    let arguments = match read(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match read(&arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
+            let error = args::without_environment(error, &arguments);
             // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
             // stream that cannot be written.
             let _ = error.print();

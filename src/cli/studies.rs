@@ -16,7 +16,9 @@ use study::{
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
-        StudyCommand::New { folder, wear, subject, patterns, seams, unit, fabric, sim, .. } if !subject.is_empty() => {
+        StudyCommand::New { folder, wear, subject, patterns, seams, unit, fabric, sim, fit, .. }
+            if !subject.is_empty() =>
+        {
             let mut workspace = context.workspace()?;
             let own = own_style(context, &mut workspace, patterns, seams.as_ref(), *unit)?;
             let known = wearables(&workspace.sizes()?);
@@ -36,12 +38,13 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
                 sizes: wear.iter().map(of).chain(own).collect::<Result<_, _>>()?,
                 fabric: fabric.clone(),
                 simulators: sim.iter().map(|&sim| sim.into()).collect(),
+                fit: fit.map(Into::into),
             };
             let path = workspace.create_study(&new)?;
             context.say(format_args!("wrote {}; `toile run {}` runs it", path.display(), folder.display()));
         }
-        StudyCommand::New { folder, style, .. } => {
-            for path in files::write_files(folder, &new_study(folder, model(*style))?)? {
+        StudyCommand::New { folder, style, fit, .. } => {
+            for path in files::write_files(folder, &new_study(folder, model(*style), fit.map(Into::into))?)? {
                 context.say(format_args!("wrote {}", path.display()));
             }
             context.say(format_args!("`toile run {}` runs it", folder.display()));

@@ -113,6 +113,16 @@ pub fn weight_m(off_m: f64) -> f64 {
     if off_m < 0.0 { -2.0 * off_m } else { off_m }
 }
 
+/// A grade step, m of girth: that of the drafted styles from S to M and from M to L, as letter sizes are graded.
+pub const GRADE_STEP_M: f64 = 0.06;
+
+/// Whether a size may be worn whose worst level counts so much, m: within a grade step. Farther out the next size of the same grade
+/// would lie nearer, and there is none: the sizes do not reach this body.
+#[must_use]
+pub fn is_within_reach(weight_m: f64) -> bool {
+    weight_m <= GRADE_STEP_M
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,6 +152,20 @@ mod tests {
         check(0.02, -0.03, 0.06);
         check(0.05, 0.0, 0.0);
         check(0.13, 0.01, 0.01);
+    }
+
+    #[test]
+    fn a_size_is_within_reach_up_to_a_grade_step() {
+        let check = |ease_m: f64, expect: bool| {
+            let found = is_within_reach(weight_m(off_m(ease_m, [0.05, 0.23])));
+            assert_eq!(found, expect, "{ease_m}");
+        };
+        check(0.1, true);
+        check(0.29, true);
+        check(0.351, false);
+        // What is too tight counts double.
+        check(0.021, true);
+        check(0.019, false);
     }
 
     #[test]

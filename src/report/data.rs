@@ -256,6 +256,8 @@ pub struct FitSize {
     pub size: String,
     /// Whether it is the one to wear.
     pub is_to_wear: bool,
+    /// Whether it fits; where the one to wear does not, none does.
+    pub fits: bool,
     /// What is worst with it.
     pub words: String,
 }

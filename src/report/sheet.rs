@@ -5,7 +5,7 @@ use base64::Engine;
 use sha2::{Digest, Sha256};
 
 use super::ReportError;
-use super::data::{FitSheet, FitVerdict, Outcome, Picture, ReportData, TryOn};
+use super::data::{FitSheet, FitSize, FitVerdict, Outcome, Picture, ReportData, TryOn};
 use super::page::{Image, MapImage};
 use super::text::{count, simulator_name};
 use super::viewer;
@@ -42,6 +42,7 @@ struct Sheet<'a> {
 struct Column {
     size: String,
     is_to_wear: bool,
+    fits: bool,
     words: String,
     views: Vec<Image>,
     maps: Vec<MapImage>,
@@ -87,7 +88,7 @@ impl<'a> Sheet<'a> {
             };
             let shown = sheet.simulator.and_then(of);
             let beside = of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
-            Column::new(size.size.clone(), size.is_to_wear, size.words.clone(), shown, beside)
+            Column::new(size, shown, beside)
         });
         let fabric = runs.first().map_or(String::new(), |run| format!(", {}", run.fabric.replace('_', " ")));
         let source = sheet.simulator.map_or("no drape yet".to_owned(), |simulator| {
@@ -110,13 +111,7 @@ impl<'a> Sheet<'a> {
 impl Column {
     /// Front, side and back and the stretch of the drape that is measured; of a garment that is smaller than the body besides the gap
     /// map of Hybrid-GS, which says where it does not close.
-    fn new(
-        size: String,
-        is_to_wear: bool,
-        words: String,
-        shown: Option<&TryOn>,
-        beside: Option<&TryOn>,
-    ) -> Result<Self, ReportError> {
+    fn new(size: &FitSize, shown: Option<&TryOn>, beside: Option<&TryOn>) -> Result<Self, ReportError> {
         let is = |picture: &&Picture, name: &str| picture.file.contains(name);
         let views = shown.into_iter().flat_map(|run| &run.views);
         let views = ["front-plain", "side-plain", "back-plain"]
@@ -133,9 +128,10 @@ impl Column {
         }
         let maps = map(shown, "front-stretch").into_iter().chain(gap.map(Ok));
         Ok(Self {
-            size,
-            is_to_wear,
-            words,
+            size: size.size.clone(),
+            is_to_wear: size.is_to_wear,
+            fits: size.fits,
+            words: size.words.clone(),
             views: views.map(Image::new).collect::<Result<_, _>>()?,
             maps: maps.collect::<Result<_, _>>()?,
         })

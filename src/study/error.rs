@@ -85,6 +85,14 @@ pub enum StudyError {
         /// Names that there are, for a suggestion.
         known: Vec<String>,
     },
+    /// One of several was not asked for by its name.
+    #[error("which {what}? --{what} says it; there are: {}", .known.join(", "))]
+    Unsaid {
+        /// Kind of thing, and the flag that names it.
+        what: &'static str,
+        /// What there is.
+        known: Vec<String>,
+    },
     /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
     #[error("no {what} `{name}`; {}", hidden_hint(.what))]
     Hidden {

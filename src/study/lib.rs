@@ -83,6 +83,7 @@ pub use store::read::JobFilter;
 pub use store::sql::{Interrupter, SavedQuery, save_query, saved_queries, saved_query};
 pub use workspace::Workspace;
 
+pub use fit::target::Intended;
 pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, Without};
 pub use pattern::Handle;
 pub use render::export::MeshFormat;

@@ -216,6 +216,19 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
 }
 
 #[test]
+fn a_usage_line_shows_only_what_was_typed() {
+    let place = Place::new();
+    let check = |arguments: &str, is_typed: bool| {
+        let said = place.toile(arguments).ends_with(2);
+        assert!(said.err.contains("Usage: toile render"), "{}", said.err);
+        assert_eq!(said.err.contains("--db <PATH>"), is_typed, "{arguments}: {}", said.err);
+    };
+    check("render 1 --view close-up --turn 15 -o x.png", false);
+    check("render 1 -o x.png --vieww front", false);
+    check("render 1 --view close-up --turn 15 -o x.png --db other.sqlite", true);
+}
+
+#[test]
 fn options_may_be_shortened_while_they_are_told_apart() {
     let place = Place::new();
     place.toile("pattern draft tshirt --out drafted").ends_with(0);

@@ -5,6 +5,7 @@
 use super::{MOST_TRIANGLES, align, file_error, glb, stl, too_many};
 use crate::BodyError;
 use crate::repair::clean;
+use geom::units::mm;
 use geom::{TriMesh, V3};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -234,7 +235,8 @@ fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyErro
         Some(unit) => return Err(BodyError::WrongUnit { extent: height, unit: unit.name() }),
         None => {
             let guess = guess_unit(height).ok_or(BodyError::Unit { extent: height })?;
-            notes.push(format!("unit taken as {} (the body is {height:.4} high)", guess.name()));
+            let height_mm = mm(height * guess.metres());
+            notes.push(format!("unit taken as {} (the body is {height_mm:.1} mm high)", guess.name()));
             guess
         }
     };

@@ -104,19 +104,16 @@ impl Girths {
         values.into_iter().chain([(VOLUME, Some(self.volume_l))]).chain(levels)
     }
 
-    /// The measurements of a subject with these girths, as a study holds them.
+    /// The measurements of a subject with these girths, as a study holds them: all that a subject may have, to the tenth of a
+    /// millimetre, which is finer than any tape.
     #[must_use]
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let mut known = Measurements::of(sex, f64::NAN);
-        for dimension in [
-            Dimension::Stature,
-            Dimension::ChestGirth,
-            Dimension::WaistGirth,
-            Dimension::HipGirth,
-            Dimension::NeckGirth,
-            Dimension::AcrossShoulder,
-        ] {
-            known.set(dimension, self.get(dimension));
+        for dimension in READ {
+            let [least, greatest] = dimension.range();
+            let may_be = |value: &f64| dimension == Dimension::Stature || (least..=greatest).contains(value);
+            let tenths = |value: f64| from_mm((mm(value) * 10.0).round() / 10.0);
+            known.set(dimension, self.get(dimension).map(tenths).filter(may_be));
         }
         known
     }

@@ -90,8 +90,36 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<M
     let median = median_section(mesh, &sites);
     let front_neck = neck_base::front_neck(mesh, &sites);
     let marks = Marks::of_mesh(mesh, &sites, sex);
+    let limbs = read_limbs(mesh, &sites, &marks, &mut girths);
+    let lengths = Lengths {
+        cervicale_height_m: sites.back_neck.z - sites.floor,
+        back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
+        front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
+        total_crotch_length_m: crotch_length(&median, sites.waist),
+        calf_level_m: limbs.calf.map(|z| z - sites.floor),
+        knee_level_m: Some(limbs.knee - sites.floor),
+        elbow_girth_m: limbs.elbow_girth,
+    };
+    let confidence = confidence::of(mesh, &sites, &marks);
+    let tailor = tailor::take(mesh, &marks);
+    Ok(Measured { girths, lengths, tailor, confidence })
+}
+
+/// Adds what the tape reads on the limbs of a mesh to its girths.
+pub(crate) fn add_limbs(mesh: &TriMesh, sites: &Sites, sex: Sex, girths: &mut Girths) {
+    read_limbs(mesh, sites, &Marks::of_mesh(mesh, sites, sex), girths);
+}
+
+/// Where limbs were read, and what is none of their girths, metres.
+struct Limbs {
+    calf: Option<f64>,
+    knee: f64,
+    elbow_girth: Option<f64>,
+}
+
+fn read_limbs(mesh: &TriMesh, sites: &Sites, marks: &Marks, girths: &mut Girths) -> Limbs {
     let arm = marks.arm.as_ref();
-    let leg = |range: [f64; 2]| leg_girths(mesh, &sites, range);
+    let leg = |range: [f64; 2]| leg_girths(mesh, sites, range);
     let calf = leg(CALF).into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
     let ankle = leg(ANKLE).into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let wrist = arm.and_then(|arm| {
@@ -101,23 +129,12 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<M
     girths.set(Dimension::CalfGirth, calf.map(|(_, girth)| girth));
     girths.set(Dimension::AnkleGirth, ankle.map(|(_, girth)| girth));
     girths.set(Dimension::WristGirth, wrist);
-    let [elbow, forearm] = arm.map_or([None; 2], |arm| tailor::elbow_and_forearm(mesh, arm));
-    let knee = tailor::knee_level(&marks);
+    let [elbow_girth, forearm] = arm.map_or([None; 2], |arm| tailor::elbow_and_forearm(mesh, arm));
+    let knee = tailor::knee_level(marks);
     girths.set(Dimension::KneeGirth, tape::leg_girth(mesh, knee, sites.middle));
     girths.set(Dimension::ForearmGirth, forearm);
     girths.set(Dimension::ArmLength, arm.map(|arm| arm_length(arm, sites.shoulder[0])));
-    let lengths = Lengths {
-        cervicale_height_m: sites.back_neck.z - sites.floor,
-        back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
-        front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
-        total_crotch_length_m: crotch_length(&median, sites.waist),
-        calf_level_m: calf.map(|(z, _)| z - sites.floor),
-        knee_level_m: Some(knee - sites.floor),
-        elbow_girth_m: elbow,
-    };
-    let confidence = confidence::of(mesh, &sites, &marks);
-    let tailor = tailor::take(mesh, &marks);
-    Ok(Measured { girths, lengths, tailor, confidence })
+    Limbs { calf: calf.map(|(z, _)| z), knee, elbow_girth }
 }
 
 /// The points of the median section of the trunk: forward and up.

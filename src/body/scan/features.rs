@@ -4,7 +4,7 @@
 
 use crate::measure::arm::Arm;
 use crate::measure::sites::{self, Sites};
-use crate::measure::{landmarks, neck_base};
+use crate::measure::{landmarks, lengths, neck_base};
 use crate::model::control::{ControlMesh, Layer};
 use crate::model::control_cut::{Cuts, control_mesh};
 use crate::shape::atlas::Atlas;
@@ -19,7 +19,8 @@ use geom::{TriMesh, V3};
 /// apart from each other.
 pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let (sites, _) = sites::find_sites(&mesh, Some(sex))?;
-    let girths = sites::girths_at(&mesh, &sites)?;
+    let mut girths = sites::girths_at(&mesh, &sites)?;
+    lengths::add_limbs(&mesh, &sites, sex, &mut girths);
     let right = Half::find(&mesh, &sites, sites.shoulder[0])?;
     let mirrored = landmarks::mirrored(&mesh, 0.0);
     let left = Half::find(&mirrored, &sites, mirror(sites.shoulder[1]))?;

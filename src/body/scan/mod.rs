@@ -3,7 +3,7 @@
 mod features;
 
 use crate::files::import::import;
-use crate::measure::sites;
+use crate::measure::{lengths, sites};
 use crate::repair;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Sex};
 use geom::V3;
@@ -39,7 +39,8 @@ pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Re
         let name = if told == Sex::Male { "man" } else { "woman" };
         imported.notes.push(format!("measured as a {name}, by neck, hip and waist girth: the sex was not given"));
     }
-    let girths = sites::girths_at(&imported.mesh, &sites)?;
+    let mut girths = sites::girths_at(&imported.mesh, &sites)?;
+    lengths::add_limbs(&imported.mesh, &sites, told, &mut girths);
     Ok(Scan { imported, sex: told, girths })
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::Dimension;
 use crate::testing::{Noise, ascii_ply, binary_ply, binary_stl, in_mm, pierce, placed, roughen};
-use crate::{Joint, Measurements, build, measure, write_obj};
+use crate::{Joint, Measurements, build, lengths, measure, write_obj};
 use geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
@@ -94,6 +94,27 @@ fn a_scan_becomes_a_body_with_the_features_of_the_built_one() {
 }
 
 #[test]
+fn a_scan_keeps_all_that_is_measured_on_it() {
+    for (sex, stature_m, weight_kg) in [(Sex::Male, 1.78, 80.0), (Sex::Female, 1.65, 58.0)] {
+        let bytes = write_obj(&built(sex, stature_m, weight_kg).mesh);
+        let scan = from_scan(bytes.as_bytes(), None, Some(sex)).expect("a scan of a body");
+        let measured = lengths(&scan.imported.mesh, Some(sex), scan.girths.clone()).expect("a standing body").girths;
+        let of_subject = scan.girths.measurements(sex);
+        let body = scan.into_body().expect("a body that wears garments");
+        let check = |dimension: Dimension| {
+            let known = measured.get(dimension).expect("it is read");
+            let off = |found: Option<f64>| found.map_or(f64::INFINITY, |found| (found - known).abs());
+            assert!(off(body.girths.get(dimension)) < 1e-9, "{dimension:?} of the body");
+            assert!(off(of_subject.get(dimension)) < 5.1e-5, "{dimension:?} of the subject");
+        };
+        use Dimension::*;
+        [Stature, NeckGirth, ChestGirth, UnderbustGirth, WaistGirth, HipGirth, ThighGirth].into_iter().for_each(check);
+        [UpperArmGirth, ForearmGirth, WristGirth, ArmLength, AcrossShoulder, Inseam].into_iter().for_each(check);
+        [KneeGirth, CalfGirth, AnkleGirth].into_iter().for_each(check);
+    }
+}
+
+#[test]
 fn any_format_unit_turn_noise_and_hole_measures_as_the_body() {
     let mut noise = Noise(5);
     let mut off: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
@@ -147,7 +168,7 @@ fn meshes_that_are_no_body_are_refused_with_the_reason() {
         let error = from_scan(write_obj(mesh).as_bytes(), unit, None).expect_err(needle).to_string();
         assert!(error.contains(needle), "{error}");
     };
-    check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0000 m high");
+    check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0 m high");
     check(&part(&|p| p.x > 0.0), None, "half a body");
     check(&part(&|p| p.z > 0.8 && p.x.abs() < 0.3), Some(LengthUnit::Metre), "no adult");
     let mut two = whole.clone();

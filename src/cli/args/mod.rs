@@ -1,8 +1,11 @@
 //! The command line as clap parses it.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::Resettable;
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 mod alter;
@@ -46,6 +49,15 @@ pub struct Arguments {
     pub images: String,
     #[command(subcommand)]
     pub command: Option<Command>,
+}
+
+/// A refusal whose usage line shows only what was typed: clap takes a database named by the environment for typed.
+pub fn without_environment(error: clap::Error, arguments: &[OsString]) -> clap::Error {
+    if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return error;
+    }
+    let typed = Arguments::command().mut_arg("db", |db| db.env(Resettable::Reset));
+    typed.try_get_matches_from(arguments).err().unwrap_or(error)
 }
 
 /// Flags that every command takes.

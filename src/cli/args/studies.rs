@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 use super::{DraftStyle, PatternUnit, Sex, SubjectValues, TrySimulator};
 
@@ -11,6 +11,30 @@ use super::{DraftStyle, PatternUnit, Sex, SubjectValues, TrySimulator};
 pub struct StudyPath {
     /// Folder of the study, or its study.toml.
     pub study: PathBuf,
+}
+
+/// How a garment is meant to sit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IntendedFit {
+    /// Smaller than the body, of cloth that stretches.
+    Compression,
+    /// Close to the body.
+    Slim,
+    /// With room to move.
+    Regular,
+    /// Away from the body.
+    Loose,
+}
+
+impl From<IntendedFit> for study::Intended {
+    fn from(fit: IntendedFit) -> Self {
+        match fit {
+            IntendedFit::Compression => Self::Compression,
+            IntendedFit::Slim => Self::Slim,
+            IntendedFit::Regular => Self::Regular,
+            IntendedFit::Loose => Self::Loose,
+        }
+    }
 }
 
 /// Commands on study files.
@@ -46,6 +70,9 @@ pub enum StudyCommand {
         /// Simulators; may be given twice.
         #[arg(long, value_enum, default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
         sim: Vec<TrySimulator>,
+        /// How the garments are meant to sit; regular where it is not said.
+        #[arg(long, value_enum)]
+        fit: Option<IntendedFit>,
     },
     /// Check a study file and everything it names: every problem at once, with its line.
     Check(StudyPath),

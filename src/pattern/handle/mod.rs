@@ -231,6 +231,13 @@ impl Handle {
         self.words().1
     }
 
+    /// Whether the amount is that of half of a girth: the girth changes by twice as much.
+    #[must_use]
+    pub const fn is_half_girth(self) -> bool {
+        use Handle::*;
+        matches!(self, Chest | Waist | Hip | Hem | Thigh | Knee | LegOpening | Fork | Bicep | Cuff)
+    }
+
     /// The handle of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

@@ -473,3 +473,13 @@ fn foreign_patterns_change_by_their_handles() {
     check("freesewing/sandy_cisFemaleAdult36_aama.dxf", 0, &[]);
     check("valentina/pantsM1_52-176.v1.1.1.astm-r12.dxf", 9, &[]);
 }
+
+#[test]
+fn handles_of_half_a_girth_are_those_whose_words_say_so() {
+    for handle in Handle::ALL {
+        let says = handle.definition().starts_with("half of");
+        assert_eq!(handle.is_half_girth(), says, "{}", handle.as_str());
+        let is_half = |point: Point| point.as_str().starts_with("half_");
+        assert!(handle.changes().is_none_or(|point| is_half(point) == says), "{}", handle.as_str());
+    }
+}

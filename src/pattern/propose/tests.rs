@@ -349,3 +349,31 @@ fn the_stitches_of_garmentcode_are_proposed() {
         assert_eq!(found, expect, "{garment}");
     }
 }
+
+#[test]
+fn proposals_call_girths_what_closes() {
+    let check = |file: &str| {
+        let Some(path) = shared(file) else { return };
+        let bytes = std::fs::read(&path).expect("the file is there");
+        let unit = (!file.starts_with("freesewing") && !file.starts_with("garmentcode")).then_some(Unit::Mm);
+        let Ok(drawn) = dxf::read(&bytes, file, unit) else { return };
+        let size = drawn.sizes().first().map(|size| (*size).to_owned());
+        let Ok(pieces) = drawn.to_sew(size.as_deref()) else { return };
+        let proposal = propose(&pieces);
+        let Ok(style) = Style::read(&pieces, proposal.toml("x").as_bytes(), "x") else { return };
+        let Ok(garment) = style.mesh(20e-3) else { return };
+        let found = crate::check::of_garment(&style, &garment);
+        let loops: Vec<_> = found.iter().filter(|one| one.kind == crate::check::FindingKind::Loop).collect();
+        assert!(loops.is_empty(), "{file}: {loops:?}");
+    };
+    for folder in ["freesewing", "garmentcode", "valentina", "jblockcreator"] {
+        let Some(path) = shared(folder) else { continue };
+        let mut files: Vec<PathBuf> =
+            std::fs::read_dir(path).expect("a folder").map(|entry| entry.expect("readable").path()).collect();
+        files.sort();
+        for file in files.iter().filter(|file| file.extension().is_some_and(|end| end == "dxf")) {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            check(&format!("{folder}/{name}"));
+        }
+    }
+}

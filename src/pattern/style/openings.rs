@@ -14,33 +14,28 @@ pub(crate) type EdgeEnd = (EdgeRef, bool);
 impl Style {
     /// Replaces the measurements by one for each opening and one for each seam. An opening is a loop of edges that no
     /// seam holds, such as a hem, a neckline or a sleeve opening. A seam is measured along its side `a`, or `b` where
-    /// `a` is longer, and so eased or gathered into it.
+    /// `a` is longer, and so eased or gathered into it. It is a girth where its ends meet, as at an armhole.
     pub fn measure_openings_and_seams(&mut self) {
-        let mut found: Vec<(String, MeasurementKind, Vec<EdgeRef>)> = Vec::new();
+        let meets = self.meeting_corners();
+        let mut found: Vec<(String, MeasurementKind, bool, Vec<EdgeRef>)> = Vec::new();
         for opening in self.openings(&|_| true) {
             let name = match opening.as_slice() {
                 &[only] => self.edge_name(only),
                 &[first, second] => format!("{} + {}", self.edge_name(first), self.edge_name(second)),
                 all => format!("{} and {} more", self.edge_name(all[0]), all.len() - 1),
             };
-            found.push((format!("opening {name}"), MeasurementKind::ClosedGirth, opening));
+            found.push((format!("opening {name}"), MeasurementKind::ClosedGirth, true, opening));
         }
         for seam in &self.seams {
             let length_m = |side: &[EdgeRef]| -> f64 { side.iter().map(|edge| self.edge(*edge).line.length()).sum() };
             let is_eased = length_m(&seam.a) > length_m(&seam.b) + EASED_M;
             let side = if is_eased { &seam.b } else { &seam.a };
-            found.push((format!("seam {}", seam.name), MeasurementKind::OpenLength, side.clone()));
+            let kind = if meets.close(side) { MeasurementKind::ClosedGirth } else { MeasurementKind::OpenLength };
+            found.push((format!("seam {}", seam.name), kind, false, side.clone()));
         }
-        let measured = found.into_iter().enumerate().map(|(k, (name, kind, edges))| {
+        let measured = found.into_iter().enumerate().map(|(k, (name, kind, is_free_edge, edges))| {
             let path: Vec<PathPart> = edges.into_iter().map(PathPart::Edge).collect();
-            StyleMeasurement {
-                no: k as u32 + 1,
-                name,
-                kind,
-                l2d_m: self.path_length_m(&path),
-                is_free_edge: kind == MeasurementKind::ClosedGirth,
-                path,
-            }
+            StyleMeasurement { no: k as u32 + 1, name, kind, l2d_m: self.path_length_m(&path), is_free_edge, path }
         });
         self.measurements = measured.collect();
     }
@@ -82,6 +77,31 @@ impl Style {
         None
     }
 
+    /// Which corners of the pieces meet once all seams are sewn.
+    fn meeting_corners(&self) -> Corners {
+        let mut first = 0;
+        let offsets = self.pieces.iter().map(|piece| {
+            let offset = first;
+            first += piece.edges.len();
+            (offset, piece.edges.len())
+        });
+        let offsets: Vec<(usize, usize)> = offsets.collect();
+        let mut corners = Corners { offsets, least: (0..first).collect() };
+        let partners = self.partners(&|_| true);
+        // A corner lies in few seams: the labels settle after as many rounds as seams meet in one point.
+        loop {
+            let before = corners.least.clone();
+            for (one, other) in &partners {
+                let [one, other] = [corners.at(*one), corners.at(*other)];
+                let both = corners.least[one].min(corners.least[other]);
+                (corners.least[one], corners.least[other]) = (both, both);
+            }
+            if before == corners.least {
+                return corners;
+            }
+        }
+    }
+
     /// The end of the neighbouring edge of the same piece that is the same corner.
     pub(crate) fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
         let n = self.pieces[piece].edges.len();
@@ -116,6 +136,30 @@ impl Style {
     }
 }
 
+/// The corners of all pieces: each with the least of those that it meets.
+struct Corners {
+    /// First corner of each piece, and how many it has.
+    offsets: Vec<(usize, usize)>,
+    least: Vec<usize>,
+}
+
+impl Corners {
+    /// The corner at the end of an edge.
+    fn at(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> usize {
+        let (offset, n) = self.offsets[piece];
+        offset + if is_last { (edge + 1) % n } else { edge }
+    }
+
+    /// Whether edges close to a loop: every end meets another.
+    fn close(&self, edges: &[EdgeRef]) -> bool {
+        let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
+        for end in edges.iter().flat_map(|edge| [(*edge, false), (*edge, true)]) {
+            *ends.entry(self.least[self.at(end)]).or_default() += 1;
+        }
+        ends.values().all(|count| count % 2 == 0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::PathPart;
@@ -145,11 +189,11 @@ mod tests {
             let mut style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
             let published = style.measurements.clone();
             style.measure_openings_and_seams();
-            let openings: Vec<_> =
-                style.measurements.iter().filter(|m| m.kind == MeasurementKind::ClosedGirth).collect();
+            let openings: Vec<_> = style.measurements.iter().filter(|m| m.is_free_edge).collect();
             assert_eq!(openings.len(), expect.len(), "{model:?}: {openings:?}");
             for (opening, &(edges, no)) in openings.iter().zip(expect) {
-                assert!(opening.is_free_edge && opening.path.len() == edges, "{model:?}: {}", opening.name);
+                let is_girth = opening.kind == MeasurementKind::ClosedGirth;
+                assert!(is_girth && opening.path.len() == edges, "{model:?}: {}", opening.name);
                 let length = mm(published[no - 1].l2d_m);
                 assert!((mm(opening.l2d_m) - length).abs() < 0.1, "{model:?}: {} for #{no}", opening.name);
             }
@@ -158,5 +202,23 @@ mod tests {
         check(Model::Tshirt, &[(2, 1), (3, 6), (1, 2), (1, 2)]);
         check(Model::Trousers, &[(4, 5), (2, 6), (2, 6)]);
         check(Model::Dress, &[(2, 4), (2, 5), (2, 4), (2, 1)]);
+    }
+
+    #[test]
+    fn seams_whose_ends_meet_are_girths() {
+        let check = |model: Model, expect: &[&str]| {
+            let draft = model.drafts().swap_remove(0);
+            let mut style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
+            style.measure_openings_and_seams();
+            let girths =
+                style.measurements.iter().filter(|m| m.kind == MeasurementKind::ClosedGirth && !m.is_free_edge);
+            assert_eq!(girths.map(|m| m.name.as_str()).collect::<Vec<_>>(), expect, "{model:?}");
+            let garment = style.mesh(30e-3).expect("it meshes");
+            let found = crate::check::of_garment(&style, &garment);
+            assert!(found.iter().all(|one| one.kind != crate::check::FindingKind::Loop), "{model:?}: {found:?}");
+        };
+        check(Model::Tshirt, &["seam armhole_right", "seam armhole_left"]);
+        check(Model::Trousers, &[]);
+        check(Model::Dress, &[]);
     }
 }

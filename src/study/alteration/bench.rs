@@ -26,6 +26,8 @@ const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
 /// Amounts are given in steps of this, as a pattern maker draws them, mm.
 const DRAWN_MM: f64 = 0.5;
+/// Least amount of a handle that is made, mm: cutting and sewing err by as much.
+const LEAST_MM: f64 = 1.0;
 /// How far inside a band a level is aimed, so that drawn amounts keep it there, m.
 const INSIDE_M: f64 = 0.002;
 /// Least change of an ease per change of a handle for which the handle is taken: one that does less takes more than 5 mm for 1 mm, and
@@ -147,7 +149,12 @@ impl<'a> Bench<'a> {
             let firm = |goal: &Goal| Goal { gives: goal.gives.map(|gives| gives / FIRMER), ..goal.clone() };
             amounts = self.settled(amounts, &limits, &others.iter().map(firm).collect::<Vec<_>>())?;
         }
-        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM)).collect();
+        // What nobody cuts so exactly is left out, the least first, and the others make up for it.
+        while let Some(place) = least_noise(&amounts) {
+            (limits[place], amounts[place]) = ([0.0; 2], 0.0);
+            amounts = self.settled(amounts, &limits, others)?;
+        }
+        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm(drawn_mm(*m))).collect();
         self.style.moved(&self.moves(&drawn))?;
         Ok(drawn)
     }
@@ -265,7 +272,62 @@ impl<'a> Bench<'a> {
     }
 }
 
+/// An amount, m, as a pattern maker draws it, mm.
+fn drawn_mm(amount_m: f64) -> f64 {
+    (mm(amount_m) / DRAWN_MM).round() * DRAWN_MM
+}
+
+/// The handle with the least amount that would be drawn, though it is less than is made.
+fn least_noise(amounts: &[f64]) -> Option<usize> {
+    let is_noise = |place: &usize| {
+        let drawn_mm = drawn_mm(amounts[*place]).abs();
+        drawn_mm > 0.0 && drawn_mm < LEAST_MM
+    };
+    (0..amounts.len()).filter(is_noise).min_by(|a, b| amounts[*a].abs().total_cmp(&amounts[*b].abs()))
+}
+
 /// Ease at every level of a style on a body, m.
 fn eases(style: &Style, body: &Body) -> BTreeMap<String, f64> {
     ease::on(style, body).into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::{Dimension, Measurements, Sex, build_body};
+    use pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+
+    #[test]
+    fn the_least_amount_that_is_less_than_is_made_is_left_out() {
+        let check = |amounts_mm: &[f64], expect: Option<usize>| {
+            let amounts: Vec<f64> = amounts_mm.iter().copied().map(from_mm).collect();
+            assert_eq!(least_noise(&amounts), expect, "{amounts_mm:?}");
+        };
+        check(&[], None);
+        check(&[0.0, 0.2, -0.1], None);
+        check(&[17.0, 0.6, -0.5, 1.0], Some(2));
+        check(&[-0.4, 0.6, 12.0], Some(0));
+        check(&[0.8, -1.2], None);
+    }
+
+    #[test]
+    fn a_change_has_no_amount_below_what_is_made() {
+        let style = Style::read(&tshirt(TshirtSize::S).pieces, TSHIRT_SEAMS, "a.toml").expect("a style");
+        let wish = Wish::of("tshirt", "a", "S");
+        let check = |[stature_m, chest_m, waist_m, hip_m]: [f64; 4]| {
+            let person = Measurements::of(Sex::Male, stature_m)
+                .with(Dimension::ChestGirth, chest_m)
+                .with(Dimension::WaistGirth, waist_m)
+                .with(Dimension::HipGirth, hip_m);
+            let (body, target) = (build_body(&person).expect("a body"), Target::default());
+            let bench = Bench::new(&style, &body, &target, &wish);
+            let amounts = bench.found(&[]).expect("handles that move");
+            let moves = bench.moves(&amounts);
+            assert!(moves.iter().all(|(_, by_m)| mm(by_m.abs()) > LEAST_MM - 1e-6), "{chest_m}: {moves:?}");
+            assert_eq!(bench.missed_m(&amounts).expect("it moves"), 0.0, "{chest_m}: {moves:?}");
+        };
+        check([1.78, 0.98, 0.85, 1.00]);
+        check([1.75, 0.94, 0.84, 0.97]);
+        check([1.70, 0.90, 0.80, 0.93]);
+    }
 }

@@ -94,6 +94,8 @@ pub struct MovedHandle {
     pub amount_mm: f64,
     /// What a positive amount does.
     pub does: &'static str,
+    /// Whether that is half of a girth, which changes by twice as much.
+    pub is_half_girth: bool,
 }
 
 /// A level before and after.
@@ -269,6 +271,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         handle: handle.as_str(),
         amount_mm: mm(*amount_m),
         does: handle.definition(),
+        is_half_girth: handle.is_half_girth(),
     };
     Ok(Alteration {
         garment: spec.garment.clone(),
@@ -344,14 +347,36 @@ fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
     Ok(Asked { spec, others: on_subject, target })
 }
 
-/// The name that is asked for among those known, whatever its case; the only one where none is asked for.
+/// The name that is asked for among those known, whatever its case; the only one where none is asked for. `what` is also the
+/// flag that asks for it.
 pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));
-    let found = match asked {
-        Some(asked) => known.iter().find(|name| name.eq_ignore_ascii_case(asked)).cloned(),
-        None if known.len() == 1 => known.first().cloned(),
-        None => None,
+    let Some(asked) = asked else {
+        return match known.len() {
+            1 => Ok(known.remove(0)),
+            _ => Err(StudyError::Unsaid { what, known }),
+        };
     };
-    found.ok_or_else(|| StudyError::NotFound { what, name: asked.unwrap_or_default().to_owned(), known })
+    let found = known.iter().find(|name| name.eq_ignore_ascii_case(asked)).cloned();
+    found.ok_or_else(|| StudyError::NotFound { what, name: asked.to_owned(), known })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_of_several_is_asked_for_by_its_name() {
+        let check = |asked: Option<&str>, known: &[&str], expect: &str| {
+            let known = known.iter().map(|name| (*name).to_owned()).collect();
+            let found = one("subject", asked, known).unwrap_or_else(|error| error.to_string());
+            assert_eq!(found, expect);
+        };
+        check(None, &["v"], "v");
+        check(None, &["v", "v"], "v");
+        check(Some("V"), &["ii", "v"], "v");
+        check(None, &["ii", "v"], "which subject? --subject says it; there are: ii, v");
+        check(Some("x"), &["ii", "v"], "no subject `x`; there are: ii, v");
+    }
 }

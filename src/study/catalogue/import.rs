@@ -1,5 +1,7 @@
 //! Entries of the catalogue from files: all of them, or none where anything is wrong with one, unless the good ones are asked for.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
@@ -42,15 +44,24 @@ pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Stri
     match part {
         Part::Subject => {
             let known = known(Some(&store.reader))?;
-            import_entries(store, files, strictness, |path, bytes| match format_of(path) {
+            let notes = RefCell::new(BTreeMap::new());
+            let mut imported = import_entries(store, files, strictness, |path, bytes| match format_of(path) {
                 Some(Format::Csv) => read_rows::<Measurements, Person>(path, part, bytes),
                 Some(Format::Toml) => {
                     let subjects = file::subjects(path, text_of(path, bytes)?, &known)?;
                     all_good(subjects.into_iter().map(|placed| placed.map(|subject| subject.person)).collect())
                 }
-                Some(Format::Mesh) => all_good(vec![scanned(path, bytes)?]),
+                Some(Format::Mesh) => {
+                    let (placed, told) = scanned(path, bytes)?;
+                    notes.borrow_mut().insert(placed.name.clone(), told);
+                    all_good(vec![placed])
+                }
                 None => Err(vec![unknown_format(path, "CSV (.csv), TOML (.toml) or a scan (.obj, .ply, .stl, .glb)")]),
-            })
+            })?;
+            for saved in &mut imported.saved {
+                saved.notes = notes.borrow_mut().remove(&saved.name).unwrap_or_default();
+            }
+            Ok(imported)
         }
         Part::Fabric => import_entries(store, files, strictness, |path, bytes| match format_of(path) {
             Some(Format::Csv) => read_rows::<Fabric, Fabric>(path, part, bytes),
@@ -121,12 +132,12 @@ fn read_rows<R: Entry, T: From<R>>(
     Ok((rows.into_iter().map(|placed| placed.map(T::from)).collect(), problems))
 }
 
-/// Somebody who is a scan, named after its file.
-fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<Person>, Vec<Problem>> {
+/// Somebody who is a scan, named after its file, with what was guessed or repaired.
+fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<(Placed<Person>, Vec<String>), Vec<Problem>> {
     let name = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let scan = ScanFile { file: SourceFile { name: name(path.file_name()), bytes: bytes.into() }, unit: None };
-    let person = scan.person(None).map_err(|error| vec![Problem::of(path, error.to_string())])?;
-    Ok(Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry: person })
+    let read = scan.person_and_notes(None).map_err(|error| vec![Problem::of(path, error.to_string())]);
+    read.map(|(entry, notes)| (Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry }, notes))
 }
 
 /// Verifies entries on all cores: a body takes a while to build.

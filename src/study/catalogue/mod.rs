@@ -90,6 +90,8 @@ pub struct Saved {
     pub deed: Deed,
     /// Values that are possible but rare.
     pub doubts: Vec<String>,
+    /// What was guessed or repaired of a scan.
+    pub notes: Vec<String>,
 }
 
 /// How a saved revision became the current one.
@@ -220,7 +222,7 @@ fn save(
         Some(_) if after.is_new => Deed::Revised,
         Some(_) => Deed::Restored,
     };
-    Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![] })
+    Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![], notes: vec![] })
 }
 
 /// A scan that becomes a subject.
@@ -259,7 +261,8 @@ pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) 
 pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
     let ScanGiven { file, unit, sex } = given;
     let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };
-    save_entry(store, mode, name, &scan.person(*sex)?)
+    let (person, notes) = scan.person_and_notes(*sex)?;
+    Ok(Saved { notes, ..save_entry(store, mode, name, &person)? })
 }
 
 /// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.

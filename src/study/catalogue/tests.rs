@@ -307,9 +307,16 @@ fn a_scan_is_a_subject_that_is_the_mesh_itself() {
         done.saved.iter().map(|saved| (saved.name.as_str(), saved.deed)).collect::<Vec<_>>(),
         [("bo", Deed::Added)]
     );
+    let told =
+        |notes: &[String]| notes.iter().map(|note| note.split(' ').next().unwrap_or_default().to_owned()).collect();
+    let words: Vec<String> = told(&done.saved[0].notes);
+    assert_eq!(words, ["unit", "measured"], "what was guessed");
+    let limbs = "SELECT forearm_girth_mm > 200, wrist_girth_mm > 100, arm_length_mm > 500, calf_girth_mm > 300
+        FROM v_subjects WHERE subject = 'bo'";
+    assert_eq!(bench.one(limbs), "1,1,1,1");
     let given = ScanGiven { file: path, unit: None, sex: Some(Sex::Male) };
     let again = bench.workspace.save_scan(Mode::Edit, "bo", &given).expect("the same scan");
-    assert_eq!(again.deed, Deed::Unchanged);
+    assert_eq!((again.deed, told(&again.notes)), (Deed::Unchanged, vec!["unit".to_owned()]));
     assert_eq!(bench.one("SELECT scan, revision FROM v_subjects WHERE subject = 'bo'"), "bo.obj,1");
     let person = bench.workspace.subject("bo").expect("there");
     assert!((person.measurements.stature_m() - 1.75).abs() < 0.01 && person.scan.is_some());

@@ -20,7 +20,7 @@ use bench::{Bench, Sized};
 use body::Dimension;
 use fit::Draw;
 use fit::chance::{self, Share, Sitting, Verdict};
-use fit::target::Target;
+use fit::target::{Target, is_within_reach};
 use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
@@ -95,11 +95,19 @@ pub struct SizeChance {
     pub tight: f64,
     /// Share in which its worst level is too loose.
     pub loose: f64,
+    /// Share in which that counts more than a grade step.
+    pub out_of_reach: f64,
     /// Each level of the size, from the neck down.
     pub levels: Vec<LevelChance>,
 }
 
 impl SizeChance {
+    /// What it probably is among the sizes: the one to wear, or only the nearest where more often than not it is out of reach.
+    #[must_use]
+    pub fn place(&self) -> &'static str {
+        if self.out_of_reach > 0.5 { "the nearest, though none fits," } else { "the one to wear" }
+    }
+
     /// The level that decides most often, where any does.
     #[must_use]
     pub fn decides(&self) -> Option<&LevelChance> {
@@ -265,6 +273,7 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
         fits: Share::of(count(&|verdict| verdict.sitting == Sitting::Fits), draws),
         tight: share(count(&|verdict| verdict.sitting == Sitting::Tight)),
         loose: share(count(&|verdict| verdict.sitting == Sitting::Loose)),
+        out_of_reach: share(count(&|verdict| !is_within_reach(verdict.weight_m))),
         levels: size.levels.iter().enumerate().map(level).collect(),
     }
 }

@@ -101,3 +101,18 @@ fn what_is_not_there_is_named() {
     check(Question { size: Some("XXL".into()), ..question("v") }, "XXL");
     check(Question { garment: Some("coat".into()), ..question("v") }, "coat");
 }
+
+#[test]
+fn a_size_that_is_mostly_out_of_reach_is_the_nearest() {
+    let check = |out_of_reach: f64, expect: &str| {
+        let all = Share::of(10, 10);
+        let size = "40".to_owned();
+        let chance =
+            SizeChance { size, wear: all, fits: all, tight: 0.0, loose: 1.0, out_of_reach, levels: Vec::new() };
+        assert_eq!(chance.place(), expect, "{out_of_reach}");
+    };
+    check(0.0, "the one to wear");
+    check(0.5, "the one to wear");
+    check(0.51, "the nearest, though none fits,");
+    check(1.0, "the nearest, though none fits,");
+}

@@ -15,6 +15,7 @@ use crate::spec::new_study::{Outline, Worn, drafted_size};
 use crate::store::{self, Store};
 use crate::{files, run};
 use fit::Simulator;
+use fit::target::Intended;
 
 /// Where the pattern of a size comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,6 +52,8 @@ pub struct NewStudy {
     pub fabric: String,
     /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
+    /// How all garments are meant to sit; what is usual where that is not said.
+    pub fit: Option<Intended>,
 }
 
 /// What a new study may be made of: the sizes of the catalogue, and those of drafted styles whose names it does not have.
@@ -122,6 +125,7 @@ fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
         scanned: vec![],
         garments,
         fabric: &new.fabric,
+        fit: new.fit,
     };
     files.insert("study.toml".to_owned(), outline.text().into_bytes());
     Ok(files.into_iter().collect())
@@ -192,6 +196,7 @@ mod tests {
             sizes: sizes.collect(),
             fabric: "cotton_shirting_light".to_owned(),
             simulators: vec![Simulator::Fem, Simulator::Hybrid],
+            fit: None,
         }
     }
 
@@ -208,6 +213,25 @@ mod tests {
         assert!(matches!(workspace.create_study(&new), Err(StudyError::Exists { .. })), "its folder is there");
         let text = std::fs::read_to_string(&path).expect("written");
         assert!(text.contains("like = \"male-ii\"") && text.contains("pattern = \"patterns/tshirt-s.dxf\""), "{text}");
+    }
+
+    #[test]
+    fn a_new_study_says_how_its_garments_are_meant_to_sit() {
+        let check = |fit: Option<Intended>, line: &str| {
+            let folder = tempfile::tempdir().expect("a folder");
+            let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+            let path = workspace.create_study(&NewStudy { fit, ..new_study(folder.path()) }).expect("whole");
+            let text = std::fs::read_to_string(&path).expect("written");
+            assert_eq!(text.lines().filter(|written| written.starts_with(line)).count(), 2, "{text}");
+            assert_eq!(text.matches("\n# target_ease_mm").count(), 2, "{text}");
+            let study = workspace.load_study(&path).expect("good");
+            let read = study.garments.iter().map(|garment| garment.target.intended);
+            assert!(read.eq([fit.unwrap_or_default(); 2]), "{text}");
+        };
+        check(None, "# intended_fit = \"regular\"");
+        for fit in Intended::ALL {
+            check(Some(fit), &format!("intended_fit = \"{}\"", fit.as_str()));
+        }
     }
 
     #[test]

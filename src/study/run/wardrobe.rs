@@ -199,6 +199,7 @@ impl Wardrobe {
             scanned: vec![],
             garments: worn,
             fabric: &self.fabric,
+            fit: None,
         };
         for (name, wearer) in bodies {
             match wearer {

@@ -194,7 +194,7 @@ mod tests {
     fn a_new_study_runs_in_every_style_and_its_sweeps_are_exported() {
         for model in Model::ALL {
             let folder = tempfile::tempdir().expect("a folder");
-            let files = new_study(folder.path(), model).expect("nothing is there");
+            let files = new_study(folder.path(), model, None).expect("nothing is there");
             files::write_files(folder.path(), &files).expect("writable");
             let path = folder.path().join("study.toml");
             let text = std::fs::read_to_string(&path).expect("written");
@@ -210,7 +210,7 @@ mod tests {
             let first = format!("{} edge_length_mm=20 fabric=cotton_shirting_light offset_mu=0.4", model.as_str());
             assert_eq!(swept.garments[0].name, first);
             check(&swept);
-            assert!(new_study(folder.path(), model).is_err());
+            assert!(new_study(folder.path(), model, None).is_err());
         }
     }
 

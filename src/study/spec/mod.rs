@@ -250,6 +250,7 @@ pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurement
     }
     if let Some(scan) = scan {
         inputs.set(format!("subject.{id}.scan"), scan.file.hash());
+        inputs.set(format!("subject.{id}.scan_version"), versions::SCAN_VERSION);
         if let Some(unit) = scan.unit {
             inputs.set(format!("subject.{id}.scan_unit"), unit.name());
         }

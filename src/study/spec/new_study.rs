@@ -12,6 +12,7 @@ use crate::spec::sex_name;
 use crate::spec::versions::SIMULATORS;
 use body::{Dimension, Measurements, Sex};
 use fit::Simulator;
+use fit::target::Intended;
 use geom::units::from_mm;
 
 /// What a new study says.
@@ -30,6 +31,8 @@ pub(crate) struct Outline<'a> {
     pub garments: Vec<Worn<'a>>,
     /// Fabric of all garments.
     pub fabric: &'a str,
+    /// How all garments are meant to sit; what is usual where that is not said.
+    pub fit: Option<Intended>,
 }
 
 /// A garment of a new study.
@@ -117,6 +120,11 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
         }
         let _ =
             writeln!(text, "fabric = {}   # of `toile fabric ls`, or a [[fabric]] of this file", quoted(self.fabric));
+        let all = Intended::ALL.map(Intended::as_str).join(", ");
+        let (mark, fit) = if self.fit.is_some() { ("", self.fit) } else { ("# ", Some(Intended::default())) };
+        let fit = format!("{mark}intended_fit = \"{}\"", fit.unwrap_or_default().as_str());
+        let _ = writeln!(text, "{fit:<27} # the ease that is meant: {all}");
+        text.push_str("# target_ease_mm = { hip = [40, 120] }   # least and greatest of levels where it is another\n");
         match &garment.subjects {
             Some(names) => {
                 let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -155,11 +163,11 @@ pub fn write_quickstart(folder: &Path) -> Result<()> {
 }
 
 /// Files of a first study: a `study.toml` to edit, with a drafted style beside it, on somebody of the catalogue and on
-/// somebody to fill in.
+/// somebody to fill in; meant to sit as `fit` says.
 ///
 /// # Errors
 /// When the folder has a study already.
-pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn new_study(folder: &Path, model: Model, fit: Option<Intended>) -> Result<Vec<(String, Vec<u8>)>> {
     let path = folder.join("study.toml");
     if path.exists() {
         return Err(StudyError::Exists { what: "study", name: path.display().to_string() });
@@ -190,6 +198,7 @@ pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> 
         scanned: vec![],
         garments: vec![garment],
         fabric: sim::fabric::USUAL,
+        fit,
     };
     files.insert(0, ("study.toml".to_owned(), outline.text().into_bytes()));
     Ok(files)

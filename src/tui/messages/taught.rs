@@ -95,6 +95,7 @@ fn new_study(new: &NewStudy) -> String {
         text += &format!(" --wear {}", quoted(&format!("{}/{}", size.style, size.size)));
     }
     new.simulators.iter().for_each(|simulator| text += &format!(" --sim {}", simulator.as_str()));
+    new.fit.iter().for_each(|fit| text += &format!(" --fit {}", fit.as_str()));
     text + &format!(" --fabric {}", quoted(&new.fabric))
 }
 

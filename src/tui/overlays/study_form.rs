@@ -285,6 +285,7 @@ impl StudyForm {
             sizes: chosen(&self.sizes),
             fabric: self.fabrics[self.fabric].clone(),
             simulators: chosen(&self.simulators),
+            fit: None,
         };
         (self.is_busy, self.problem) = (true, None);
         Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])

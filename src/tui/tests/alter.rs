@@ -29,7 +29,8 @@ const TIGHT: [LevelMm; 6] = [
 ];
 
 fn moved(handle: Handle, amount_mm: f64) -> MovedHandle {
-    MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition() }
+    let is_half_girth = handle.is_half_girth();
+    MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth }
 }
 
 /// What is found: of M and on subject ii nothing to change, of other sizes four handles that do not reach the hip.

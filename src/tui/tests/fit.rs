@@ -37,6 +37,7 @@ fn sits(level: usize, size: usize) -> LevelSits {
         ease_mm,
         target_mm,
         off_mm,
+        covered_deg: None,
     }
 }
 

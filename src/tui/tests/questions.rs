@@ -87,6 +87,18 @@ fn a_query_is_typed_completed_run_and_its_rows_sorted() {
 }
 
 #[test]
+fn the_reason_of_a_refusal_goes_with_the_query() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("7select wrong<F5>");
+    ask(&mut bench);
+    ctrl(&mut bench, 'u');
+    assert!(bench.screen().contains("✗ no such column: wrong"), "it stays while a query is written");
+    bench.press("<F5>");
+    assert!(!bench.screen().contains("no such column"), "{}", bench.screen());
+    assert!(bench.screen().contains("no query is typed yet"), "{}", bench.screen());
+}
+
+#[test]
 fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
     let mut bench = Bench::example(80, 24);
     bench.press("7select wrong<F5>");

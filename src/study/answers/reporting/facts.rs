@@ -2,10 +2,12 @@
 
 use crate::answers::reporting::quoted;
 use crate::answers::{advice, picture};
-use crate::catalogue::style;
+use crate::bodies;
+use crate::catalogue::{self, style};
 use crate::error::Result;
-use crate::rows::{EaseRow, JobRow, RecommendationRow, StageKind, Status, Value};
+use crate::rows::{EaseRow, JobRow, RecommendationRow, StageKind, Status, SubjectId, Value};
 use crate::run::pipeline::Model;
+use crate::spec::file::{Person, ScanFile};
 use crate::store::{Store, read, sql};
 use body::Girths;
 use fit::{Basis, Ease, Finding, Simulator};
@@ -33,8 +35,32 @@ const BODY_TOLERANCE: f64 = 0.01;
 pub(super) struct BodyFacts {
     name: String,
     sex: String,
+    scan: Option<ScanFacts>,
     asked: Vec<Option<f64>>,
     measured: Option<Vec<Option<f64>>>,
+}
+
+/// A scan that is a body: its file, and what was guessed or repaired when it was read.
+struct ScanFacts {
+    file: String,
+    notes: Vec<String>,
+}
+
+impl BodyFacts {
+    /// Whether the body is a scan.
+    pub(super) fn is_scan(&self) -> bool {
+        self.scan.is_some()
+    }
+
+    /// Where the body is from, in words.
+    fn origin(&self) -> String {
+        match &self.scan {
+            Some(ScanFacts { file, notes }) if notes.is_empty() => format!("scan {file}"),
+            Some(ScanFacts { file, notes }) => format!("scan {file} ({})", notes.join("; ")),
+            None if self.measured.is_some() => "body built from measurements".to_owned(),
+            None => "as given".to_owned(),
+        }
+    }
 }
 
 /// What a tape reads on a body, in order of [`MEASUREMENTS`]; mass cannot be read.
@@ -51,10 +77,9 @@ pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     };
     let row = |body: &BodyFacts| {
         let read = body.measured.clone().unwrap_or_else(|| vec![None; MEASUREMENTS.len()]);
-        let state = if body.measured.is_some() { "body built from measurements" } else { "as given" };
         Subject {
             name: body.name.clone(),
-            note: format!("{}, {state}", body.sex),
+            note: format!("{}, {}", body.sex, body.origin()),
             values: read.iter().zip(&body.asked).map(|(read, asked)| read.or(*asked)).collect(),
         }
     };
@@ -159,7 +184,7 @@ pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<
     let table = sql::query(
         store,
         &format!(
-            "SELECT DISTINCT job.subject, subject.sex, {keys}
+            "SELECT DISTINCT job.subject, subject.sex, subject_id, {keys}
         FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
         JOIN study_axis ON study_axis.study_id = study.study_id AND axis = 'subject' AND study_axis.name = job.subject
         WHERE study.name = {} AND is_current ORDER BY position",
@@ -174,14 +199,27 @@ pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<
             Some(job) => Some(readings(&picture::product::<Model>(store, job.id, StageKind::Body)?.body.girths)),
             None => None,
         };
+        let scan = match row[2] {
+            Value::Integer(id) => scan_facts(&catalogue::known::person(store, SubjectId(id))?),
+            _ => None,
+        };
         bodies.push(BodyFacts {
             name,
             sex: row[1].to_string(),
-            asked: row[2..].iter().map(number).collect(),
+            scan,
+            asked: row[3..].iter().map(number).collect(),
             measured,
         });
     }
     Ok(bodies)
+}
+
+/// The scan that somebody is, read again for what is said of it.
+fn scan_facts(person: &Person) -> Option<ScanFacts> {
+    let ScanFile { file, unit } = person.scan.as_ref()?;
+    let read = bodies::read_scan(file, *unit, Some(person.measurements.sex));
+    let notes = read.map(|scan| scan.imported.notes).unwrap_or_default();
+    Some(ScanFacts { file: file.name.clone(), notes })
 }
 
 /// The subjects of the thesis, as printed.
@@ -197,6 +235,7 @@ pub(super) fn published_bodies(store: &Store) -> Result<Vec<BodyFacts>> {
     let body = |row: &Vec<Value>| BodyFacts {
         name: row[0].to_string(),
         sex: row[1].to_string(),
+        scan: None,
         asked: row[2..].iter().map(number).collect(),
         measured: None,
     };
@@ -273,4 +312,26 @@ fn fact((name, value): (&String, &Value)) -> Fact {
         other => other.to_string(),
     };
     Fact { name: name.clone(), value }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Somebody, measured on a body that was dressed; of a scan, where that is one.
+    pub(in super::super) fn body(scan: Option<&str>) -> BodyFacts {
+        let scan = scan.map(|file| ScanFacts { file: file.to_owned(), notes: vec!["14 holes closed".to_owned()] });
+        BodyFacts { name: "a".into(), sex: "male".into(), scan, asked: vec![Some(1750.0)], measured: Some(vec![None]) }
+    }
+
+    #[test]
+    fn a_subject_is_told_by_where_its_body_is_from() {
+        let check = |body: BodyFacts, expect: &str| assert_eq!(subject_table(&[body]).rows[0].note, expect);
+        check(body(None), "male, body built from measurements");
+        check(BodyFacts { measured: None, ..body(None) }, "male, as given");
+        check(body(Some("anna.ply")), "male, scan anna.ply (14 holes closed)");
+        check(BodyFacts { measured: None, ..body(Some("anna.ply")) }, "male, scan anna.ply (14 holes closed)");
+        let plain = ScanFacts { file: "anna.ply".into(), notes: Vec::new() };
+        check(BodyFacts { scan: Some(plain), ..body(None) }, "male, scan anna.ply");
+    }
 }

@@ -22,8 +22,12 @@ fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
     let jobs: Vec<_> = one.sizes.iter().map(|size| size.job).collect();
     let wear = card.to_wear().map(|size| size.size.as_str());
     let charts = section::drawn(store, &jobs, &CutAt::Levels, wear)?;
-    let size =
-        |size: &SizeSits| FitSize { size: size.size.clone(), is_to_wear: size.place == Some(1), words: size.words() };
+    let size = |size: &SizeSits| FitSize {
+        size: size.size.clone(),
+        is_to_wear: size.place == Some(1),
+        fits: size.is_within_reach(),
+        words: size.words(),
+    };
     let names: Vec<String> = beside.iter().map(|size| size.size.clone()).collect();
     let mut tables = vec![ease(card, beside, &names)];
     if drapes.iter().any(Option::is_some) {

@@ -7,6 +7,7 @@ mod published;
 mod runs;
 mod sheets;
 
+use crate::answers::reporting::facts::BodyFacts;
 use crate::answers::{fit_card, worn};
 use crate::error::{Result, StudyError};
 use crate::patterns;
@@ -34,9 +35,12 @@ const RAW: [(&str, &str, &str); 12] = [
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
+/// How bodies come about, where some are built, where some are scans.
+const BUILT: &str = "A body is built from the measurements given.";
+const SCANNED: &str = "The body of a scan is the scan itself, cleaned and closed, and measured there.";
+
 const METHODS: [&str; 5] = [
-    "Each subject's body is built from the measurements given; each size is read from its DXF file, sewn as its seam file \
-     says and meshed. FEM-GS drapes the sewn cloth on the body by its weight, membrane, bending, contact and friction until \
+    "Each size is read from its DXF file, sewn as its seam file says and meshed. FEM-GS drapes the sewn cloth on the body by its weight, membrane, bending, contact and friction until \
      the residual force is a small share of the weight.",
     "L2D is the length of a measurement on the pattern, L3D the length of the same line on the drape, chi = L3D / L2D. E is \
      the mean of chi over the measurements, SD its sample standard deviation (n - 1), EI the mean of |chi - 1|.",
@@ -49,8 +53,13 @@ const METHODS: [&str; 5] = [
      lengths where the pattern length agrees within 0.5 mm.",
 ];
 
-const LIMITS: [&str; 2] = [
-    "Bodies are shaped from a few measurements: where they differ from the person, so does the drape.",
+/// What bodies lack, where some are built, where some are scans.
+const BUILT_LIMIT: &str =
+    "Bodies that are built are shaped from a few measurements: where they differ from the person, so does the drape.";
+const SCANNED_LIMIT: &str =
+    "A scan is a body as it stood: where it was smoothed or a hole closed, the skin is a guess.";
+
+const LIMITS: [&str; 1] = [
     "A fabric of the library is one measured cloth or stands for a class of cloths; its source tells which of its numbers are of another cloth. Friction is an estimate throughout.",
 ];
 
@@ -131,10 +140,24 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         runs,
         pairs: evidence::pairs(store, study)?,
         evidence: Some(evidence::evidence(store, study)?),
-        methods: METHODS.map(str::to_owned).to_vec(),
-        limits: LIMITS.map(str::to_owned).to_vec(),
+        methods: methods(of_bodies(&bodies, [BUILT, SCANNED])),
+        limits: of_bodies(&bodies, [BUILT_LIMIT, SCANNED_LIMIT]).chain(LIMITS).map(str::to_owned).collect(),
         raw: raw.chain(sheets).collect(),
     })
+}
+
+/// What is said where some bodies are built, and where some are scans.
+fn of_bodies<'a>(bodies: &[BodyFacts], [built, scanned]: [&'a str; 2]) -> impl Iterator<Item = &'a str> {
+    let built = (!bodies.iter().all(BodyFacts::is_scan)).then_some(built);
+    let scanned = bodies.iter().any(BodyFacts::is_scan).then_some(scanned);
+    built.into_iter().chain(scanned)
+}
+
+/// The methods, where the first paragraph begins with how the bodies come about.
+fn methods<'a>(of_bodies: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let [first, rest @ ..] = METHODS;
+    let first = of_bodies.chain([first]).collect::<Vec<_>>().join(" ");
+    [first].into_iter().chain(rest.map(str::to_owned)).collect()
 }
 
 /// Rows of a contract view that belong to a study.
@@ -171,4 +194,24 @@ fn csv_of(table: &Table) -> Result<Vec<u8>> {
         writer.write_record(row.iter().map(Value::to_string)).map_err(StudyError::stage("report"))?;
     }
     writer.into_inner().map_err(|error| StudyError::stage("report")(error.into_error()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use facts::tests::body;
+
+    #[test]
+    fn methods_and_limits_are_those_of_the_bodies_that_there_are() {
+        let check = |bodies: &[BodyFacts], methods_say: &str, limits: &[&str]| {
+            let found = methods(of_bodies(bodies, [BUILT, SCANNED]));
+            assert_eq!(found.len(), METHODS.len());
+            assert_eq!(found[0], format!("{methods_say}{}", METHODS[0]));
+            assert_eq!(of_bodies(bodies, [BUILT_LIMIT, SCANNED_LIMIT]).collect::<Vec<_>>(), limits);
+        };
+        let (built, scan) = (|| body(None), || body(Some("fit-model.ply")));
+        check(&[built(), built()], &format!("{BUILT} "), &[BUILT_LIMIT]);
+        check(&[scan()], &format!("{SCANNED} "), &[SCANNED_LIMIT]);
+        check(&[built(), scan()], &format!("{BUILT} {SCANNED} "), &[BUILT_LIMIT, SCANNED_LIMIT]);
+    }
 }

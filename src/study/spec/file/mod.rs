@@ -141,8 +141,17 @@ impl ScanFile {
     /// # Errors
     /// When it is no body.
     pub(crate) fn person(self, sex: Option<Sex>) -> Result<Person> {
+        Ok(self.person_and_notes(sex)?.0)
+    }
+
+    /// As [`Self::person`], with what was guessed or repaired.
+    ///
+    /// # Errors
+    /// When it is no body.
+    pub(crate) fn person_and_notes(self, sex: Option<Sex>) -> Result<(Person, Vec<String>)> {
         let found = bodies::read_scan(&self.file, self.unit, sex)?;
-        Ok(Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None })
+        let person = Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None };
+        Ok((person, found.imported.notes))
     }
 }
 

@@ -126,7 +126,7 @@ fn moves(theme: Theme, found: &Alteration, columns: usize, is_whole: bool) -> Ve
     let head = left("handle", longest) + &right("by mm", AMOUNT);
     let head = if room >= 20 { head + "  plus means" } else { head };
     let mut told = vec![Line::styled(head, theme.dim())];
-    for MovedHandle { handle, amount_mm, does } in &found.moves {
+    for MovedHandle { handle, amount_mm, does, .. } in &found.moves {
         let means = if is_whole && room >= 20 { wrapped(does, room) } else { vec![clause(does, room).to_owned()] };
         for (k, line) in means.into_iter().enumerate() {
             let [handle, by] = if k == 0 { [words(handle), signed(*amount_mm)] } else { Default::default() };

@@ -162,10 +162,10 @@ fn header(theme: Theme, card: &FitCard, columns: &Columns<'_>) -> Line<'static> 
 /// The title of a size's column, in the colour of its line in sections.
 pub fn headed(theme: Theme, card: &FitCard, size: &str) -> (String, Style) {
     let style = colour(theme, card, size);
-    if is_to_wear(card, size) {
-        (format!("▸{size} wear"), style.patch(theme.bold()))
-    } else {
-        (size.to_owned(), style)
+    let mark = card.sizes.iter().find(|one| one.size == size).and_then(SizeSits::mark);
+    match mark {
+        Some(mark) => (format!("▸{size} {mark}"), style.patch(theme.bold())),
+        None => (size.to_owned(), style),
     }
 }
 

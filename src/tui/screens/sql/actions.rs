@@ -51,6 +51,8 @@ impl State {
     pub fn run_query(&mut self) -> Vec<Effect> {
         let text = self.sql.editor.text().trim().to_owned();
         if text.is_empty() {
+            // What was refused is gone from the editor, and with it why.
+            self.sql.outcome = self.sql.outcome.take().filter(Result::is_ok);
             self.say("no query is typed yet; o offers saved ones");
             return vec![];
         }

@@ -186,7 +186,7 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
         let read = girths.and_then(|girths| Figure::reading(girths, field.key));
         let stands = asked.or(read).and_then(|value| percentile(subject.measurements.sex, field.key, value));
         let read = read.map_or(wait.to_owned(), |value| format!("{value:.1}"));
-        let asked = asked.map_or("—".to_owned(), |value| format!("{value}"));
+        let asked = asked.map_or("—".to_owned(), |value| format!("{}", (value * 10.0).round() / 10.0));
         let text = format!("{}{}{}  ", left(field.label, 17), right(&asked, 9), right(&read, 10));
         let rare = stands.is_some_and(is_doubtful);
         let words = stands
