@@ -17,6 +17,9 @@ const NEARER: f64 = 0.4;
 /// Height of a neck's narrowest place over stature, from and to.
 const NECK: [f64; 2] = [0.83, 0.90];
 
+/// Least width or depth of a neck over stature; those of model bodies are from 0.045 on.
+const LEAST_NECK: f64 = 0.03;
+
 /// Mean height of that place over stature: of the 160 model bodies of [`crate::shape::sections`].
 const USUAL_NECK: f64 = 0.8714;
 
@@ -115,7 +118,8 @@ pub(super) struct Outlines {
 
 impl Outlines {
     pub fn new(front: View, side: View, stature: f64) -> Result<Self, BodyError> {
-        let [front, side] = [(front, CROWN_COUNTS[0]), (side, CROWN_COUNTS[1])].map(|(view, counts)| view.of_stature(stature, counts));
+        let [front, side] =
+            [(front, CROWN_COUNTS[0]), (side, CROWN_COUNTS[1])].map(|(view, counts)| view.of_stature(stature, counts));
         let axis = side.mask.width as f64 / 2.0;
         let mut outlines = Self { front, side, stature, axis, crotch: 0.0 };
         outlines.axis = outlines.find_axis().unwrap_or(axis);
@@ -174,11 +178,9 @@ impl Outlines {
         let height = |i: usize| (LOWEST + STEP * i as f64) * self.stature;
         // One leg may reach over the middle, too: it is not there that the trunk begins.
         let is_trunk = |h: f64| self.trunk_run(h, self.middle_depth(h)).is_some_and(|run| self.is_central(run));
-        let seen = |i: usize| (self.arms_apart(height(i)) && is_trunk(height(i))).then(|| self.width(height(i))).flatten();
-        Profile {
-            widths: std::array::from_fn(seen),
-            sides: std::array::from_fn(|i| self.profile(height(i), [0.0; 2])),
-        }
+        let seen =
+            |i: usize| (self.arms_apart(height(i)) && is_trunk(height(i))).then(|| self.width(height(i))).flatten();
+        Profile { widths: std::array::from_fn(seen), sides: std::array::from_fn(|i| self.profile(height(i), [0.0; 2])) }
     }
 
     /// Metres of a pixel at a depth towards the camera.
@@ -312,6 +314,14 @@ impl Outlines {
             .iter()
             .flat_map(|(z, [front, _])| edges.iter().map(move |(other, [_, back])| (front - back).hypot(z - other)));
         let depth = across.min_by(f64::total_cmp).ok_or_else(|| refused("side", "no neck is found in its outline"))?;
+        if width.min(depth) < LEAST_NECK * self.stature {
+            let view = if width < depth { "front" } else { "side" };
+            let problem = format!(
+                "the neck is only {:.0} mm wide there: hair or skin is as the background is",
+                1e3 * width.min(depth)
+            );
+            return Err(refused(view, problem));
+        }
         // A neck is nearly as narrow over some centimetres: its level is steadied by where necks usually have it.
         let height = (height + USUAL_NECK * self.stature) / 2.0;
         Ok(Section { level: Level::Neck, height, width, depth })

@@ -98,6 +98,7 @@ pub fn from_pictures(
         profile: outlines.trunk(),
         sections,
         is_chest_hidden,
+        is_near: camera.is_some(),
     });
     let girths = read.map(|of| of.girth_m);
     let levels = sections.iter().zip(&read).map(|(section, of)| PicturedLevel {

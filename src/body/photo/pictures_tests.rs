@@ -78,7 +78,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
     let people =
         [(Sex::Male, 1.70, 85.0), (Sex::Male, 1.84, 70.0), (Sex::Female, 1.56, 70.0), (Sex::Female, 1.68, 55.0)];
     let views = [
-        (Taken::Orthographic(800.0), [1300, 1700], None, 15.0),
+        (Taken::Orthographic(800.0), [1300, 1700], None, 20.0),
         (Taken::Perspective(2500.0, 3.2), [1200, 1800], Some(Camera::of_focal(2500.0, 1800, 3.2)), 20.0),
     ];
     for (taken, size, camera, limit) in views {

@@ -32,6 +32,9 @@ const FEET_ZONE: f64 = 0.10;
 /// Least difference in hue (log of intensity against the mean of the channels) that is not taken for a shadow.
 const HUE: f64 = 0.08;
 
+/// Pixels over which an edge may be blurred.
+const BLUR: usize = 3;
+
 /// Spread of the background beyond which it is not plain.
 const PLAIN: f64 = 0.25;
 
@@ -129,7 +132,37 @@ impl Background {
             mean < 0.0 && mean > darkest.ln() && hue < hue_limit
         };
         let kept = (0..off.len()).map(|i| first.bits[i] && !is_shadow(i)).collect();
-        Mask::new(logs.width, logs.height, kept).opened()
+        self.trimmed(logs, Mask::new(logs.width, logs.height, kept).opened())
+    }
+
+    /// A mask whose rows end where the picture is half way between the person and the background, however blurred it is.
+    fn trimmed(&self, logs: &Logs, mut mask: Mask) -> Mask {
+        for row in 0..mask.height {
+            for (start, end) in mask.runs(row) {
+                if end - start < 2 * BLUR + 2 {
+                    continue;
+                }
+                let at = |column: usize| row * mask.width + column;
+                let left = (0..BLUR).take_while(|&i| !self.is_person(logs, at(start + i), at(start + BLUR))).count();
+                let right =
+                    (0..BLUR).take_while(|&i| !self.is_person(logs, at(end - 1 - i), at(end - 1 - BLUR))).count();
+                let gone = [start..start + left, end - right..end];
+                gone.into_iter().flatten().for_each(|column| mask.bits[row * mask.width + column] = false);
+            }
+        }
+        mask
+    }
+
+    /// Whether a pixel is nearer to the person's colour at a pixel within than to the background's, in the channel that tells most.
+    fn is_person(&self, logs: &Logs, i: usize, within: usize) -> bool {
+        let terms = terms(logs.place(i));
+        let light = |log: f64| log.exp();
+        let parts = (0..3).map(|channel| {
+            let background = light(self.coefficients[channel].dot(&terms));
+            (light(logs.values[i][channel]) - background, light(logs.values[within][channel]) - background)
+        });
+        let most = parts.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        most.is_none_or(|(here, there)| here * there.signum() >= there.abs() / 2.0)
     }
 }
 
