@@ -198,7 +198,7 @@ fn time(what: &str, mut act: impl FnMut() -> Result<()>) -> Result<()> {
 
 /// A study of the drafted T-shirt on many men.
 fn write_study(folder: &Path, people: usize) -> Result<()> {
-    let mut files = new_study(folder, patterns::Model::Tshirt)?;
+    let mut files = new_study(folder, patterns::Model::Tshirt, None)?;
     let text = String::from_utf8_lossy(&files[0].1).into_owned();
     let subjects = text.find("# Of the catalogue").unwrap_or_default();
     let garments = text.find("# A style of").unwrap_or(text.len());

