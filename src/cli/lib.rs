@@ -111,7 +111,15 @@ pub fn command() -> clap::Command {
 }
 
 fn compact(command: clap::Command) -> clap::Command {
-    command.disable_help_subcommand(true).mut_args(with_values_in_line).mut_subcommands(compact)
+    with_remarks_last(command).disable_help_subcommand(true).mut_args(with_values_in_line).mut_subcommands(compact)
+}
+
+/// What is said beyond the summary of a command, below its arguments.
+fn with_remarks_last(command: clap::Command) -> clap::Command {
+    let [summary, whole] = [command.get_about(), command.get_long_about()].map(|text| text.map(ToString::to_string));
+    let Some((summary, whole)) = summary.zip(whole) else { return command };
+    let remarks = whole.strip_prefix(&summary).unwrap_or(&whole).trim_start_matches('.').trim_start().to_owned();
+    command.long_about(None::<&str>).after_help(remarks)
 }
 
 fn with_values_in_line(argument: clap::Arg) -> clap::Arg {

@@ -8,8 +8,9 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 114] = [
+const COMMANDS: [&str; 115] = [
     "",
+    "help",
     "run",
     "run show",
     "run diff",

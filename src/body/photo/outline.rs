@@ -1,7 +1,7 @@
 //! Heights, widths and depths of a body from its front and side silhouettes.
 
 use super::pictures::{Camera, refused};
-use super::sections::{Level, Section};
+use super::sections::{LOWEST, Level, Profile, STEP, Section};
 use super::silhouette::{Mask, Run};
 use crate::measure::sites::{CHEST, usual_chest};
 use crate::measure::slices::steps;
@@ -36,13 +36,6 @@ const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 
 /// Share by which a person's height in a picture may differ from what stature, distance and focal length say.
 const MISFIT: f64 = 0.03;
-
-/// Heights over stature at which the trunk's outlines are read: the lowest, the way from one to the next, and at how many of them
-/// the width and the front and back are.
-pub(super) const LOWEST: f64 = 0.48;
-pub(super) const STEP: f64 = 0.02;
-pub(super) const WIDTHS: usize = 12;
-pub(super) const SIDES: usize = 17;
 
 /// Heights over stature, from thigh to waist, at which the side view tells where the subject's axis is, and how many.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
@@ -365,15 +358,6 @@ impl Outlines {
         }
         Ok(())
     }
-}
-
-/// Outlines of the trunk in two pictures, metres.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Profile {
-    /// From side to side.
-    pub widths: [Option<f64>; WIDTHS],
-    /// Front and back, from the subject's axis.
-    pub sides: [Option<[f64; 2]>; SIDES],
 }
 
 /// Whether front and back of a level bulge beside the median plane.

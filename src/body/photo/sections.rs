@@ -1,6 +1,13 @@
-//! Girth levels that pictures show, and the ellipse that a section is compared with.
+//! What pictures show of a trunk: its outlines, its girth levels, and the ellipse that a section is compared with.
 
 use geom::{V2, hull};
+
+/// Heights over stature at which the trunk's outlines are read: the lowest, the way from one to the next, and at how many of them
+/// the width and the front and back are.
+pub(super) const LOWEST: f64 = 0.48;
+pub(super) const STEP: f64 = 0.02;
+pub(super) const WIDTHS: usize = 12;
+pub(super) const SIDES: usize = 17;
 
 /// A girth level that pictures show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +36,15 @@ pub(super) struct Section {
     pub height: f64,
     pub width: f64,
     pub depth: f64,
+}
+
+/// Outlines of the trunk in two pictures, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Profile {
+    /// From side to side.
+    pub widths: [Option<f64>; WIDTHS],
+    /// Front and back, from the subject's axis.
+    pub sides: [Option<[f64; 2]>; SIDES],
 }
 
 /// Length of the ellipse with the diameters `width` and `depth`.

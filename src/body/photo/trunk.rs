@@ -12,8 +12,7 @@ use std::sync::LazyLock;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::outline::{LOWEST, Profile, SIDES, STEP, WIDTHS};
-use super::sections::{Level, Section, ellipse};
+use super::sections::{LOWEST, Level, Profile, SIDES, STEP, Section, WIDTHS, ellipse};
 use crate::Sex;
 
 /// Numbers of an outline: widths, fronts, backs.

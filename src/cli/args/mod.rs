@@ -44,8 +44,8 @@ pub use studies::{StudyCommand, StudyPath};
 pub struct Arguments {
     #[command(flatten)]
     pub global: Global,
-    /// How the workbench shows pictures.
-    #[arg(long, value_parser = ["auto", "halfblocks", "off"], default_value = "auto")]
+    /// Workbench pictures.
+    #[arg(long, value_name = "HOW", value_parser = ["auto", "halfblocks", "off"], default_value = "auto")]
     pub images: String,
     #[command(subcommand)]
     pub command: Option<Command>,
@@ -64,7 +64,7 @@ pub fn without_environment(error: clap::Error, arguments: &[OsString]) -> clap::
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Global options")]
 pub struct Global {
-    /// Database; else db/toile.sqlite beside the nearest studies folder, or in your data folder.
+    /// Database; else that of the nearest studies folder, or yours.
     #[arg(long, global = true, env = "TOILE_DB", hide_env_values = true, value_name = "PATH")]
     pub db: Option<PathBuf>,
     /// Change nothing in the database.
