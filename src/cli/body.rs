@@ -198,8 +198,10 @@ fn pictured(
         let name = level.name;
         let [width, depth, height] = [level.width_m, level.depth_m, level.level_m].map(mm);
         let [girth, within] = [level.girth_m, level.within_m].map(mm);
-        context
-            .say(format_args!("{name}: {width:.0} mm wide, {depth:.0} mm deep at {height:.0} mm, girth {girth:.0} mm (within {within:.0} in four of five)"));
+        context.say(format_args!(
+            "{name}: {width:.0} mm wide, {depth:.0} mm deep at {height:.0} mm, girth {girth:.0} mm (within {within:.0} in four \
+             of five)"
+        ));
     }
     Ok(found.measurements)
 }

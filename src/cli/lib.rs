@@ -147,7 +147,7 @@ pub fn main(
     let arguments = match read(&arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
-            let error = args::without_environment(error, &arguments);
+            let error = args::without_environment(command(), error, &arguments);
             // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
             // stream that cannot be written.
             let _ = error.print();

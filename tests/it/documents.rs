@@ -1,43 +1,13 @@
 //! What the documents say is there: every command parses, every link leads somewhere.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use toile::cli;
 
+use super::tree::{documents, text, within};
+
 /// A line with its number.
 type Line = (usize, String);
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Markdown files of the top and of `docs`, by path.
-fn documents() -> Vec<PathBuf> {
-    let mut folders = vec![root().to_path_buf()];
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder") {
-            let path = entry.expect("a readable folder").path();
-            if path.is_dir() && path.starts_with(root().join("docs")) || path == root().join("docs") {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "md") {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
-fn text(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn within(path: &Path) -> String {
-    path.strip_prefix(root()).unwrap_or(path).display().to_string()
-}
 
 /// Lines within blocks of code, and those outside.
 fn lines(text: &str) -> [Vec<Line>; 2] {

@@ -24,6 +24,7 @@ mod seat;
 mod structure;
 mod tidy;
 mod together;
+mod tree;
 mod wardrobe;
 mod words;
 mod workbench;

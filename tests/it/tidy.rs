@@ -1,38 +1,11 @@
 //! Rules that the sources keep: how long a file may be, what may not be written into one.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+
+use super::tree::{files, root, text, within};
 
 /// Lines that a source file may have.
 const LINES: usize = 600;
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Files below a folder with one of some extensions, by path.
-fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten() {
-        let path = entry.expect("a readable folder").path();
-        if path.is_dir() {
-            found.extend(files(&path, extensions));
-        } else if path.extension().is_some_and(|e| extensions.iter().any(|wanted| e == *wanted)) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
-fn text(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// A path within the project, with slashes.
-fn within(path: &Path) -> String {
-    path.strip_prefix(root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
-}
 
 #[test]
 fn no_source_file_is_too_long() {

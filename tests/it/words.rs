@@ -1,7 +1,8 @@
 //! Rules that the words keep: how long a sentence of the documents, and of the comments on items, may be.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+
+use super::tree::{documents, files, root, text};
 
 /// Words that the middle sentence has at most.
 const MEDIAN: usize = 14;
@@ -24,31 +25,6 @@ type Lines<'a> = Vec<(usize, &'a str)>;
 struct Sentence {
     line: usize,
     words: usize,
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Files right in a folder, or with `deep` anywhere below it, with an extension, by path.
-fn files(folder: &Path, extension: &str, deep: bool) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten() {
-        let path = entry.expect("a readable folder").path();
-        if path.is_dir() {
-            if deep {
-                found.extend(files(&path, extension, deep));
-            }
-        } else if path.extension().is_some_and(|e| e == extension) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
-fn text(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// The text of a line without the mark of a list's item, if it has one.
@@ -200,10 +176,8 @@ fn hold(what: &str, sentences: &[(PathBuf, Sentence)]) {
 
 #[test]
 fn sentences_of_documents_are_short() {
-    let mut paths = files(root(), "md", false);
-    paths.extend(files(&root().join("docs"), "md", true));
     let mut all = Vec::new();
-    for path in paths {
+    for path in documents() {
         let found = of_document(&path, &text(&path));
         all.extend(found.into_iter().map(|sentence| (path.clone(), sentence)));
     }
@@ -213,7 +187,7 @@ fn sentences_of_documents_are_short() {
 #[test]
 fn sentences_of_comments_are_short() {
     let mut all = Vec::new();
-    for path in files(&root().join("src"), "rs", true) {
+    for path in files(&root().join("src"), &["rs"]) {
         let found = of_comments(&text(&path));
         all.extend(found.into_iter().map(|sentence| (path.clone(), sentence)));
     }

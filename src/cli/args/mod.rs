@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::builder::Resettable;
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 mod alter;
@@ -52,11 +52,11 @@ pub struct Arguments {
 }
 
 /// A refusal whose usage line shows only what was typed: clap takes a database named by the environment for typed.
-pub fn without_environment(error: clap::Error, arguments: &[OsString]) -> clap::Error {
+pub fn without_environment(command: clap::Command, error: clap::Error, arguments: &[OsString]) -> clap::Error {
     if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         return error;
     }
-    let typed = Arguments::command().mut_arg("db", |db| db.env(Resettable::Reset));
+    let typed = command.mut_arg("db", |db| db.env(Resettable::Reset));
     typed.try_get_matches_from(arguments).err().unwrap_or(error)
 }
 
