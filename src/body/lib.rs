@@ -41,7 +41,7 @@ pub use people::foreign::read_foreign;
 pub use people::likely::Likely;
 pub use people::profile::{Doubt, Mass, percentile, plausibility};
 pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
-pub use pose::{Pose, pose};
+pub use pose::{Pose, pose, way};
 pub use scan::{Scan, from_scan};
 
 use geom::section::{self, Plane};

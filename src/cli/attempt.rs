@@ -7,7 +7,7 @@ use super::context::Context;
 use super::{CliError, End, Outcome, body, output};
 use geom::units::from_mm;
 use study::patterns::Unit;
-use study::{self, Attempt, AttemptLayer, Table, Tried, Value, files};
+use study::{self, Attempt, AttemptLayer, Reached, ReachedAt, ReachedOpening, Table, Tried, Value, files};
 
 /// What stands for nothing.
 const NONE: &str = "-";
@@ -25,6 +25,8 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         simulator: arguments.sim.into(),
         edge_length_m: from_mm(arguments.edge_mm),
         repeat: arguments.repeat,
+        pose: arguments.pose,
+        reach: arguments.reach,
     };
     files::make_folder(&arguments.output)?;
     let mut phase_before = String::new();
@@ -111,6 +113,9 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
         });
         context.print(&Table { columns, rows: rows.collect() })?;
     }
+    if let Some(reach) = &tried.reach {
+        show_reach(context, reach)?;
+    }
     let columns = ["n", "e_chi", "sd_chi", "ei", "residual", "penetration_mm", "crossings", "vertices", "wall_ms"];
     let row = vec![
         Value::Integer(tried.errors.n as i64),
@@ -124,4 +129,24 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
         Value::Integer(i64::try_from(tried.wall_ms).unwrap_or(i64::MAX)),
     ];
     context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows: vec![row] })
+}
+
+/// What changes in the pose that is reached: openings, then pieces and regions of the body that are loaded otherwise.
+fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
+    let columns = ["opening", "drawn_mm", "drawn_most_mm"].map(str::to_owned).to_vec();
+    let drawn =
+        |one: &ReachedOpening| vec![Value::Text(one.opening.clone()), tenths(one.drawn_mm), tenths(one.drawn_most_mm)];
+    context.print(&Table { columns, rows: reach.opening.iter().map(drawn).collect() })?;
+    let loads = [("tension_n_m", &reach.tension_n_m), ("pressure_kpa", &reach.pressure_kpa)];
+    for (quantity, places) in loads {
+        let columns = ["place".to_owned(), quantity.to_owned(), format!("{quantity} {}", reach.pose)].to_vec();
+        let load = |at: &ReachedAt| vec![Value::Text(at.place.clone()), hundredths(at.before), hundredths(at.after)];
+        context.print(&Table { columns, rows: places.iter().map(load).collect() })?;
+    }
+    Ok(())
+}
+
+/// Rounded to a hundredth.
+fn hundredths(number: f64) -> Value {
+    Value::Real((number * 100.0).round() / 100.0)
 }

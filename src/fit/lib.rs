@@ -16,6 +16,7 @@ mod ease;
 mod judge;
 pub mod measure;
 mod pair;
+pub mod reach;
 mod resample;
 mod statistics;
 pub mod target;

@@ -68,6 +68,9 @@ pub struct Drape {
     pub history: Vec<Step>,
     /// The stages before this one, in order, where the simulator tells them apart.
     pub earlier: Vec<Staged>,
+    /// Where its vertices would be, had they kept their places on the body, m; of a drape that was carried into another pose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept: Option<Vec<V3>>,
 }
 
 /// A garment as a stage left it.

@@ -6,11 +6,12 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::bodies::{LengthUnit, Sex};
+use crate::bodies::{LengthUnit, Sex, pose_body};
 use crate::error::{Result, StudyError};
 use crate::faults::{Fault, drape_faults};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
+use crate::reach::{Reached, reached};
 use crate::run::layers::{Garb, Wardrobe};
 use crate::run::outcome::{Measured, Outcome};
 use crate::run::pipeline::Meshes;
@@ -18,7 +19,7 @@ use crate::seams::{self, Question};
 use crate::spec::file::{read_body, read_fabric};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
-use body::Body;
+use body::{Body, Pose};
 use fit::measure::{self, Metrics};
 use fit::{Ease, Simulator};
 use geom::units::mm;
@@ -57,6 +58,10 @@ pub struct Attempt {
     pub edge_length_m: f64,
     /// Simulations by FEM-GS: the first as placed, each other from a start that differs a little.
     pub repeat: u32,
+    /// Pose in which the body is dressed; as it stands where there is none.
+    pub pose: Option<Pose>,
+    /// Pose into which FEM-GS carries the drape of a single garment from there.
+    pub reach: Option<Pose>,
 }
 
 /// A garment to be tried on.
@@ -159,6 +164,9 @@ pub struct Tried {
     pub ease: Vec<TriedEase>,
     /// Hybrid-GS: girths of garment and body; empty for the other simulator.
     pub gap: Vec<TriedGap>,
+    /// What changes in the pose that is reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reach: Option<Reached>,
     /// What is wrong with the drape; empty where it is good.
     pub problems: Vec<String>,
     /// What had to be guessed about the inputs.
@@ -178,7 +186,8 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     check(asked)?;
     let read = asked.layers.iter().map(|layer| garb(asked, layer)).collect::<Result<Vec<_>>>()?;
     let (garbs, notes): (Vec<Garb>, Vec<Vec<String>>) = read.into_iter().unzip();
-    let (body, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
+    let (upright, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
+    let body = asked.pose.map_or_else(|| Ok(upright.clone()), |pose| pose_body(&upright, pose))?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let parameters = Parameters::default();
     let wardrobe = Wardrobe { on: (&body, &field), garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
@@ -205,7 +214,14 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
         spread(tried, garb.meshes.finest()?, &drapes.concat());
     }
     if let Some(last) = all.last_mut() {
-        last.files = files(asked.simulator, &body, &garbs, &drapes)?;
+        last.files = files("drape", asked.simulator, &body, (&garbs, &drapes))?;
+    }
+    if let (Some(to), [garb], [tried]) = (asked.reach, &garbs[..], &mut all[..]) {
+        let from = asked.pose.unwrap_or_default();
+        let (change, posed, drape) = reached(&upright, [from, to], (garb, &drapes[0]), &mut told)?;
+        tried.problems.extend(change.problems.iter().cloned());
+        tried.files.extend(files("reach", asked.simulator, &posed, (&garbs, &[drape]))?);
+        tried.reach = Some(change);
     }
     for tried in &mut all {
         tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
@@ -219,6 +235,9 @@ fn check(asked: &Attempt) -> Result<()> {
         return Err(StudyError::stage("sim")(
             "--repeat is for --sim fem: only that starts from a place that can be varied",
         ));
+    }
+    if asked.reach.is_some() && (asked.simulator != Simulator::Fem || asked.layers.len() > 1) {
+        return Err(StudyError::stage("sim")("--reach is for one garment and --sim fem: friction carries it along"));
     }
     if asked.layers.len() > 1 && asked.repeat > 1 {
         return Err(StudyError::stage("sim")("--repeat is for one garment; accepted of an outfit: one drape"));
@@ -267,6 +286,7 @@ impl Tried {
             chi: outcome.measured.into_iter().map(TriedChi::of).collect(),
             ease: outcome.eases.into_iter().map(TriedEase::of).collect(),
             gap,
+            reach: None,
             notes: Vec::new(),
             files: Vec::new(),
         }
@@ -395,8 +415,13 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     faults.into_iter().map(told).collect()
 }
 
-/// Four views of every stage as one picture each, and body and garments as meshes.
-fn files(simulator: Simulator, body: &Body, garbs: &[Garb], drapes: &[Drape]) -> Result<Vec<(String, Vec<u8>)>> {
+/// Four views of every stage as one picture each, and body and garments as meshes; the last stage is called `stem`.
+fn files(
+    stem: &str,
+    simulator: Simulator,
+    body: &Body,
+    (garbs, drapes): (&[Garb], &[Drape]),
+) -> Result<Vec<(String, Vec<u8>)>> {
     let garments = garbs.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
     let mesh = |garment: &Garment, positions: &[V3]| TriMesh {
         positions: positions.to_vec(),
@@ -405,7 +430,7 @@ fn files(simulator: Simulator, body: &Body, garbs: &[Garb], drapes: &[Drape]) ->
     let cloths: Vec<TriMesh> =
         garments.iter().zip(drapes).map(|(garment, drape)| mesh(garment, &drape.positions)).collect();
     let materials: Vec<Material> = (0..cloths.len()).map(|number| material(simulator, number)).collect();
-    let mut files = vec![("drape.png".to_owned(), four_views(body, &cloths, &materials)?)];
+    let mut files = vec![(format!("{stem}.png"), four_views(body, &cloths, &materials)?)];
     for (garment, drape) in garments.iter().zip(drapes) {
         if let Some(popup) = drape.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup) {
             let picture = four_views(body, &[mesh(garment, &popup.positions)], &[Material::popup()])?;
@@ -422,8 +447,8 @@ fn files(simulator: Simulator, body: &Body, garbs: &[Garb], drapes: &[Drape]) ->
     for (number, garment) in garments.iter().enumerate() {
         parts.push(part(&names[number], &cloths[number], materials[number].front, Some(&garment.rest[..])));
     }
-    files.push(("drape.glb".to_owned(), MeshFormat::Glb.write(&parts)));
-    files.push(("drape.obj".to_owned(), MeshFormat::Obj.write(&parts)));
+    files.push((format!("{stem}.glb"), MeshFormat::Glb.write(&parts)));
+    files.push((format!("{stem}.obj"), MeshFormat::Obj.write(&parts)));
     Ok(files)
 }
 

@@ -15,6 +15,7 @@ mod faults;
 pub mod files;
 mod grading;
 pub mod patterns;
+mod reach;
 mod rows;
 mod run;
 pub mod seams;
@@ -53,6 +54,7 @@ pub use chance::{
 };
 pub use error::{Problem, Result, StudyError};
 pub use grading::{DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade};
+pub use reach::{Reached, ReachedAt, ReachedOpening};
 pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
     StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,

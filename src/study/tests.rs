@@ -60,6 +60,7 @@ fn study(density_kg_m2: f64) -> Study {
     let subject = |id: &str, stature_m: f64| Subject {
         id: id.to_owned(),
         person: Measurements::of(Sex::Male, stature_m).with(Dimension::ChestGirth, 0.9).into(),
+        carried_from: None,
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
     let fabric = Fabric {

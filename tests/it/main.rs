@@ -18,6 +18,7 @@ mod outfit;
 mod pattern_files;
 mod pictures;
 mod program;
+mod reach;
 mod report;
 mod run;
 mod seat;

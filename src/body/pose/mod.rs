@@ -62,6 +62,19 @@ impl FromStr for Pose {
     }
 }
 
+impl Pose {
+    /// The pose after a movement into another: what that does not name stays.
+    #[must_use]
+    pub fn then(self, to: Self) -> Self {
+        Self {
+            arm_deg: to.arm_deg.or(self.arm_deg),
+            leg_deg: to.leg_deg.or(self.leg_deg),
+            forward_deg: to.forward_deg.or(self.forward_deg),
+            step_deg: to.step_deg.or(self.step_deg),
+        }
+    }
+}
+
 /// Axes of the planes in which limbs turn.
 const FRONTAL: [usize; 2] = [0, 2];
 const SAGITTAL: [usize; 2] = [1, 2];
@@ -126,6 +139,32 @@ pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     stand(&mut posed);
     posed.skeleton = posed.control.skeleton();
     Ok(posed)
+}
+
+/// A body on its way from one pose to another, whose limbs turn by at most `step_deg` at a time: as it stands at first, and then turn by turn.
+/// What `to` does not name stays as in `from`; what neither names, as it is.
+///
+/// # Errors
+/// As [`pose`], anywhere on the way.
+pub fn way(body: &Body, from: Pose, to: Pose, step_deg: f64) -> Result<Vec<Body>, BodyError> {
+    let mean = |angle: fn(&Body, f64) -> f64| f64::midpoint(angle(body, 1.0), angle(body, -1.0)).to_degrees();
+    let limbs = |pose: &Pose| [pose.arm_deg, pose.leg_deg, pose.forward_deg, pose.step_deg];
+    let as_it_is = [mean(arm_angle), mean(leg_angle), 0.0, 0.0];
+    let turns: Vec<Option<[f64; 2]>> = limbs(&from)
+        .into_iter()
+        .zip(limbs(&from.then(to)))
+        .zip(as_it_is)
+        .map(|((from, to), is)| Some([from.unwrap_or(is), to?]))
+        .collect();
+    let greatest = turns.iter().flatten().map(|[from, to]| (to - from).abs()).fold(0.0, f64::max);
+    let steps = (greatest / step_deg).ceil().max(1.0) as u32;
+    let at = |step: u32| {
+        let share = f64::from(step) / f64::from(steps);
+        let angle = |limb: usize| turns[limb].map(|[from, to]| from + (to - from) * share);
+        Pose { arm_deg: angle(0), leg_deg: angle(1), forward_deg: angle(2), step_deg: angle(3) }
+    };
+    let first = pose(body, from);
+    std::iter::once(first).chain((1..=steps).map(|step| pose(body, at(step)))).collect()
 }
 
 /// From the angle a limb has to the one asked for, radians.

@@ -82,3 +82,28 @@ fn impossible_poses_are_refused() {
     check(Pose { step_deg: Some(-5.0), ..Pose::default() }, "0 to 25");
     check(Pose { arm_deg: Some(5.0), ..Pose::default() }, "arms and trunk would touch");
 }
+
+#[test]
+fn a_body_goes_from_one_pose_to_another_by_small_turns_of_one_mesh() {
+    let body = bodies().swap_remove(0);
+    let check = |from: &str, to: &str, turns: usize| {
+        let [from, to] =
+            [from, to].map(|name| if name.is_empty() { Pose::default() } else { name.parse().expect("a pose") });
+        let all = way(&body, from, to, 5.0).expect("it can stand so");
+        assert_eq!(all.len(), turns + 1);
+        assert!(all[0] == pose(&body, from).expect("a pose"));
+        let last = pose(&body, from.then(to)).expect("a pose");
+        let off = all[turns].mesh.positions.iter().zip(&last.mesh.positions).map(|(a, b)| (a - b).norm());
+        assert!(off.fold(0.0, f64::max) < 1e-9);
+        for pair in all.windows(2) {
+            assert_eq!(pair[0].mesh.triangles, pair[1].mesh.triangles);
+            let moved = pair[0].mesh.positions.iter().zip(&pair[1].mesh.positions).map(|(a, b)| (a - b).norm());
+            // Five degrees of an arm of 0.8 m.
+            assert!(moved.fold(0.0, f64::max) < 0.08);
+        }
+    };
+    check("arms_25", "arms_60", 7);
+    check("arms_25+legs_8", "forward_12", 3);
+    check("", "step_15", 3);
+    check("arms_40", "arms_40", 1);
+}

@@ -42,6 +42,12 @@ pub struct Try {
     /// Drape N times, each from a start that differs a little, and print how far each chi lies apart (FEM-GS only).
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub repeat: u32,
+    /// Pose to dress the body in: arms_5 to arms_90, legs_, forward_, step_, or several (arms_45+legs_10); by default as it stands.
+    #[arg(long, value_name = "POSE")]
+    pub pose: Option<study::bodies::Pose>,
+    /// Pose that the body then moves into with the garment on: how far hem and cuffs are drawn, where it pulls and presses (FEM-GS only).
+    #[arg(long, value_name = "POSE")]
+    pub reach: Option<study::bodies::Pose>,
     /// Folder for picture and meshes.
     #[arg(long, short, value_name = "DIR", default_value = "try")]
     pub output: PathBuf,

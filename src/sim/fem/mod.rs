@@ -1,5 +1,6 @@
 //! FEM-GS (chapter 4): placement, sewing and draping by physics alone.
 
+pub mod carry;
 mod dress;
 pub mod params;
 pub mod response;
@@ -13,8 +14,8 @@ pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;
 use crate::placement::{self, Bend};
-use crate::quality::{self, top_m};
-use crate::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
+use crate::quality::top_m;
+use crate::{Distortion, Drape, Fabric, Monitor, SimError};
 use body::Body;
 use geom::constants::Constant;
 use geom::{DistanceField, V3};
@@ -95,20 +96,7 @@ pub fn simulate(
     let skin = Skin::new(&body.mesh).ok();
     let (hands, skin) = (hands.as_ref(), skin.as_ref());
     let dressing = Dressing { body, skin, field, hands, garments, fabric, placed: &placed, force };
-    let ended = |settled: Settled| Drape {
-        stage: Stage::Drape,
-        converged: settled.residual <= params.tolerance,
-        iterations: 0,
-        residual: settled.residual,
-        penetration_max_m: quality::penetration_by_field_m(skin, field, finest, &settled.positions),
-        seam_gap_max_m: quality::seam_gap_m(finest, &settled.positions),
-        self_crossings: quality::self_crossings(&settled.sewn, &settled.triangles),
-        welded_vertices: settled.sewn.len(),
-        braced_n: settled.braced_n,
-        positions: settled.positions,
-        history: Vec::new(),
-        earlier: Vec::new(),
-    };
+    let ended = |settled: Settled| settled.into_drape(skin, field, finest, params.tolerance);
     let (settled, grip) = match dressing.dress(Grip::AtTheEnd, &mut run) {
         Err(error) if !run.tries_again() => return Err(error),
         Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, Grip::Throughout),
@@ -205,6 +193,7 @@ fn is_better(one: &Drape, other: &Drape) -> bool {
 /// Constants of FEM-GS that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
+        carry::CONSTANTS,
         dress::CONSTANTS,
         CONSTANTS,
         params::CONSTANTS,

@@ -1,12 +1,13 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
 
 use super::run::{Phase, Simulation};
-use crate::SimError;
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::hands::{Hands, Shape};
+use crate::quality;
 use crate::solver::System;
 use crate::solver::braces::Braces;
+use crate::{Drape, SimError, Stage};
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
@@ -83,6 +84,27 @@ pub struct Settled {
     pub sewn: Vec<V3>,
     /// Triangles of the sewn vertices.
     pub triangles: Vec<[usize; 3]>,
+}
+
+impl Settled {
+    /// The drape that the finest mesh, `garment`, has come to; at rest with a residual of `tolerance` at most.
+    pub fn into_drape(self, skin: Option<&Skin>, field: &DistanceField, garment: &Garment, tolerance: f64) -> Drape {
+        Drape {
+            stage: Stage::Drape,
+            converged: self.residual <= tolerance,
+            iterations: 0,
+            residual: self.residual,
+            penetration_max_m: quality::penetration_by_field_m(skin, field, garment, &self.positions),
+            seam_gap_max_m: quality::seam_gap_m(garment, &self.positions),
+            self_crossings: quality::self_crossings(&self.sewn, &self.triangles),
+            welded_vertices: self.sewn.len(),
+            braced_n: self.braced_n,
+            positions: self.positions,
+            history: Vec::new(),
+            earlier: Vec::new(),
+            kept: None,
+        }
+    }
 }
 
 /// A level that is to settle.
@@ -209,6 +231,31 @@ impl<'a> Settling<'a> {
             }
         }
         Ok(system)
+    }
+
+    /// A finest mesh at `x` goes on as friction holds it: a few steps while the body moves on.
+    ///
+    /// # Errors
+    /// When it diverges or slides off the body, or the monitor cancels.
+    pub fn pass(&self, x: &mut Vec<V3>, steps: u32, run: &mut Simulation) -> Result<(), SimError> {
+        let mut system = self.system(self.contact(self.around.field, x, run), x);
+        system.contact.set_floor(self.around.floor_m);
+        system.set_friction();
+        let phase = Phase::passing(run.params(), self.level, run.levels(), steps);
+        run.drape(self.garment, &mut system, x, phase).map(|_| ())
+    }
+
+    /// A finest mesh at `x` comes to rest as friction holds it.
+    ///
+    /// # Errors
+    /// When it diverges or slides off the body, or the monitor cancels.
+    pub fn rest(&self, mut x: Vec<V3>, run: &mut Simulation) -> Result<Settled, SimError> {
+        let mut system = self.system(self.contact(self.around.field, &x, run), &x);
+        system.contact.set_floor(self.around.floor_m);
+        let residual = self.hold(&mut system, &mut x, run)?;
+        let (yields_m, braced_n) = (system.contact.yields_m(&x), None);
+        let (positions, triangles) = (self.cloth.unweld(&x), self.cloth.triangles.clone());
+        Ok(Settled { positions, residual, yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Steps without friction until it is at rest, or a few; returns the residual.

@@ -4,7 +4,7 @@ use super::*;
 use crate::cloth::Cloth;
 use crate::sewing;
 use crate::testing::lapelled;
-use crate::{Silent, fabric};
+use crate::{Silent, Stage, fabric};
 use body::Dimension;
 use body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
 use geom::TriMesh;
@@ -252,6 +252,7 @@ fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
         positions: Vec::new(),
         history: Vec::new(),
         earlier: Vec::new(),
+        kept: None,
     }
 }
 
@@ -302,4 +303,46 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
     check("restless", late, (1e-4, 4), 1.5, false, &[&[(early, 1.0, true)][..], &resewn(late)].concat());
     check("come off", late, (1e-4, 4), 1.0, true, &[(early, 1.0, true)]);
     check("come off with friction", early, (1e-4, 4), 1.0, true, &[]);
+}
+
+#[test]
+fn a_raised_arm_draws_cuff_and_hem_as_far_as_the_sleeve_is_short() {
+    let upright = body::build(&Measurements::of(Sex::Male, 1.76).with(Dimension::ChestGirth, 0.98)).expect("a body");
+    let arms = |deg: f64| body::Pose { arm_deg: Some(deg), ..body::Pose::default() };
+    let dressed = body::pose(&upright, arms(15.0)).expect("a pose");
+    let field = DistanceField::build(&dressed.mesh, 0.01).expect("a field");
+    let (garments, cloth, params) = (levels(Model::Tshirt, 0.04), &fabric::library()[0], Params::default());
+    let garment = &garments[garments.len() - 1];
+    let drape = simulate(&dressed, &field, &garments, cloth, &params, &mut Silent).expect("a drape");
+    let carried = |deg: f64| {
+        let bodies = body::way(&upright, arms(15.0), arms(deg), 5.0).expect("a way");
+        carry::carry((&bodies, 0.01), (garment, cloth), &drape, &params, &mut Silent).expect("it goes along")
+    };
+    // Without a movement it stays.
+    let still = carried(15.0);
+    let ways = still.positions.iter().zip(&drape.positions).map(|(a, b)| (a - b).norm());
+    let moved_m = ways.sum::<f64>() / drape.positions.len() as f64;
+    assert!(still.converged && moved_m < 1e-3, "{moved_m}");
+    assert_eq!(still.kept.as_deref(), Some(&drape.positions[..]));
+
+    let raised = carried(85.0);
+    assert!(raised.converged && raised.self_crossings == 0 && raised.penetration_max_m < FAULTLESS_DEPTH_M);
+    let sleeve = garment.pieces.iter().find(|piece| piece.id == "sleeve_right").expect("a sleeve");
+    let seam = &sleeve.edges["underarm_front"];
+    let is_cuff = |v: usize| sleeve.edges["opening"].contains(&v);
+    let [armpit, cuff] =
+        if is_cuff(seam[0]) { [seam[seam.len() - 1], seam[0]] } else { [seam[0], seam[seam.len() - 1]] };
+    // The underarm stays at the trunk, the cuff turns about the shoulder joint.
+    let joint = dressed.skeleton.at(Joint::ShoulderRight);
+    let r = drape.positions[cuff] - joint;
+    let (sin, cos) = 70.0_f64.to_radians().sin_cos();
+    let turned = joint + V3::new(r.x * cos - r.z * sin, r.y, r.x * sin + r.z * cos);
+    let underarm_m = garment.measurements.iter().find(|m| m.name == "Sleeve Length").expect("it is measured").l2d_m;
+    let short_m = (turned - drape.positions[armpit]).norm() - underarm_m;
+    let kept = raised.kept.expect("it was carried");
+    let along = (drape.positions[armpit] - kept[cuff]).normalize();
+    let drawn_m = (raised.positions[cuff] - kept[cuff]).dot(&along);
+    let up_m = (drape.positions[armpit] - raised.positions[armpit]).dot(&along);
+    assert!(short_m > 0.06 && drawn_m > 0.02 && up_m > 0.01, "{short_m}, {drawn_m}, {up_m}");
+    assert!((drawn_m + up_m - short_m).abs() < 0.02, "{drawn_m} and {up_m} for {short_m}");
 }

@@ -308,6 +308,7 @@ impl Dressing<'_> {
                 Staged { stage: Stage::Sewn, positions: on_skin },
                 Staged { stage: Stage::Popup, positions: popped },
             ],
+            kept: None,
         })
     }
 }

@@ -14,7 +14,7 @@ use crate::run::outcome::{Executor, Outcome};
 use crate::run::pipeline::Pipeline;
 use crate::spec::inputs::{Change, Inputs};
 use crate::spec::parameters::Parameters;
-use crate::spec::{JobSpec, Schedule};
+use crate::spec::{CARRIED_FROM, JobSpec, Schedule};
 use crate::store::cache::Cache;
 use crate::store::{self, Access, Store, read};
 use geom::units::{from_mm, mm};
@@ -204,6 +204,9 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     if inputs.iter().any(|(name, _)| name == "outfit.id") {
         return Err(refuse("it is a layer of an outfit, which is draped as a whole; run its study again".into()));
     }
+    if inputs.iter().any(|(name, _)| name == CARRIED_FROM) {
+        return Err(refuse("its body carried it from another pose; run its study again".into()));
+    }
     let spec = JobSpec {
         garment: job.garment,
         style,
@@ -220,6 +223,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
         schedule: Schedule::default(),
         outfit: None,
+        dressed: None,
         inputs: Inputs::default(),
     };
     Ok(spec.with_inputs())

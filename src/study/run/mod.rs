@@ -1,6 +1,7 @@
 //! Starting a run of a study: checked, queued, and worked on in the background.
 
 pub mod actions;
+pub mod carry;
 pub mod compose;
 pub(crate) mod ease;
 pub mod engine;

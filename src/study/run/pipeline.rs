@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::error::{Result, StudyError};
 use crate::patterns;
 use crate::rows::StageKind;
+use crate::run::carry::carry;
 use crate::run::ease;
 use crate::run::layers::{self, Drapes, Garb, Wardrobe};
 use crate::run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
@@ -120,6 +121,36 @@ impl Pipeline {
         self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
     }
 
+    /// The drape of a garment that is worn alone.
+    fn drape(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<(Arc<Drape>, Used)> {
+        let hash = spec.inputs.stage_hash(StageKind::Drape);
+        self.cache.get(StageKind::Drape, &hash, || match &spec.dressed {
+            Some(before) => self.carried(spec, before, monitor),
+            None => {
+                let (model, meshes) = (self.model(spec)?.0, self.meshes(spec)?.0);
+                let fitting = Fitting {
+                    body: &model.body,
+                    field: &*self.field(spec, &model)?.0,
+                    style: &style(spec)?,
+                    meshes: &meshes,
+                    fabric: &spec.fabric,
+                    simulator: spec.simulator,
+                    parameters: &spec.parameters,
+                };
+                fitting.simulate(monitor)
+            }
+        })
+    }
+
+    /// A garment that is put on as `before` says, and carried into the pose of `spec`.
+    fn carried(&self, spec: &JobSpec, before: &JobSpec, monitor: &mut dyn Monitor) -> Result<Drape> {
+        let (drape, _) = self.drape(before, monitor)?;
+        let upright = Person { pose: None, ..spec.person.clone() }.body()?;
+        let poses = [before, spec].map(|one| one.person.pose.unwrap_or_default());
+        let meshes = self.meshes(spec)?.0;
+        carry(&upright, poses, (&meshes, &spec.fabric), (&drape, &spec.parameters), monitor).map(|(_, drape)| drape)
+    }
+
     /// A layer of an outfit. The first of its layers drapes them all, for the others too.
     fn layer(&self, spec: &JobSpec, outfit: &Outfit, monitor: &mut dyn Monitor) -> Result<Outcome> {
         let (model, used_body) = self.model(spec)?;
@@ -143,7 +174,7 @@ impl Pipeline {
     /// # Errors
     /// Those of the body.
     pub(crate) fn worn_body(&self, subject: &Subject) -> Result<Arc<Model>> {
-        let Subject { id, person } = subject;
+        let Subject { id, person, .. } = subject;
         let make = || Ok(Model { body: person.body()? });
         if person.scan.is_none() {
             return make().map(Arc::new);
@@ -173,6 +204,7 @@ impl Executor for Pipeline {
         let (meshes, used_mesh) = self.meshes(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
         let style = style(spec)?;
+        let (drape, used_drape) = self.drape(spec, monitor)?;
         let fitting = Fitting {
             body: &model.body,
             field: &field,
@@ -182,8 +214,6 @@ impl Executor for Pipeline {
             simulator: spec.simulator,
             parameters: &spec.parameters,
         };
-        let drape_hash = spec.inputs.stage_hash(StageKind::Drape);
-        let (drape, used_drape) = self.cache.get(StageKind::Drape, &drape_hash, || fitting.simulate(monitor))?;
         Ok(Outcome { used: vec![used_body, used_field, used_mesh, used_drape], ..fitting.outcome(&drape)? })
     }
 }
@@ -229,13 +259,20 @@ impl Fitting<'_> {
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
         let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
+        // Hybrid-GS sets a length unless the study leaves it free; FEM-GS sets none.
+        let left_free = match self.simulator {
+            Simulator::Fem => None,
+            Simulator::Hybrid => Some(self.parameters.hybrid()?.uncontrolled),
+        };
+        let is_controlled = |no: u32| left_free.as_ref().is_some_and(|free| !free.contains(&no));
         let measured = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
+            let is_controlled = &is_controlled;
             garment.measurements.iter().zip(chis).map(move |(m, chi)| Measured {
                 stage,
                 name: m.name.clone(),
                 kind: m.kind,
                 is_free_edge: m.is_free_edge,
-                is_controlled: self.simulator == Simulator::Hybrid,
+                is_controlled: is_controlled(m.no),
                 chi,
             })
         });
@@ -389,7 +426,7 @@ mod tests {
         let jobs = quickstart();
         let (mut girths_m, style) = (Vec::new(), style(&jobs[0]).expect("it can be read"));
         for job in &jobs[..2] {
-            let subject = Subject { id: job.subject.clone(), person: job.person.clone() };
+            let subject = Subject { id: job.subject.clone(), person: job.person.clone(), carried_from: None };
             let worn = pipeline.worn_body(&subject).expect("it can be built");
             assert_eq!(worn.body, job.person.body().expect("it can be built"));
             girths_m.push(ease::on(&style, &worn.body).swap_remove(0));

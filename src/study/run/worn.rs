@@ -7,6 +7,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::JobId;
 use body::Body;
 use fit::Simulator;
+use fit::reach::{self, Drawn};
 use fit::worn::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
 use geom::units::mm;
 use geom::{Surface, V3, hull};
@@ -76,6 +77,9 @@ pub struct WornOn {
     pub folds: Vec<Fold>,
     /// Pressure by region; of FEM-GS, which alone brings cloth and body into balance.
     pub pressing: Vec<Pressing>,
+    /// How far openings were drawn; of a drape that was carried into another pose.
+    #[serde(default)]
+    pub drawn: Vec<Drawn>,
 }
 
 impl WornOn {
@@ -106,11 +110,13 @@ impl WornOn {
             mean_kpa: one.mean_kpa,
             most_kpa: one.most_kpa,
         };
+        let drawn = drape.kept.iter().flat_map(|kept| reach::drawn(garment, kept, &drape.positions));
         Ok(Self {
             levels: worn::sites(body).into_iter().filter_map(cut).map(|section| Level::of(&section)).collect(),
             hang: hang(style, garment, &drape.positions),
             folds: worn::folds(&worn),
             pressing: pressed.into_iter().map(pressing).collect(),
+            drawn: drawn.collect(),
         })
     }
 }
@@ -143,6 +149,10 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> 
     let mut balance = transaction.prepare_cached("INSERT INTO balance VALUES (?, ?, ?, ?)")?;
     for (quantity, value, unit) in quantities(&worn.hang) {
         balance.execute(params![id.0, quantity, value, unit])?;
+    }
+    let mut drawn = transaction.prepare_cached("INSERT INTO drawn VALUES (?, ?, ?, ?)")?;
+    for one in &worn.drawn {
+        drawn.execute(params![id.0, one.opening, mm(one.mean_m), mm(one.most_m)])?;
     }
     let mut fold = transaction.prepare_cached("INSERT INTO fold VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")?;
     for (number, one) in (1_i64..).zip(&worn.folds) {

@@ -65,8 +65,9 @@ fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
         quoted(&subject.id),
         sex_name(&subject.person.measurements)
     );
-    if let Some(pose) = subject.person.pose {
-        let _ = writeln!(text, "pose = \"{pose}\"");
+    let poses = [("pose", subject.person.pose), ("carried_from", subject.carried_from)];
+    for (key, pose) in poses {
+        let _ = pose.map(|pose| writeln!(text, "{key} = \"{pose}\""));
     }
     if let Some(ScanFile { file, unit }) = &subject.person.scan {
         let _ = writeln!(text, "scan = {}", quoted(&place(files, "scans", file)));

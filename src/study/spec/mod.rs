@@ -91,9 +91,15 @@ pub struct JobSpec {
     /// What it is worn with, as a layer of an outfit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outfit: Option<Outfit>,
+    /// What it is before its body moves into another pose and carries it along.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dressed: Option<Box<JobSpec>>,
     /// All of the above but the schedule, and the versions of the stages, as named values.
     pub inputs: Inputs,
 }
+
+/// Input that names the pose from which a garment was carried.
+pub(crate) const CARRIED_FROM: &str = "carried.from";
 
 /// What a layer is worn with.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -168,13 +174,17 @@ fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool
     let mut jobs = Vec::new();
     for garment in study.worn() {
         let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
-        let is_worn = |subject: &&Subject| wearers.contains(subject.id.as_str()) && is_wanted(garment, subject);
+        // A garment is carried alone.
+        let is_able = |subject: &Subject| garment.outfit.is_none() || subject.carried_from.is_none();
+        let is_worn = |subject: &&Subject| {
+            wearers.contains(subject.id.as_str()) && is_able(subject) && is_wanted(garment, subject)
+        };
         let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
-        // Only FEM-GS knows layers.
-        let is_able = |simulator: &&Simulator| garment.outfit.is_none() || **simulator == Simulator::Fem;
         for size in 0..garment.sizes.len() {
             for subject in &subjects {
-                for &simulator in study.simulators.iter().filter(is_able) {
+                // Only FEM-GS knows layers, and friction that carries.
+                let is_plain = garment.outfit.is_none() && subject.carried_from.is_none();
+                for &simulator in study.simulators.iter().filter(|one| is_plain || **one == Simulator::Fem) {
                     jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
                 }
             }
@@ -206,6 +216,7 @@ fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simula
         parameters: garment.parameters.clone(),
         schedule: garment.schedule.clone(),
         outfit,
+        dressed: subject.dressed().map(|before| Box::new(job(garment, size, &before, simulator, repeat))),
         inputs: Inputs::default(),
     };
     spec.with_inputs()
@@ -232,6 +243,9 @@ impl JobSpec {
             inputs.set("outfit.name", &outfit.name);
             inputs.set("outfit.layer", outfit.layer + 1);
             inputs.set("outfit.id", outfit.id());
+        }
+        if let Some(from) = self.dressed.as_ref().and_then(|before| before.person.pose) {
+            inputs.set(CARRIED_FROM, from);
         }
         for (name, version) in versions::versions(self.simulator) {
             inputs.set(name, version);

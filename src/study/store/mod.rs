@@ -18,7 +18,7 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction, TransactionBehavio
 use crate::error::{Result, StudyError, database_error};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 16] = [
+const MIGRATIONS: [&str; 17] = [
     include_str!("../../../db/migrations/0001_store.sql"),
     include_str!("../../../db/migrations/0002_views.sql"),
     include_str!("../../../db/migrations/0003_published.sql"),
@@ -35,6 +35,7 @@ const MIGRATIONS: [&str; 16] = [
     include_str!("../../../db/migrations/0014_queued.sql"),
     include_str!("../../../db/migrations/0015_scans.sql"),
     include_str!("../../../db/migrations/0016_outfits.sql"),
+    include_str!("../../../db/migrations/0017_drawn.sql"),
 ];
 
 /// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's

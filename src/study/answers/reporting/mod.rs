@@ -20,7 +20,7 @@ use report::data::{Fact, FitData, RawLink};
 use report::{self, Purpose, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
-const RAW: [(&str, &str, &str); 12] = [
+const RAW: [(&str, &str, &str); 13] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
     ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
@@ -32,6 +32,7 @@ const RAW: [(&str, &str, &str); 12] = [
     ("v_balance", "balance.csv", "heights of hem and waist edge, lean of side seams"),
     ("v_fold", "fold.csv", "folds and drag lines"),
     ("v_pressure", "pressure.csv", "pressure by region of the body"),
+    ("v_drawn", "drawn.csv", "how far hem, cuffs and neckline are drawn as the body moves"),
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 

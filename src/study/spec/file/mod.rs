@@ -16,6 +16,7 @@
 //! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
 //! # or a scan (OBJ, PLY, STL, GLB) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
 //! poses = ["arms_15", "arms_60"]    # each a subject, `ii arms_15`; default: as it is built or scanned
+//! carried_from = "arms_15"          # garments are put on in this pose and carried into the others; by FEM-GS
 //!
 //! [[garment]]
 //! name = "tshirt"
@@ -83,11 +84,22 @@ use sim::Fabric;
 pub struct Subject {
     /// Name in results.
     pub id: String,
-    /// Who it is.
+    /// Who it is, in the pose that results are of.
     pub person: Person,
+    /// Pose in which garments are put on, where they are carried from there.
+    pub carried_from: Option<Pose>,
 }
 
 impl Subject {
+    /// The same in the pose in which garments are put on; `None` where that is the pose that results are of.
+    #[must_use]
+    pub fn dressed(&self) -> Option<Self> {
+        let (from, to) = (self.carried_from?, self.person.pose?);
+        let name = self.id.strip_suffix(&format!(" {to}")).unwrap_or(&self.id);
+        let person = Person { pose: Some(from), ..self.person.clone() };
+        Some(Self { id: format!("{name} {from}"), person, carried_from: None })
+    }
+
     /// Whether a name is that of the subject, or of somebody of whom it is one pose.
     #[must_use]
     pub fn is_called(&self, name: &str) -> bool {

@@ -21,7 +21,8 @@ pub(super) fn subjects(
     folder: &Path,
     known: &BTreeMap<String, Person>,
 ) -> Vec<Placed<Subject>> {
-    let accepted = [&["id", "like", "scan", "unit", "pose", "poses"], &keys::<Measurements>()[..]].concat();
+    let accepted =
+        [&["id", "like", "scan", "unit", "pose", "poses", "carried_from"], &keys::<Measurements>()[..]].concat();
     let mut subjects = Vec::new();
     let mut ids = BTreeSet::new();
     for mut place in reader.tables(top, "subject", "subject") {
@@ -31,11 +32,11 @@ pub(super) fn subjects(
         place.name = format!("subject {}", id.get_ref());
         let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
             (Some(name), _) => {
-                alone(reader, &place, &["id", "like", "pose", "poses"]);
+                alone(reader, &place, &["id", "like", "pose", "poses", "carried_from"]);
                 lookup(reader, known, &name, "subject in the catalogue").cloned()
             }
             (None, Some(file)) => {
-                alone(reader, &place, &["id", "scan", "sex", "unit", "pose", "poses"]);
+                alone(reader, &place, &["id", "scan", "sex", "unit", "pose", "poses", "carried_from"]);
                 scanned(reader, &place, &file, folder)
             }
             (None, None) => measurements(reader, &place, OR_NAMED).map(Person::from),
@@ -43,10 +44,20 @@ pub(super) fn subjects(
         let pose = reader.text(&place, "pose").and_then(|name| pose(reader, &place, &name));
         let found = found.map(|person| Person { pose: pose.or(person.pose), ..person });
         let poses = poses(reader, &place);
-        subjects.extend(found.into_iter().flat_map(|person| posed(id.get_ref(), &person, &poses)).map(|subject| {
-            let name = subject.id.clone();
-            reader.placed(&id.span(), &name, subject)
-        }));
+        let from = reader.text(&place, "carried_from").and_then(|name| self::pose(reader, &place, &name));
+        if from.is_some() && poses.is_empty() && found.as_ref().is_some_and(|person| person.pose.is_none()) {
+            let message = format!(
+                "{}: `carried_from` without a pose to carry to; accepted: `pose` or `poses` beside it",
+                place.name
+            );
+            reader.problem(&id.span(), message);
+        }
+        subjects.extend(found.into_iter().flat_map(|person| posed(id.get_ref(), &person, &poses, from)).map(
+            |subject| {
+                let name = subject.id.clone();
+                reader.placed(&id.span(), &name, subject)
+            },
+        ));
     }
     subjects
 }
@@ -62,14 +73,18 @@ fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Opt
     read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
 }
 
-/// A subject in each of some poses, called after them; as it is where there are none.
-fn posed(id: &str, person: &Person, poses: &[Pose]) -> Vec<Subject> {
+/// A subject in each of some poses, called after them; as it is where there are none. Garments are put on in the pose `from`, where that
+/// is given, and carried into the others.
+fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<Subject> {
+    let reached = |pose: &Pose| from.map_or(*pose, |from| from.then(*pose));
+    let stands = |id: String, pose: Option<Pose>| {
+        let carried_from = from.filter(|from| pose != Some(*from));
+        Subject { id, person: Person { pose, ..person.clone() }, carried_from }
+    };
     if poses.is_empty() {
-        return vec![Subject { id: id.to_owned(), person: person.clone() }];
+        return vec![stands(id.to_owned(), person.pose.as_ref().map(reached))];
     }
-    let posed =
-        |pose: &Pose| Subject { id: format!("{id} {pose}"), person: Person { pose: Some(*pose), ..person.clone() } };
-    poses.iter().map(posed).collect()
+    poses.iter().map(reached).map(|pose| stands(format!("{id} {pose}"), Some(pose))).collect()
 }
 
 /// Refuses keys beside those of a subject that is named or scanned.

@@ -341,3 +341,28 @@ fn a_subject_stands_in_the_poses_that_it_names() {
     };
     ["arms", "arms_120", "wings_3", "arms_x", "", "arms_30+"].into_iter().for_each(check);
 }
+
+#[test]
+fn a_garment_is_carried_from_the_pose_in_which_it_is_put_on() {
+    let read = |keys: &str| load(&GOOD.replacen("like = \"male-ii\"", &format!("like = \"male-ii\"\n{keys}"), 1));
+    let study = read("poses = [\"arms_15\", \"arms_60\", \"step_10\"]\ncarried_from = \"arms_15\"").expect("a study");
+    let from = |subject: &Subject| subject.carried_from.map(|pose| pose.to_string()).unwrap_or_default();
+    let found: Vec<_> = study.subjects.iter().map(|subject| (subject.id.clone(), from(subject))).collect();
+    let expect = [("ii arms_15", ""), ("ii arms_60", "arms_15"), ("ii arms_15+step_10", "arms_15"), ("x", "")];
+    assert_eq!(found, expect.map(|(id, from)| (id.to_owned(), from.to_owned())));
+
+    let jobs = crate::spec::jobs(&study);
+    let of = |id: &str| jobs.iter().filter(move |job| job.subject == id).collect::<Vec<_>>();
+    assert!(of("ii arms_60").iter().all(|job| job.simulator == Simulator::Fem), "friction carries it");
+    // What it is carried from is what is draped in that pose, to the bit.
+    let (dressed, carried) = (of("ii arms_15"), of("ii arms_60"));
+    let before = carried[0].dressed.as_ref().expect("it is put on first");
+    let alone = dressed.iter().find(|job| job.simulator == Simulator::Fem).expect("by FEM-GS");
+    assert_eq!(before.inputs, alone.inputs);
+    assert_ne!(carried[0].inputs, alone.inputs);
+
+    let told = read("carried_from = \"arms_15\"").expect_err("nowhere to go");
+    assert!(told.contains("`carried_from` without a pose to carry to"), "{told}");
+    let one = read("pose = \"arms_60\"\ncarried_from = \"arms_15\"").expect("a study");
+    assert_eq!(one.subjects[0].dressed().map(|subject| subject.id).as_deref(), Some("ii arms_15"));
+}
