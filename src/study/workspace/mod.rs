@@ -111,7 +111,8 @@ impl Workspace {
     /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+    /// [`NotFound`](crate::StudyError::NotFound) while there is no result; [`Artefact`](crate::StudyError::Artefact) when it is no
+    /// longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
         picture::picture(&self.store, &self.scenes, id, view, width, height, map)
     }
@@ -137,8 +138,8 @@ impl Workspace {
     /// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
-    /// a file that is no image.
+    /// [`NotFound`](crate::StudyError::NotFound) while there is no result, where its simulator keeps no such stage or a cloth
+    /// names no piece; a file that is no image.
     pub fn pictures(&self, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
         picture::pictures(&self.store, ids, order)
     }
@@ -372,7 +373,7 @@ impl Workspace {
     /// Answers a query as [`Workspace::query`] does, with at most so many rows; `stop` ends it early.
     ///
     /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when it was stopped.
+    /// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
     pub fn answer(&self, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
         browse::answer(&self.store, text, most, stop)
     }
@@ -491,7 +492,7 @@ impl Workspace {
     /// 1, linear between order statistics).
     ///
     /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
+    /// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when an [`Interrupter`] stopped it.
     pub fn query(&self, sql: &str) -> Result<Table> {
         sql::query(&self.store, sql)
     }
