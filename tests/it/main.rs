@@ -5,6 +5,7 @@
 //! say so and pass where it is not there.
 
 mod bad_input;
+mod blocks;
 mod chance;
 mod cli;
 mod documents;
@@ -18,6 +19,7 @@ mod outfit;
 mod pattern_files;
 mod pictures;
 mod program;
+mod readers;
 mod report;
 mod run;
 mod seat;

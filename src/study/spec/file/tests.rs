@@ -1,3 +1,6 @@
+use crate::files::write_files;
+use crate::patterns::Unit;
+use crate::spec::export::export_study;
 use crate::spec::file::*;
 use body::{Dimension, Sex};
 
@@ -340,4 +343,17 @@ fn a_subject_stands_in_the_poses_that_it_names() {
         assert!(told.contains(&format!("pose `{pose}`; accepted: arms_5 to arms_90, legs_0 to legs_30")), "{told}");
     };
     ["arms", "arms_120", "wings_3", "arms_x", "", "arms_30+"].into_iter().for_each(check);
+}
+
+#[test]
+fn a_pattern_in_any_unit_is_read_and_exported() {
+    for unit in Unit::ALL.map(Unit::as_str) {
+        let study = load(&format!("{GOOD}unit = \"{unit}\"\n")).expect("a unit of patterns");
+        let folder = tempfile::tempdir().expect("a folder");
+        write_files(folder.path(), &export_study(&study)).expect("writable");
+        let again = Study::load(folder.path(), &known()).expect("a good study");
+        assert_eq!([&study, &again].map(|study| study.garments[0].unit.as_deref()), [Some(unit); 2]);
+    }
+    let told = load(&format!("{GOOD}unit = \"yard\"\n")).expect_err("no unit of patterns");
+    assert!(told.contains("unit `yard`; accepted: mm, cm, in, m"), "{told}");
 }
