@@ -203,3 +203,24 @@ fn questions_are_found() {
     let found: Vec<(usize, String)> = questions(text).into_iter().map(|(at, words)| (at, words[1].clone())).collect();
     assert_eq!(found, [(2, "SELECT 1\n".to_owned()), (6, "select a".to_owned()), (1, "thesis_table".to_owned())]);
 }
+
+#[test]
+fn the_recipe_for_a_pattern_of_ones_own_works() {
+    let heading = "### Your own pattern and body\n";
+    let recipe = blocks(&text(&root().join("README.md"))).into_iter().find(|block| block.before.ends_with(heading));
+    let place = Place::new();
+    place.draft();
+    std::fs::rename(place.path("patterns/tshirt-m.dxf"), place.path("shirt.dxf")).expect("writable");
+    let recipe: Vec<String> = recipe.expect("in the readme").text.lines().flat_map(commands).collect();
+    assert_eq!(recipe.len(), 5);
+    for command in recipe {
+        let output = place.command("").args(words(&command).split_off(1)).output().expect("it starts");
+        assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+        if command.contains("study new") {
+            // Coarse cloth comes to rest sooner.
+            let study = text(&place.path("mine/study.toml"));
+            place.write("mine/study.toml", study.replace("edge_length_mm = 15 ", "edge_length_mm = 40 "));
+        }
+    }
+    assert!(place.path("reports/mine/index.html").is_file());
+}
