@@ -43,6 +43,24 @@ use sim::Step;
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 ///
 /// Questions fail when the database cannot be read, actions when the workspace is read-only; `# Errors` says what else.
+///
+/// # Examples
+/// ```
+/// use study::{Selection, Workspace, write_quickstart};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = tempfile::tempdir()?;
+/// write_quickstart(folder.path())?;
+/// let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false)?;
+/// let study = workspace.load_study(folder.path())?;
+///
+/// // Nothing is simulated yet: `start` does that.
+/// let fem = Selection { simulators: vec!["fem".into()], ..Selection::default() };
+/// let planned = workspace.plan(&study, &fem)?;
+/// assert_eq!(planned.len(), 6);
+/// # Ok(())
+/// # }
+/// ```
 pub struct Workspace {
     store: Store,
     scenes: Scenes,
