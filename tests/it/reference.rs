@@ -297,7 +297,7 @@ fn defaults_are_those_of_the_reference() {
                 let (number, told) = (number.as_f64().expect("finite"), told.parse::<f64>().expect("a number"));
                 (number - told).abs() <= 1e-9 * number.abs()
             }
-            other => told == other.to_string(),
+            other => serde_json::from_str::<Value>(told).is_ok_and(|told| told == *other),
         };
         assert!(is_so, "{key}: {told}, not {}", defaults[key]);
     }
