@@ -3,7 +3,7 @@
 //! A size is a place among knobs: how many steps each of them is turned. Somebody is fitted by a size where all that they ask of it
 //! lies within its band, and by a series where one of its sizes fits. What is asked is linear in the knobs. So the turns of some knobs
 //! along a line that fit somebody are a few stretches, and the best place on a line is found exactly. The search goes along many lines, from
-//! many starts (iterated local search [Lourenco03]).
+//! many starts (iterated local search [Lourenco 2003]).
 
 use crate::Draw;
 

@@ -69,6 +69,21 @@ impl Ease {
 
 /// Ease at each of a garment's fit levels, given by name and pattern girth, m; levels whose body girth is unknown are
 /// left out.
+///
+/// # Examples
+/// ```
+/// use fit::{Cuts, FitClass, ease};
+///
+/// let pattern = [("chest", 1.034), ("hip", 1.034), ("knee", 0.5)];
+/// let body = |level: &str| match level {
+///     "chest" => Some(0.956),
+///     "hip" => Some(1.024),
+///     _ => None,
+/// };
+/// let found = ease(pattern, body, &Cuts::default());
+/// assert_eq!([found[0].class, found[1].class], [FitClass::Just, FitClass::Tight]);
+/// assert!(found.len() == 2 && !found[1].is_undersized());
+/// ```
 #[must_use]
 pub fn ease<'l>(
     levels: impl IntoIterator<Item = (&'l str, f64)>,

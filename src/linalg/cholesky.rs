@@ -3,7 +3,8 @@
 //! It is made in double precision and kept in single. The rounding of the factor is harmless where that of the matrix would
 //! not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square *root* of the
 //! condition number. It is written `L D L^T` with identity on the diagonal of `L`, so that a solve, where each column waits for others, has
-//! nothing to wait for between them; `D` is met in between, all at once. A solve is one run through memory each way, over blocks that fill vector registers ([`super::packed`]).
+//! nothing to wait for between them; `D` is met in between, all at once. A solve is one run through memory each way, over blocks
+//! that fill vector registers (`packed`).
 
 use std::collections::BTreeSet;
 

@@ -166,7 +166,7 @@ pub struct MaterialLine {
 impl MaterialLine {
     /// Length (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
     ///
-    /// Each segment stretches by the ratio of its arcs ([`arcs`]); that ratio scales the arc of the drawn curve, so that an
+    /// Each segment stretches by the ratio of its arcs (`arcs`); that ratio scales the arc of the drawn curve, so that an
     /// unstretched garment has its pattern length exactly, however coarse its mesh.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {

@@ -1,43 +1,6 @@
 //! The seam file: how the pieces of a style are named, sewn and measured. TOML, one file for all sizes.
 //!
-//! ```toml
-//! name = "T-shirt"                          # style name
-//! size = "M"                                # size that the file was made on (optional)
-//! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
-//! allowance_mm = 10.0                       # how far inside the cut line is sewn, where the pieces have no sew line (optional)
-//! open = ["back.neck"]                      # edges that stay free besides those that are measured along (optional)
-//!
-//! [piece.front]                             # pieces by the id used below
-//! block = "FRONT"                           # block (or piece name) in the DXF file; NAME#2 is the second of that name
-//! role = "front"                            # front, back, sleeve_right, leg_front_left, bodice_front, other ...
-//! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
-//! corners_at = [[0, 0], [1, 0.02], ...]      # where the corners lie, shares of width and height (optional)
-//! allowance_mm = { hem = 30.0 }             # allowances of edges that have another (optional)
-//! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
-//! edges.side_left = [1, 2]
-//!
-//! [[seam]]
-//! name = "side_left"
-//! a = ["front.side_left"]                   # an edge or a chain of edges, in order along the seam
-//! b = ["back.side_left"]
-//! same_direction = false                    # true: both sides run counter-clockwise (optional)
-//! ease_mm = 0.0                             # length of a less length of b; by size: { S = 4.0, M = 5.0 } (optional)
-//!
-//! [[measurement]]
-//! no = 3
-//! name = "Front Center Length"
-//! kind = "open_length"                      # or closed_girth
-//! path = [{ line = ["front.hem.mid", "front.neck.start"] }]   # or edges: ["front.hem", "back.hem"]
-//!
-//! [[reinforce]]                             # edges with a stiffness of their own (optional)
-//! edges = ["front.neck", "back.neck"]
-//! kind = "rib"                              # rib, tape, hem or waistband
-//! stiffness_n = 20.0                        # force (N) per relative elongation
-//! length_factor = 0.95                      # length of the band over that of the edge (optional, 1)
-//!
-//! [fit.chest]                               # girth of the pattern at a body level, for the fit
-//! path = [{ line = ["front.side_right.start", "front.side_left.end"] }]
-//! ```
+//! `docs/reference.md` lists its keys, and a test holds that page to what is read here. `docs/patterns.md` has an example.
 //!
 //! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn, starting
 //! at the first turn point in the file. Where a file has no usable turn points, corners are the vertices at which the

@@ -66,6 +66,22 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 ///
 /// # Errors
 /// [`SourceError`] as the reader of that kind says.
+///
+/// # Examples
+/// ```
+/// use pattern::dxf::Unit;
+/// use pattern::{draft::Model, source};
+///
+/// // The bytes of a file; here of the drafted T-shirt, whose first size is S.
+/// let (name, bytes) = Model::Tshirt.files().swap_remove(0);
+/// let file = source::read(&bytes, &name, None)?;
+/// assert_eq!((file.unit, file.pieces.len()), (Unit::Mm, 3));
+///
+/// // What is wrong with a file is told with its line and with what would be accepted.
+/// let error = source::read(b"0\nSECTION\n", "shirt.dxf", None).unwrap_err();
+/// assert!(error.to_string().starts_with("shirt.dxf"));
+/// # Ok::<(), source::SourceError>(())
+/// ```
 pub fn read(bytes: &[u8], file: &str, unit: Option<Unit>) -> Result<PatternFile, SourceError> {
     Ok(match kind(bytes) {
         Kind::Dxf => dxf::read(bytes, file, unit)?,

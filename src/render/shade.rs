@@ -37,6 +37,23 @@ fn taps() -> [(f32, f32, f32); TAPS] {
 ///
 /// # Errors
 /// [`RenderError::Size`] where a side has no pixels or more than 8192.
+///
+/// # Examples
+/// ```
+/// use geom::{TriMesh, V3};
+/// use render::{Camera, Frame, Layer, Material, Scene, View};
+///
+/// let mut mesh = TriMesh::default();
+/// mesh.positions = vec![V3::new(-0.5, 0.0, 0.0), V3::new(0.5, 0.0, 0.0), V3::new(0.0, 0.0, 1.0)];
+/// mesh.triangles = vec![[0, 1, 2]];
+///
+/// // A scene is lit once; all cameras of one frame have one scale.
+/// let scene = Scene::new(vec![Layer::new(&mesh, Material::fem())])?;
+/// let frame = Frame::enclosing([&mesh], 0.5);
+/// let picture = render::render(&scene, &Camera::new(View::Front, frame), 60, 120)?;
+/// assert!(render::png(&picture)?.starts_with(b"\x89PNG"));
+/// # Ok::<(), render::RenderError>(())
+/// ```
 pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
     shoot(scene, camera, (width, height), 255)
 }

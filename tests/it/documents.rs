@@ -7,10 +7,10 @@ use toile::cli;
 use super::tree::{documents, text, within};
 
 /// A line with its number.
-type Line = (usize, String);
+pub type Line = (usize, String);
 
 /// Lines within blocks of code, and those outside.
-fn lines(text: &str) -> [Vec<Line>; 2] {
+pub fn lines(text: &str) -> [Vec<Line>; 2] {
     let mut sorted = [Vec::new(), Vec::new()];
     let mut is_code = false;
     for (at, line) in text.lines().enumerate() {
@@ -29,7 +29,7 @@ fn apart(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Words of a command as a shell reads them, without what is piped on. Brackets mark what may be left out.
-fn words(command: &str) -> Vec<String> {
+pub fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quote = None;
     for c in command.chars() {
@@ -48,7 +48,7 @@ fn words(command: &str) -> Vec<String> {
 }
 
 /// Commands of a line of a block, from the name of the program on.
-fn commands(line: &str) -> Vec<String> {
+pub fn commands(line: &str) -> Vec<String> {
     let typed = line.trim().strip_prefix("$ ").unwrap_or(line.trim());
     let typed = typed.replace("cargo run --release -- ", "toile ");
     let begins = |part: &&str| part.starts_with("toile ");
@@ -56,7 +56,7 @@ fn commands(line: &str) -> Vec<String> {
 }
 
 /// Commands between backquotes in prose.
-fn named(line: &str) -> Vec<String> {
+pub fn named(line: &str) -> Vec<String> {
     let code = line.split('`').skip(1).step_by(2);
     code.filter(|code| code.starts_with("toile ")).map(str::to_owned).collect()
 }

@@ -1,10 +1,11 @@
 //! Toile from outside: the program as its users call it, and the rules that the sources keep.
 //!
-//! `structure` and `tidy` read the sources, `words` the documents as well, `documents` what these name. `cli`, `bad_input` and `run` start the real
-//! program in folders of their own, `workbench` in a pseudo-terminal. Tests that need the sample data beside the project
+//! `structure` and `tidy` read the sources, `words` the documents as well, `documents` what these name. `blocks` has the program
+//! read what they show, `reference` holds one of them to it. `cli`, `bad_input` and `run` start the real program in folders of their own, `workbench` in a pseudo-terminal. Tests that need the sample data beside the project
 //! say so and pass where it is not there.
 
 mod bad_input;
+mod blocks;
 mod chance;
 mod cli;
 mod documents;
@@ -19,6 +20,8 @@ mod pattern_files;
 mod pictures;
 mod program;
 mod reach;
+mod readers;
+mod reference;
 mod report;
 mod run;
 mod seat;

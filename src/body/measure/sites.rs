@@ -195,7 +195,7 @@ fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
 }
 
 /// Height of the nipples over stature: constant, and change with the height of the crotch over stature. Least squares over
-/// the 160 model bodies (CC0-1.0) of [`crate::shape::sections`]; 8 mm remain.
+/// the 160 model bodies (CC0-1.0) of [`crate::shape::atlas`]; 8 mm remain.
 const NIPPLES: [f64; 2] = [0.5123, 0.4651];
 
 /// Heights over stature between which the front of the chest stands out most.

@@ -20,7 +20,7 @@ const NECK: [f64; 2] = [0.83, 0.90];
 /// Least width or depth of a neck over stature; those of model bodies are from 0.045 on.
 const LEAST_NECK: f64 = 0.03;
 
-/// Mean height of that place over stature: of the 160 model bodies of [`crate::shape::sections`].
+/// Mean height of that place over stature: of the 160 model bodies of [`crate::shape::atlas`].
 const USUAL_NECK: f64 = 0.8714;
 
 /// Radius of the crown over stature: seen from below or above, the head's edge is not its highest point.

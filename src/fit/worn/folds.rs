@@ -1,7 +1,7 @@
 //! Folds and drag lines: where cloth stands off the skin in a line.
 //!
 //! A ridge is where the cloth bends outwards more sharply than the narrowest limb that it is worn on, and does not touch the skin.
-//! Curvature is that of the normals over the triangles [Rusinkiewicz04]. Ridges that go on in one direction are one fold.
+//! Curvature is that of the normals over the triangles [Rusinkiewicz 2004]. Ridges that go on in one direction are one fold.
 
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix2, Matrix3, Vector3};

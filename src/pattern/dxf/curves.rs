@@ -123,7 +123,7 @@ impl Spline {
         Ok(Self { degree, knots: knots.to_vec(), control })
     }
 
-    /// The point at a parameter within a span of the knots, by de Boor's scheme [deBoor].
+    /// The point at a parameter within a span of the knots, by de Boor's scheme [de Boor].
     fn at(&self, span: usize, u: f64) -> V2 {
         let p = self.degree;
         let mut points = self.control[span - p..=span].to_vec();

@@ -1,6 +1,6 @@
 //! Handles: what a fit technologist takes hold of to change a pattern, such as a side seam at the waist or the depth of the neck.
 //!
-//! No seam file has to name them: `body` finds by the roles of the pieces what there is to take hold of. Each handle is a [`Plan`]: places
+//! No seam file has to name them: `body` finds by the roles of the pieces what there is to take hold of. Each handle is a `Plan`: places
 //! that move with the amount (`girths`, `lengths`, `upper`, `sleeve`, `seat`), places that give way, and lengths that hold. `rig` carries
 //! the outlines along, `solve` finds how far what gives way moves, `follow` takes darts and bands along, and `field` what lies inside.
 

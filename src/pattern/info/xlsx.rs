@@ -14,7 +14,7 @@ use super::Row;
 const MOST_UNPACKED: u64 = 64 << 20;
 /// Most columns of a table.
 const MOST_COLUMNS: usize = 200;
-/// Local header, central entry and end of central directory of a ZIP archive [APPNOTE].
+/// Local header, central entry and end of central directory of a ZIP archive [PKWARE APPNOTE].
 const LOCAL: [u8; 4] = *b"PK\x03\x04";
 const CENTRAL: [u8; 4] = *b"PK\x01\x02";
 const END: [u8; 4] = *b"PK\x05\x06";

@@ -3,7 +3,7 @@
 //! A mesh joins both sides vertex by vertex and cannot show the pleats between two stitches. Left alone, the cloth of the
 //! longer side resists being shortened as a plate would and stretches the shorter one, by an eighth where 1.3 times its length
 //! is gathered. So near the seam the longer side's triangles get a rest shape that is shorter along it: as long as the
-//! partner on the seam, and as drawn from [`ROWS`] rows of vertices away, where the mesh can show folds.
+//! partner on the seam, and as drawn from `ROWS` rows of vertices away, where the mesh can show folds.
 
 use std::collections::{BTreeMap, BTreeSet};
 

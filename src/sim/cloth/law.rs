@@ -109,7 +109,7 @@ impl Fibre {
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
     }
 
-    /// The same law with a share of its modulus at rest. Its slope rises to what it is anyway by [`SLACK`], or by where
+    /// The same law with a share of its modulus at rest. Its slope rises to what it is anyway by `SLACK`, or by where
     /// a law that stiffens has its last. So drawn, cloth is a little longer, and as stiff as ever.
     #[must_use]
     pub fn slackened(self, share: f64) -> Self {

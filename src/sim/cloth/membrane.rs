@@ -9,7 +9,7 @@
 //!
 //! A step that turns triangles also stretches them, in second order, and at the stiffness of cloth that spurious stress
 //! outweighs the true one: the stiffness at its end would hold the cloth like a drum. So `S+` may be taken from the stress
-//! that the last linear solve predicted instead ([`Membrane::foresee`]), which has no such part; the equilibrium is
+//! that the last linear solve predicted instead ([`Membrane::assemble_towards`]), which has no such part; the equilibrium is
 //! the same, and is reached in fewer steps [Magisano 2017].
 
 use nalgebra::{Matrix2, Matrix3x2};

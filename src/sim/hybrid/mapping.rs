@@ -1,7 +1,7 @@
 //! Phase 1: every piece onto the surface of the form (5.2).
 //!
 //! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc (a convex polygon on the unit circle)
-//! and thereby onto each other (cross-parameterisation, 5.2.3). [T] maps the patch onto the pattern instead; armholes and
+//! and thereby onto each other (cross-parameterisation, 5.2.3). The thesis maps the patch onto the pattern instead; armholes and
 //! necks are concave, and a map onto a concave outline may fold. Onto a disc it cannot.
 
 use std::collections::BTreeMap;

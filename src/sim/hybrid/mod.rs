@@ -106,7 +106,7 @@ pub struct Phases {
 /// Dresses a body in a garment.
 ///
 /// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. What has features on the body is mapped onto it by
-/// them; all else, and what ends with a fault, is drawn together about the body from the mesh before the last ([`draw`]).
+/// them; all else, and what ends with a fault, is drawn together about the body from the mesh before the last (`draw`).
 ///
 /// # Errors
 /// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.

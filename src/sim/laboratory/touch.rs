@@ -87,7 +87,7 @@ fn incline(angle_rad: f64) -> DistanceField {
 pub struct Pressed {
     /// What it presses with on average away from its ends, Pa.
     pub pressure_pa: f64,
-    /// Tension of its law at its girth there over its radius, Pa [Laplace].
+    /// Tension of its law at its girth there over its radius, Pa: the pressure by Laplace's law.
     pub tension_over_radius_pa: f64,
     /// Its radius there, m.
     pub radius_m: f64,

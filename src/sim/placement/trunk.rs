@@ -47,7 +47,7 @@ impl Bent {
     /// Bends the sheet of one side; `is_alone` where nothing is worn on the other.
     ///
     /// By default it follows half an ellipse that clears the body by [`CLEARANCE_M`], as wide as the trunk and as deep
-    /// as the piece needs to reach from side to side. With an offset or an angle given it follows the arc of [T].
+    /// as the piece needs to reach from side to side. With an offset or an angle given it follows the thesis's arc.
     pub fn new(form: &Form, joins: &Joins, sheet: &Sheet, side: f64, is_alone: bool, bend: &Bend) -> Self {
         let (low, high) = sheet.bounds(joins.garment);
         let lift = lift(form, joins, sheet);

@@ -1,6 +1,6 @@
 //! What to change of a pattern so that a size fits somebody: the least change of its handles, and the changed pattern.
 //!
-//! Ease is told by the flat pattern ([`bench`]). What is asked of a drape, as a level hem or a pressure, is foreseen from how the drape
+//! Ease is told by the flat pattern ([`mod@bench`]). What is asked of a drape, as a level hem or a pressure, is foreseen from how the drape
 //! answers to the handles, and seen by draping again ([`fitting_room`], [`readings`]).
 
 mod bench;

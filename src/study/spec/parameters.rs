@@ -36,7 +36,12 @@ impl Parameters {
         if !accepted.takes(&value) {
             return Err(format!("`{name}` is {value}; accepted: {}", accepted.words()));
         }
-        self.0.insert(name.to_owned(), value);
+        let alone = Self(BTreeMap::from([(name.to_owned(), value.clone())]));
+        // Which words there are only the simulator knows.
+        if let (Accepted::Word, Err(error)) = (accepted, alone.fem().map(drop).and(alone.hybrid().map(drop))) {
+            return Err(format!("`{name}` is {value}: {error}"));
+        }
+        self.0.extend(alone.0);
         Ok(())
     }
 
@@ -113,6 +118,7 @@ enum Accepted {
     Count,
     Switch,
     Counts,
+    Word,
 }
 
 impl Accepted {
@@ -122,6 +128,7 @@ impl Accepted {
             Self::Count => value.as_u64().is_some_and(|number| u32::try_from(number).is_ok()),
             Self::Switch => value.is_boolean(),
             Self::Counts => value.as_array().is_some_and(|all| all.iter().all(|item| Self::Count.takes(item))),
+            Self::Word => value.is_string(),
         }
     }
 
@@ -131,6 +138,7 @@ impl Accepted {
             Self::Count => "a whole number, not negative",
             Self::Switch => "true or false",
             Self::Counts => "a list of whole numbers",
+            Self::Word => "text in quotes",
         }
     }
 }
@@ -139,6 +147,7 @@ fn accepted(default: &Value) -> Accepted {
     match default {
         Value::Bool(_) => Accepted::Switch,
         Value::Array(_) => Accepted::Counts,
+        Value::String(_) => Accepted::Word,
         Value::Number(number) if number.is_u64() => Accepted::Count,
         // Absent is chosen by the simulator: all of those are numbers.
         _ => Accepted::Number,
@@ -229,6 +238,8 @@ mod tests {
         assert_eq!((fem.sewing.weld_gap_m, fem.contact.offset_m, fem.max_iterations), (3e-3, 1.5e-3, 7));
         assert_eq!(fem.sewing.seam_stiffness_n_m, fem::Params::default().sewing.seam_stiffness_n_m);
         assert_eq!(parameters.hybrid().expect("they fit").uncontrolled, [1, 2]);
+        let pyramid = given(&[("hybrid.popup", "pyramid".into())]).hybrid().expect("it fits");
+        assert_ne!(pyramid.popup, hybrid::Params::default().popup);
         assert_eq!(Parameters::default().fem().expect("none"), fem::Params::default());
         let mut inputs = Inputs::default();
         parameters.add_inputs(Simulator::Hybrid, &mut inputs);
@@ -247,6 +258,8 @@ mod tests {
         check("fem.offset_mu", (-1).into(), "not negative");
         check("fem.max_iterations", 1.5.into(), "a whole number");
         check("hybrid.uncontrolled", 1.into(), "a list of whole numbers");
+        check("hybrid.popup", 1.into(), "text in quotes");
+        check("hybrid.popup", "pyramids".into(), "expected `rigid` or `pyramid`");
     }
 
     #[test]

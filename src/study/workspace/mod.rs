@@ -43,6 +43,24 @@ use sim::Step;
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 ///
 /// Questions fail when the database cannot be read, actions when the workspace is read-only; `# Errors` says what else.
+///
+/// # Examples
+/// ```
+/// use study::{Selection, Workspace, write_quickstart};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = tempfile::tempdir()?;
+/// write_quickstart(folder.path())?;
+/// let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false)?;
+/// let study = workspace.load_study(folder.path())?;
+///
+/// // Nothing is simulated yet: `start` does that.
+/// let fem = Selection { simulators: vec!["fem".into()], ..Selection::default() };
+/// let planned = workspace.plan(&study, &fem)?;
+/// assert_eq!(planned.len(), 6);
+/// # Ok(())
+/// # }
+/// ```
 pub struct Workspace {
     store: Store,
     scenes: Scenes,
@@ -111,7 +129,8 @@ impl Workspace {
     /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+    /// [`NotFound`](crate::StudyError::NotFound) while there is no result; [`Artefact`](crate::StudyError::Artefact) when it is no
+    /// longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
         picture::picture(&self.store, &self.scenes, id, view, width, height, map)
     }
@@ -137,8 +156,8 @@ impl Workspace {
     /// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
-    /// a file that is no image.
+    /// [`NotFound`](crate::StudyError::NotFound) while there is no result, where its simulator keeps no such stage or a cloth
+    /// names no piece; a file that is no image.
     pub fn pictures(&self, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
         picture::pictures(&self.store, ids, order)
     }
@@ -372,7 +391,7 @@ impl Workspace {
     /// Answers a query as [`Workspace::query`] does, with at most so many rows; `stop` ends it early.
     ///
     /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when it was stopped.
+    /// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
     pub fn answer(&self, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
         browse::answer(&self.store, text, most, stop)
     }
@@ -491,7 +510,7 @@ impl Workspace {
     /// 1, linear between order statistics).
     ///
     /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
+    /// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when an [`Interrupter`] stopped it.
     pub fn query(&self, sql: &str) -> Result<Table> {
         sql::query(&self.store, sql)
     }

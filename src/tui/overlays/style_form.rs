@@ -14,6 +14,7 @@ use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use study::StyleGiven;
+use study::patterns::Unit;
 
 /// Lines of the form.
 const PATTERN: usize = 0;
@@ -26,9 +27,6 @@ const SEAMS: usize = 4;
 const LONGEST: usize = 400;
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
-
-/// Units a pattern may be drawn in.
-const UNITS: [&str; 3] = ["mm", "cm", "in"];
 
 /// The files of a style, as typed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -107,8 +105,9 @@ impl StyleForm {
         if pattern.is_empty() {
             return Outcome::Closed;
         }
-        if !unit.is_empty() && !UNITS.contains(&unit) {
-            let problem = format!("unit `{unit}`; accepted: {}, or empty where the file names it", UNITS.join(", "));
+        let units = Unit::ALL.map(Unit::as_str);
+        if !unit.is_empty() && !units.contains(&unit) {
+            let problem = format!("unit `{unit}`; accepted: {}, or empty where the file names it", units.join(", "));
             (self.at, self.problem) = (UNIT, Some(problem));
             return Outcome::Open;
         }

@@ -237,7 +237,7 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     let Some(Overlay::StyleForm(form)) = &bench.state.overlay else { panic!("the form stays") };
     assert_eq!(form.at, 3, "the unit is asked for");
     bench.press("yard<F5>");
-    assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in"));
+    assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in, m"));
     bench.press("<Backspace><Backspace><Backspace><Backspace>mm<F5>");
     let given = StyleGiven { unit: Some("mm".into()), ..given };
     assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given))]);

@@ -1,7 +1,7 @@
 //! Audits: every number recomputed from the ones it was made of, and what does not add up.
 //!
-//! [`Workspace::audit_thesis`] does this for the thesis's own printed tables, [`Workspace::audit_study`] for the results of
-//! a study of ours.
+//! [`audit_thesis`](crate::Workspace::audit_thesis) does this for the thesis's own printed tables,
+//! [`audit_study`](crate::Workspace::audit_study) for the results of a study of ours.
 
 mod claims;
 mod equations;

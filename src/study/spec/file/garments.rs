@@ -5,6 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
+use crate::patterns::{Unit, unit_of};
 use crate::spec::Limits;
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::sweep::{self, EDGE_MM};
@@ -203,8 +204,9 @@ fn sewn(reader: &mut Reader<'_>, place: &Place<'_>, folder: &Path) -> Sewn {
 
 fn unit(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<String> {
     let unit = reader.text(place, "unit")?;
-    if !["mm", "cm", "in"].contains(unit.get_ref()) {
-        let message = format!("{}: unit `{}`; accepted: mm, cm, in", place.name, unit.get_ref());
+    if unit_of(unit.get_ref()).is_none() {
+        let accepted = Unit::ALL.map(Unit::as_str).join(", ");
+        let message = format!("{}: unit `{}`; accepted: {accepted}", place.name, unit.get_ref());
         reader.problem(&unit.span(), message);
         return None;
     }

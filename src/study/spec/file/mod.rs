@@ -1,57 +1,6 @@
 //! The study file `study.toml`: which subjects wear which garments, in which fabric, by which simulators.
 //!
-//! ```toml
-//! name = "tops"                     # default: the folder's name
-//! simulators = ["fem", "hybrid"]    # default: ["fem"]
-//! edge_length_mm = 15               # of the finest cloth mesh; default 15
-//! repeats = 1                       # default 1
-//! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
-//! time_limit_s = 600                # a simulation that takes longer is ended and has failed; default: none
-//! memory_limit_mb = 2000            # likewise one that takes more memory; default: none
-//!
-//! [[subject]]
-//! id = "ii"                         # its name in results
-//! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
-//! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
-//! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
-//! # or a scan (OBJ, PLY, STL, GLB) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
-//! poses = ["arms_15", "arms_60"]    # each a subject, `ii arms_15`; default: as it is built or scanned
-//! carried_from = "arms_15"          # garments are put on in this pose and carried into the others; by FEM-GS
-//!
-//! [[garment]]
-//! name = "tshirt"
-//! subjects = ["ii"]                 # who wears it; default: all subjects of the file
-//! seams = "patterns/tshirt.seams.toml"  # not needed for GarmentCode JSON, which holds its own seams
-//! fabric = "cotton_shirting_light"  # of the library, the catalogue, or a [[fabric]] of this file
-//! unit = "mm"                       # only where the DXF files name no unit
-//! style = "tee"                     # in place of files: a style of the catalogue; default: the garment's name
-//! edge_length_mm = 12               # default: the study's
-//! parameters = { fem.offset_mu = 0.4 }  # over the study's
-//! priority = 1                      # greater runs earlier; default 0
-//! after = ["trousers"]              # garments that must have their results on the same subject before
-//! time_limit_s = 60                 # and memory_limit_mb: over the study's
-//! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
-//! # with a style of the catalogue: sizes = ["S"]; default: all of the style
-//!
-//! [[outfit]]                        # garments over each other, each draped as a layer: `office tshirt`; by FEM-GS
-//! name = "office"
-//! layers = ["tshirt", "trousers"]   # the inner first: a T-shirt in trousers
-//! sizes = ["S", "M"]                # one of each layer; default: all sizes that the layers have in common
-//! subjects = ["ii"]                 # default: those who wear all of the layers
-//!
-//! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
-//! name = "my_poplin"
-//! # density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, shear_n_m, bending_warp_nm, ...
-//!
-//! [parameters]                      # of the simulators, where they are not the default ones
-//! hybrid.push_steps = 20
-//!
-//! [[sweep]]                         # every combination becomes a garment: `tshirt offset_mu=0.4 bend_angle_deg=120`
-//! garments = ["tshirt"]             # default: all
-//! fem.offset_mu = [0.4, 0.3]        # any parameter, `edge_length_mm`, `fabric` or a number `fabric.shear_n_m`
-//! fem.bend_angle_deg = [180, 120]
-//! ```
-//!
+//! `docs/reference.md` lists its keys, and a test holds that page to what is read here.
 //! Everything is checked before anything runs, and all problems are told at once.
 
 mod garments;
@@ -194,7 +143,7 @@ pub struct GarmentEntry {
     pub subjects: Vec<String>,
     /// How its pieces are sewn and measured; `None` where the patterns hold their own seams (GarmentCode JSON).
     pub seams: Option<SourceFile>,
-    /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
+    /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
     /// Fabric that it is cut from.
     pub fabric: Fabric,

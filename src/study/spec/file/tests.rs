@@ -1,3 +1,6 @@
+use crate::files::write_files;
+use crate::patterns::Unit;
+use crate::spec::export::export_study;
 use crate::spec::file::*;
 use body::{Dimension, Sex};
 
@@ -365,4 +368,17 @@ fn a_garment_is_carried_from_the_pose_in_which_it_is_put_on() {
     assert!(told.contains("`carried_from` without a pose to carry to"), "{told}");
     let one = read("pose = \"arms_60\"\ncarried_from = \"arms_15\"").expect("a study");
     assert_eq!(one.subjects[0].dressed().map(|subject| subject.id).as_deref(), Some("ii arms_15"));
+}
+
+#[test]
+fn a_pattern_in_any_unit_is_read_and_exported() {
+    for unit in Unit::ALL.map(Unit::as_str) {
+        let study = load(&format!("{GOOD}unit = \"{unit}\"\n")).expect("a unit of patterns");
+        let folder = tempfile::tempdir().expect("a folder");
+        write_files(folder.path(), &export_study(&study)).expect("writable");
+        let again = Study::load(folder.path(), &known()).expect("a good study");
+        assert_eq!([&study, &again].map(|study| study.garments[0].unit.as_deref()), [Some(unit); 2]);
+    }
+    let told = load(&format!("{GOOD}unit = \"yard\"\n")).expect_err("no unit of patterns");
+    assert!(told.contains("unit `yard`; accepted: mm, cm, in, m"), "{told}");
 }

@@ -1,0 +1,43 @@
+//! The program's own readers of study files and seam files, for the tests of what the documents say of these.
+
+use std::path::PathBuf;
+
+use toile::pattern::seams::SeamFile;
+use toile::study::{StudyError, Workspace, patterns::Model};
+
+/// A fresh database beside the drafted T-shirt.
+pub struct Readers {
+    folder: tempfile::TempDir,
+    workspace: Workspace,
+}
+
+impl Readers {
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::create_dir(folder.path().join("patterns")).expect("writable");
+        for (name, bytes) in Model::Tshirt.files() {
+            std::fs::write(folder.path().join("patterns").join(name), bytes).expect("writable");
+        }
+        let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a fresh database");
+        Self { folder, workspace }
+    }
+
+    fn study_file(&self) -> PathBuf {
+        self.folder.path().join("study.toml")
+    }
+
+    /// What is wrong with the text of a study file.
+    pub fn study(&self, text: &str) -> Vec<String> {
+        std::fs::write(self.study_file(), text).expect("writable");
+        match self.workspace.load_study(&self.study_file()) {
+            Ok(_) => Vec::new(),
+            Err(StudyError::File(problems)) => problems.into_iter().map(|problem| problem.message).collect(),
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+/// What is wrong with the text of a seam file: the first problem.
+pub fn seam_file(text: &str) -> Option<String> {
+    SeamFile::parse(text.as_bytes(), "seams.toml").err().map(|error| error.to_string())
+}
