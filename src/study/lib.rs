@@ -39,7 +39,7 @@ pub use answers::population::{Nearest, PopulationOptions, Representative, repres
 pub use answers::record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
 pub use answers::reports::{ReportRow, reports};
 pub use answers::section::{CrossSection, CutAt, CutCloth, CutLine};
-pub use answers::worn::{Balance, FoldLine, GarmentWorn, LevelGap, RegionPressure, SizeWorn, WornPoint};
+pub use answers::worn::{Balance, DrawnOpening, FoldLine, GarmentWorn, LevelGap, RegionPressure, SizeWorn, WornPoint};
 pub use attempt::{
     Attempt, AttemptLayer, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt,
     fabric as fabric_named,

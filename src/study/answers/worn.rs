@@ -78,6 +78,17 @@ pub struct LevelGap {
     pub greatest_gap_mm: Option<f64>,
 }
 
+/// How far an opening was drawn as the body moved, mm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrawnOpening {
+    /// Name of the measurement along it.
+    pub opening: String,
+    /// Mean along it; below 0 away from the garment.
+    pub drawn_mm: f64,
+    /// Greatest along it.
+    pub drawn_most_mm: f64,
+}
+
 /// What is measured on the drape of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeWorn {
@@ -95,6 +106,8 @@ pub struct SizeWorn {
     pub folds: Vec<FoldLine>,
     /// Points of measure.
     pub points: Vec<WornPoint>,
+    /// Openings, where the body moved with the garment on.
+    pub drawn: Vec<DrawnOpening>,
 }
 
 impl SizeWorn {
@@ -206,6 +219,7 @@ fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: S
 fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
     let gaps = "SELECT level, least_gap_mm, mean_gap_mm, greatest_gap_mm FROM v_section_level WHERE job_id = ? ORDER BY height_mm DESC";
     let points = "SELECT point, flat_mm, step_mm, draped_mm FROM v_pom WHERE job_id = ? ORDER BY position";
+    let drawn = "SELECT opening, mean_mm, most_mm FROM drawn WHERE job_id = ? ORDER BY opening";
     Ok(SizeWorn {
         size,
         job,
@@ -253,6 +267,9 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
         )?,
         points: rows(store, points, job, |row| {
             Ok(WornPoint { point: row.get(0)?, flat_mm: row.get(1)?, step_mm: row.get(2)?, draped_mm: row.get(3)? })
+        })?,
+        drawn: rows(store, drawn, job, |row| {
+            Ok(DrawnOpening { opening: row.get(0)?, drawn_mm: row.get(1)?, drawn_most_mm: row.get(2)? })
         })?,
     })
 }

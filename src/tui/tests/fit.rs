@@ -93,6 +93,7 @@ fn drape(k: usize, job: i64) -> SizeWorn {
             side_deg: 90.0,
         }],
         points: vec![point("half_chest", 487.1, Some(486.7)), point("neck_width", 160.0, None)],
+        drawn: vec![],
     }
 }
 

@@ -154,13 +154,13 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
         let words = longest.map(|fold| format!("the longest {:.0} mm, {}", fold.length_mm, fold.words()));
         Some((size.folds.len().to_string(), words.unwrap_or_default()))
     });
-    let mut levels: Vec<&str> = Vec::new();
-    for gap in sizes.iter().flatten().flat_map(|size| &size.gaps) {
-        if !levels.contains(&gap.level.as_str()) {
-            levels.push(&gap.level);
-        }
+    for opening in names_among(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
+        add(&format!("drawn by the movement: {opening}, mm"), &|size| {
+            let one = size.drawn.iter().find(|one| one.opening == opening)?;
+            Some((signed(one.drawn_mm), format!("{} at most", signed(one.drawn_most_mm))))
+        });
     }
-    for level in levels {
+    for level in names_among(sizes, |size| size.gaps.iter().map(|gap| gap.level.as_str()).collect()) {
         add(&format!("mean gap at the {}, mm", level.replace('_', " ")), &|size| {
             let gap = size.gaps.iter().find(|gap| gap.level == level)?;
             let words = gap.least_gap_mm.zip(gap.greatest_gap_mm);
@@ -170,6 +170,17 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
         });
     }
     FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }
+}
+
+/// Names that any size has, each once, in their order.
+fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> Vec<&'a str>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in sizes.iter().flatten().flat_map(|size| of(size)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
 }
 
 /// Points of measure, flat and worn.

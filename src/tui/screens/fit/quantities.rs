@@ -20,7 +20,7 @@ const DIFFERENCES: [(&str, &str); 4] = [
     ("waist_right_over_left", "waist, right over left"),
 ];
 
-/// The quantities that any size has: balance, pressure, folds, gaps, points of measure.
+/// The quantities that any size has: balance, pressure, folds, openings drawn by a movement, gaps, points of measure.
 #[must_use]
 pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     let mut rows = Rows { sizes, found: vec![] };
@@ -40,6 +40,12 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     });
     rows.add("drag lines, longest", |size| Some(longest(&size.folds, "drag_line")));
     rows.add("folds, longest", |size| Some(longest(&size.folds, "fold")));
+    for opening in names(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
+        rows.add(&format!("drawn, {opening}"), |size| {
+            let one = size.drawn.iter().find(|one| one.opening == opening)?;
+            Some(signed(one.drawn_mm))
+        });
+    }
     let mut levels = names(sizes, |size| size.gaps.iter().map(|gap| gap.level.as_str()).collect());
     levels.sort_by_key(|level| *level == "upper_arm");
     for level in levels {
