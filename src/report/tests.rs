@@ -241,6 +241,18 @@ fn what_cannot_be_shown_is_refused() {
 }
 
 #[test]
+fn a_chart_of_many_measurements_and_subjects_is_a_smaller_picture() {
+    let mut many = run("i", Simulator::Fem, 1.04);
+    many.measured = (1..=60).map(|no| measured(no, "seam", 0.5, 1.04, false)).collect();
+    let runs = vec![&many; 12];
+    let labels: Vec<String> = (1..=12).map(|k| format!("subject {k}")).collect();
+    let png = chart::chi_chart("Tee", &runs, &labels).unwrap().png().unwrap();
+    let picture = image::load_from_memory(&png).unwrap();
+    let (width, height) = (picture.width(), picture.height());
+    assert!(height > 7900 && height <= 8192 && width < 1600, "{width} x {height}");
+}
+
+#[test]
 fn charts_place_marks_where_values_are() {
     let runs = [run("i", Simulator::Fem, 1.04), run("i", Simulator::Hybrid, 0.90)];
     let runs: Vec<&TryOn> = runs.iter().collect();

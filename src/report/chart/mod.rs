@@ -21,7 +21,10 @@ pub use section::{Worn, section_chart};
 
 use super::{ReportError, theme};
 use image::imageops;
-use render::{png, rasterise_svg};
+use render::{RenderError, png, rasterise_svg};
+
+/// Longest side of a chart that is shrunk to a picture, pixels.
+const PNG_SIDE: f32 = 8000.0;
 
 /// A drawn chart.
 #[derive(Clone, Debug)]
@@ -58,12 +61,18 @@ impl Chart {
         &self.alt
     }
 
-    /// The chart as a PNG file on white, with the embedded font.
+    /// The chart as a PNG file on white, with the embedded font; smaller than drawn where that would be no picture.
     ///
     /// # Errors
     /// [`ReportError::Picture`] where the drawing cannot be rasterised.
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        let drawing = rasterise_svg(&self.svg, 1.0)?;
+        let drawing = match rasterise_svg(&self.svg, 1.0) {
+            // Many measurements of many subjects make a tall chart.
+            Err(RenderError::Size { width, height }) => {
+                rasterise_svg(&self.svg, PNG_SIDE / width.max(height).max(1) as f32)
+            }
+            drawn => drawn,
+        }?;
         let mut picture = image::RgbaImage::from_pixel(drawing.width(), drawing.height(), image::Rgba([255; 4]));
         imageops::overlay(&mut picture, &drawing, 0, 0);
         Ok(png(&picture)?)
