@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use rusqlite::ErrorCode;
+use sim::SimError;
 
 /// An error of the store, the study file, the queue or a stage.
 #[derive(Debug, thiserror::Error)]
@@ -133,6 +134,15 @@ impl StudyError {
     pub fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::Io { path, source }
+    }
+
+    /// What a simulator says; [`Self::Interrupted`] where it was asked to stop.
+    #[must_use]
+    pub(crate) fn sim(error: SimError) -> Self {
+        match error {
+            SimError::Cancelled => Self::Interrupted,
+            other => Self::stage("sim")(other),
+        }
     }
 
     /// A stage's error, or a sentence of ours.

@@ -67,9 +67,9 @@ pub(crate) fn reached(
     monitor: &mut dyn Monitor,
 ) -> Result<(Reached, Body, Drape)> {
     let parameters = Parameters::default();
-    let (bodies, after) = carry(upright, poses, (&garb.meshes, &garb.fabric), (drape, &parameters), monitor)?;
-    let [first, .., last] = &bodies[..] else { return Err(StudyError::stage("body")("no pose to go to")) };
     let ([_, to], garment, fabric) = (poses, garb.meshes.finest()?, &garb.fabric);
+    let (bodies, after) = carry(upright, poses, (garment, fabric), (drape, &parameters), monitor)?;
+    let [first, .., last] = &bodies[..] else { return Err(StudyError::stage("body")("no pose to go to")) };
     let kept = after.kept.as_deref().unwrap_or_default();
     let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|one| ReachedOpening {
         opening: one.opening,

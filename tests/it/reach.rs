@@ -25,7 +25,7 @@ fn a_body_moves_with_a_garment_on_and_its_openings_are_told() {
     assert_eq!(place.one("SELECT count(*) FROM v_drawn WHERE subject = 'ii arms_15'"), "0");
     assert!(place.toile("run . --sim fem --why").ends_with(0).err.contains("2 jobs, 0 to run"));
     let job = place.one("SELECT job_id FROM v_jobs WHERE subject = 'ii arms_75'");
-    let again = place.toile(&format!("run again {job}")).ends_with(2);
+    let again = place.toile(&format!("run rerun {job}")).ends_with(2);
     assert!(again.err.contains("carried it from another pose"), "{}", again.err);
 }
 

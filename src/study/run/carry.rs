@@ -1,10 +1,10 @@
 //! A garment that a body takes along from one pose into another.
 
 use crate::error::{Result, StudyError};
-use crate::run::pipeline::{Meshes, sim_error};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
 use body::{Body, Pose};
+use pattern::Garment;
 use sim::{Drape, Fabric, Monitor};
 
 /// Carries a drape from one pose of a body into another: the body in all poses on the way, and the drape in the last.
@@ -14,12 +14,11 @@ use sim::{Drape, Fabric, Monitor};
 pub(crate) fn carry(
     upright: &Body,
     [from, to]: [Pose; 2],
-    (meshes, fabric): (&Meshes, &Fabric),
+    cloth: (&Garment, &Fabric),
     (drape, parameters): (&Drape, &Parameters),
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<Body>, Drape)> {
     let bodies = body::way(upright, from, to, sim::fem::carry::TURN_DEG).map_err(StudyError::stage("body"))?;
-    let cloth = (meshes.finest()?, fabric);
     let carried = sim::fem::carry::carry((&bodies, FIELD_SPACING_M), cloth, drape, &parameters.fem()?, monitor);
-    Ok((bodies, carried.map_err(sim_error)?))
+    Ok((bodies, carried.map_err(StudyError::sim)?))
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::error::{Result, StudyError};
 use crate::run::outcome::Outcome;
-use crate::run::pipeline::{Fitting, Meshes, sim_error, style};
+use crate::run::pipeline::{Fitting, Meshes, style};
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, Outfit};
@@ -70,7 +70,7 @@ impl<'a> Wardrobe<'a> {
         match (self.garbs, self.simulator) {
             ([garb], _) => Ok(vec![self.fitting(self.on, garb).simulate(monitor)?]),
             (_, Simulator::Fem) => {
-                outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(sim_error)
+                outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(StudyError::sim)
             }
             (_, Simulator::Hybrid) => {
                 Err(StudyError::stage("sim")("Hybrid-GS drapes one garment at a time; FEM-GS (fem) drapes outfits"))
@@ -88,7 +88,7 @@ impl<'a> Wardrobe<'a> {
             return self.fitting(self.on, garb).outcome(&drapes[0]);
         }
         let under: Vec<_> = drapes[..number].iter().map(|drape| drape.positions.clone()).collect();
-        let (body, field) = outfit::dressed(self.on, &self.layers()[..number], &under, 0.0).map_err(sim_error)?;
+        let (body, field) = outfit::dressed(self.on, &self.layers()[..number], &under, 0.0).map_err(StudyError::sim)?;
         self.fitting((&body, &field), garb).outcome(&drapes[number])
     }
 }

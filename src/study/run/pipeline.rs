@@ -22,7 +22,7 @@ use geom::DistanceField;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
-use sim::{self, Distortion, Drape, Fabric, Monitor, SimError};
+use sim::{self, Distortion, Drape, Fabric, Monitor};
 
 /// The inputs of a subject's body, the same as among those of any job on it.
 pub(crate) fn body_inputs(name: &str, person: &Person) -> Inputs {
@@ -148,7 +148,8 @@ impl Pipeline {
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
         let poses = [before, spec].map(|one| one.person.pose.unwrap_or_default());
         let meshes = self.meshes(spec)?.0;
-        carry(&upright, poses, (&meshes, &spec.fabric), (&drape, &spec.parameters), monitor).map(|(_, drape)| drape)
+        carry(&upright, poses, (meshes.finest()?, &spec.fabric), (&drape, &spec.parameters), monitor)
+            .map(|(_, drape)| drape)
     }
 
     /// A layer of an outfit. The first of its layers drapes them all, for the others too.
@@ -247,7 +248,7 @@ impl Fitting<'_> {
             Simulator::Fem => sim::fem::simulate(body, field, &meshes.0, fabric, &parameters.fem()?, monitor),
             Simulator::Hybrid => sim::hybrid::simulate(body, field, &meshes.0, fabric, &parameters.hybrid()?, monitor),
         };
-        drape.map_err(sim_error)
+        drape.map_err(StudyError::sim)
     }
 
     /// What a drape measures; no artefact is named as used.
@@ -361,14 +362,6 @@ fn braced(force_n: f64) -> String {
         "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \
          a smaller size, a stiffer fabric or a waistband ([[reinforce]] in the seam file) may hold it"
     )
-}
-
-/// A simulator's error; being told to stop is an interruption.
-pub(crate) fn sim_error(error: SimError) -> StudyError {
-    match error {
-        SimError::Cancelled => StudyError::Interrupted,
-        other => StudyError::stage("sim")(other),
-    }
 }
 
 #[cfg(test)]
