@@ -323,7 +323,8 @@ fn a_raised_arm_draws_cuff_and_hem_as_far_as_the_sleeve_is_short() {
     let ways = still.positions.iter().zip(&drape.positions).map(|(a, b)| (a - b).norm());
     let moved_m = ways.sum::<f64>() / drape.positions.len() as f64;
     assert!(still.converged && moved_m < 1e-3, "{moved_m}");
-    assert_eq!(still.kept.as_deref(), Some(&drape.positions[..]));
+    let kept = still.kept.expect("it was carried");
+    assert!(kept.iter().zip(&drape.positions).all(|(kept, lay)| (kept - lay).norm() < 1e-9), "the skin does not move");
 
     let raised = carried(85.0);
     assert!(raised.converged && raised.self_crossings == 0 && raised.penetration_max_m < FAULTLESS_DEPTH_M);

@@ -5,7 +5,7 @@ use ratatui::text::{Line, Span};
 use crate::screens::fit::card::headed;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, selected_line};
-use crate::widgets::text::{self, left};
+use crate::widgets::text::{self, left, shortened};
 use study::GarmentWorn;
 
 /// What the numbers are.
@@ -35,7 +35,7 @@ pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<
     for (k, row) in rows.iter().enumerate().skip(first).take(room) {
         let cells: String =
             shown.clone().map(|size| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ").collect();
-        let line = Line::raw(left(&row.name, name) + &cells);
+        let line = Line::raw(left(&shortened(&row.name, name - 1), name) + &cells);
         told.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
     }
     if rows.is_empty() {
