@@ -130,7 +130,7 @@ impl Pipeline {
                 let (model, meshes) = (self.model(spec)?.0, self.meshes(spec)?.0);
                 let fitting = Fitting {
                     body: &model.body,
-                    field: &*self.field(spec, &model)?.0,
+                    field: &self.field(spec, &model)?.0,
                     style: &style(spec)?,
                     meshes: &meshes,
                     fabric: &spec.fabric,
