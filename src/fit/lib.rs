@@ -1,9 +1,9 @@
 //! Fit and evidence: ease at a level and the fit class it means [T 6.2.3], the simulator that the thesis's rule then
 //! names [T 6.4.2], and what a study's own numbers say of it.
 //!
-//! The subject is the unit: several sizes of one subject count once. [`judge()`] takes what both simulators made of the same
-//! cases ([`Pair`]) and gives an [`Answer`] for every garment and fit class; [`Analysis`] holds the statistics behind it,
-//! [`crossover`] the ease at which the simulators change places.
+//! The subject is the unit: several sizes of one subject count once. [`judge()`] takes what both simulators made of the
+//! same cases ([`Pair`]). It gives an [`Answer`] for every garment and fit class. [`Analysis`] holds the statistics
+//! behind it, [`crossover`] the ease at which the simulators change places.
 
 mod advice;
 pub mod alter;

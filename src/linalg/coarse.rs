@@ -1,10 +1,10 @@
 //! A coarse space for the linear solves: the cloth in patches that move as rigid bodies.
 //!
 //! What block-Jacobi is slow at are motions of many vertices together: a sleeve that swings, a fold that travels. Cloth
-//! resists those hardly at all where each patch of it moves rigidly, so rigid motions of patches, six degrees of freedom each,
-//! span them well (smoothed aggregation's near null space [Vanek 1996]), without smoothing: what remains at the borders of
-//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised ([`super::cholesky`]), and a
-//! factor serves for several steps.
+//! resists those hardly at all where each patch of it moves rigidly. So rigid motions of patches, six degrees of
+//! freedom each, span them well: smoothed aggregation's near null space [Vanek 1996], without smoothing. What remains
+//! at the borders of patches is local, and block-Jacobi's. The stiffness between patches is small enough to be
+//! factorised ([`super::cholesky`]), and a factor serves for several steps.
 
 use std::cmp::Ordering;
 

@@ -1,8 +1,8 @@
 //! Which surface each pixel shows: one sample at its middle, and nine where an outline, a seam or another layer passes it.
 //!
-//! Within a smooth surface nine samples would see one colour. What can change within a pixel changes at a contour (an edge
-//! between a triangle that faces the viewer and one that does not), at the border of a mesh, at a seam line or where
-//! layers meet, so only those pixels are looked at closer.
+//! Within a smooth surface nine samples would see one colour. What can change within a pixel changes at a contour, an
+//! edge between a triangle that faces the viewer and one that does not. It also changes at the border of a mesh, at a
+//! seam line or where layers meet. So only those pixels are looked at closer.
 
 use super::raster::{NOTHING, RIM, cover};
 use super::scene::{Edge, Scene};

@@ -1,10 +1,10 @@
 //! Hands as they slip into a sleeve: folded while a garment is sewn, then opened inside it.
 //!
-//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept out; a
-//! narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh has settled
-//! the cloth meets, for a hand that it is near, a convex solid: folded, beyond the wrist narrower than the wrist and narrowing
-//! on, and then widened to one that holds the whole hand. It pushes the cloth outwards from within; what lies on it lies
-//! outside the hand. Only the last phase knows fingers.
+//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept
+//! out; a narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh
+//! has settled the cloth meets, for a hand that it is near, a convex solid. At first it is folded, beyond the wrist
+//! narrower than the wrist and narrowing on. Then it is widened to one that holds the whole hand. It pushes the cloth
+//! outwards from within; what lies on it lies outside the hand. Only the last phase knows fingers.
 //!
 //! The solid is where `n . p <= h(n)` for directions `n` all around, and the greatest `n . p - h(n)` is taken for the distance
 //! from it; between folded and open that changes evenly.

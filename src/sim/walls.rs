@@ -1,5 +1,5 @@
-//! Planes that part the cloth of two limbs where its contact with itself does not: legs keep to their side of the median plane,
-//! a sleeve and the side of the trunk to theirs of the plane between arm and trunk.
+//! Planes that part the cloth of two limbs where its contact with itself does not. Legs keep to their side of the
+//! median plane, a sleeve and the side of the trunk to theirs of the plane between arm and trunk.
 
 use body::{Body, Layer};
 use geom::V3;

