@@ -41,7 +41,7 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     rows.add("drag lines, longest", |size| Some(longest(&size.folds, "drag_line")));
     rows.add("folds, longest", |size| Some(longest(&size.folds, "fold")));
     for opening in names(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
-        rows.add(&format!("drawn, {opening}"), |size| {
+        rows.add(&format!("drawn {opening}"), |size| {
             let one = size.drawn.iter().find(|one| one.opening == opening)?;
             Some(signed(one.drawn_mm))
         });
