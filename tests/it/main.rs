@@ -32,3 +32,4 @@ mod tree;
 mod wardrobe;
 mod words;
 mod workbench;
+mod written;
