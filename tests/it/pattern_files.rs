@@ -127,14 +127,14 @@ fn sizes_go_from_the_smallest_to_the_largest_in_whatever_order_a_file_has_them()
     }
     place.toile("subject add f --sex f --stature-mm 1650 --chest-girth-mm 860").ends_with(0);
     place.toile("study new mine --pattern nest.dxf --subject f").ends_with(0);
-    let study = std::fs::read_to_string(place.path("studies/mine/study.toml")).expect("written");
+    let study = std::fs::read_to_string(place.path("mine/study.toml")).expect("written");
     let places = ["\"8\"", "\"10\"", "\"12\""].map(|size| study.find(size).unwrap_or_else(|| panic!("{study}")));
     assert!(places.is_sorted(), "{study}");
     // A study that lists them otherwise is answered in their order too.
     let [first, _, last] = ["8", "10", "12"].map(|size| format!("\"{size}\""));
     let turned = study.replace(&first, "\"?\"").replace(&last, &first).replace("\"?\"", &last);
-    place.write("studies/mine/study.toml", turned);
-    let said = place.toile("fit studies/mine --subject f");
+    place.write("mine/study.toml", turned);
+    let said = place.toile("fit mine --subject f");
     let columns = ["8 ease_mm", "10 ease_mm", "12 ease_mm"].map(|size| said.out.find(size));
     assert!(columns.is_sorted() && columns[0].is_some(), "{}", said.out);
 }
