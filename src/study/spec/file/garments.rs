@@ -13,6 +13,7 @@ use crate::spec::file::values::{lookup, source, unique};
 use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule, target};
 use crate::spec::parameters::Parameters;
 use geom::units::from_mm;
+use pattern::size_order;
 use sim::Fabric;
 
 const GARMENT_KEYS: [&str; 15] = [
@@ -68,7 +69,7 @@ pub(super) fn garments(
         let schedule = schedule::schedule(reader, &place, &before, common.limits);
         let subjects = wearers(reader, &place, top, subjects);
         let style = reader.text(&place, "style");
-        let Sewn { seams, unit, sizes } = match &style {
+        let Sewn { seams, unit, mut sizes } = match &style {
             Some(style) if !place.table.contains_key("seams") => in_catalogue(reader, &place, style, common.styles),
             _ => {
                 let sewn = sewn(reader, &place, common.folder);
@@ -81,6 +82,7 @@ pub(super) fn garments(
             }
         };
         told_apart(reader, &place, &sizes, unit.as_deref());
+        size_order::sort(&mut sizes, |size| &size.name);
         let edge_length_m = reader.number(&place, "edge_length_mm", EDGE_MM).map_or(common.edge_length_m, from_mm);
         let mut parameters = common.parameters.clone();
         for (name, value) in sweep::parameters(reader, &place).iter() {
