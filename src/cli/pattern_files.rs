@@ -102,9 +102,11 @@ pub fn convert(
 ) -> Outcome {
     let bytes = match output::kind(output, &PATTERNS)? {
         PatternFormat::Dxf if *with_rul => {
-            let graded = pattern_files::convert_to_graded(path, &beside(files), *standard)?;
+            let table = output.with_extension("rul");
+            let name = table.file_stem().unwrap_or_default().to_string_lossy();
+            let graded = pattern_files::convert_to_graded(path, &beside(files), *standard, &name)?;
             graded.notes.iter().for_each(|note| context.say(note));
-            write(context, &output.with_extension("rul"), graded.rules.into_bytes())?;
+            write(context, &table, graded.rules.into_bytes())?;
             graded.dxf
         }
         PatternFormat::Dxf => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,

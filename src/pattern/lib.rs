@@ -23,7 +23,7 @@ pub mod propose;
 pub mod scale;
 pub mod seam_edit;
 pub mod seams;
-mod size_order;
+pub mod size_order;
 pub mod source;
 pub mod style;
 pub mod table;

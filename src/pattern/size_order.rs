@@ -1,17 +1,16 @@
 //! Sizes from the smallest to the largest by their names.
 
-/// Sizes by their number, or by their letters (XXS, 2XL), each with what follows in the order given; names of other kinds keep
-/// the order given, after them.
-pub(crate) fn sorted<'s>(sizes: &[&'s str]) -> Vec<&'s str> {
-    let mut sizes = sizes.to_vec();
-    sizes.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-    sizes
+/// Sorts by the names of sizes: by their number, or by their letters (XXS, 2XL), of a double size (S/M) by the first.
+/// Names of other kinds come after them, and what is alike keeps its order.
+pub fn sort<T>(sized: &mut [T], name: impl Fn(&T) -> &str) {
+    sized.sort_by(|a, b| rank(name(a)).total_cmp(&rank(name(b))));
 }
 
 /// What a size is sorted by.
 fn rank(size: &str) -> f64 {
     let size = size.trim().to_ascii_uppercase();
-    letters(&size).or_else(|| leading_number(&size)).unwrap_or(f64::INFINITY)
+    let first = size.split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
+    letters(first).or_else(|| leading_number(&size)).unwrap_or(f64::INFINITY)
 }
 
 /// Rank of a letter size: M is 0, and each X adds one.
@@ -31,21 +30,37 @@ fn letters(size: &str) -> Option<f64> {
     }
 }
 
+/// The number that a size begins with, with its fraction: `34 1/2`.
 fn leading_number(size: &str) -> Option<f64> {
     let digits = size.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(size.len());
-    size[..digits].parse().ok()
+    let number: f64 = size[..digits].parse().ok()?;
+    let fraction = match size[digits..].trim() {
+        "¼" | "1/4" => 0.25,
+        "½" | "1/2" => 0.5,
+        "¾" | "3/4" => 0.75,
+        _ => 0.0,
+    };
+    Some(number + fraction)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::sorted;
+    use super::sort;
 
     #[test]
     fn sizes_are_sorted_as_they_are_hung() {
-        let check = |given: &[&str], expect: &[&str]| assert_eq!(sorted(given), expect);
+        let check = |given: &[&str], expect: &[&str]| {
+            let mut sizes = given.to_vec();
+            sort(&mut sizes, |size| size);
+            assert_eq!(sizes, expect);
+        };
         check(&["L", "XXS", "M", "2XL", "S", "XS", "XL"], &["XXS", "XS", "S", "M", "L", "XL", "2XL"]);
         check(&["44", "28", "9.5", "36"], &["9.5", "28", "36", "44"]);
+        check(&["12", "8", "10"], &["8", "10", "12"]);
         check(&["36/R", "34/R", "tall"], &["34/R", "36/R", "tall"]);
+        check(&["L/XL", "XS/S", "S/M"], &["XS/S", "S/M", "L/XL"]);
+        check(&["34 1/2", "34", "33 1/2"], &["33 1/2", "34", "34 1/2"]);
+        check(&["15½", "15", "14½", "32/34", "30/34"], &["14½", "15", "15½", "30/34", "32/34"]);
         check(&["small", "base", ""], &["small", "base", ""]);
     }
 }

@@ -142,7 +142,7 @@ fn the_page_needs_nothing_else() {
 
 #[test]
 fn charts_are_files_beside_the_page_and_its_links_lead_to_them() {
-    let files = super::files(&sample(), Purpose::Compare).unwrap();
+    let files = files(&sample(), Purpose::Compare).unwrap();
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let page = String::from_utf8(files[0].1.clone()).unwrap();
     let links: Vec<&str> = page.split("href=\"charts/").skip(1).filter_map(|rest| rest.split('"').next()).collect();

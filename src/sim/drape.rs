@@ -62,6 +62,9 @@ pub struct Drape {
     pub self_crossings: usize,
     /// Force that holds it up by its top edge, N, where it would slide off by itself.
     pub braced_n: Option<f64>,
+    /// Whether no step lowered its energy any more, though it was not at rest.
+    #[serde(default)]
+    pub is_stuck: bool,
     /// Vertices once sewn (each welded group counts once).
     pub welded_vertices: usize,
     /// The run, step by step.

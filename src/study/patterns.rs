@@ -111,7 +111,7 @@ impl Nest {
         self.files.iter().find(|file| file.sizes().len() > 1).or(self.files.first())
     }
 
-    /// Names of the sizes, in the order of the file; `""` where none is named.
+    /// Names of the sizes, from the smallest to the largest; `""` where none is named.
     pub(crate) fn sizes(&self) -> Vec<&str> {
         self.graded().map_or(vec![], PatternFile::sizes)
     }

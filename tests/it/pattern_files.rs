@@ -86,3 +86,55 @@ fn a_table_beside_the_pattern_tells_its_pieces() {
     let said = place.toile("pattern inspect patterns/tshirt-m.dxf --info pieces.csv").ends_with(2);
     assert!(said.err.contains("pieces.csv, row 2, column `piece`: found piece `hood`"), "{}", said.err);
 }
+
+/// The drafted T-shirt in three sizes as one file of features, under other names and in another order.
+fn nest(place: &Place, sizes: [(&str, &str); 3]) {
+    let mut all: Option<Value> = None;
+    for (drawn, size) in sizes {
+        let mut one = place.toile(&format!("pattern features patterns/tshirt-{drawn}.dxf")).ends_with(0).json();
+        for piece in one["pieces"].as_array_mut().expect("pieces") {
+            piece["information"]["size"] = size.into();
+        }
+        let pieces = one["pieces"].as_array().cloned().expect("pieces");
+        match all.as_mut().and_then(|all| all["pieces"].as_array_mut()) {
+            Some(known) => known.extend(pieces),
+            None => all = Some(one),
+        }
+    }
+    place.write("nest.json", all.expect("three sizes").to_string());
+}
+
+#[test]
+fn sizes_go_from_the_smallest_to_the_largest_in_whatever_order_a_file_has_them() {
+    let place = Place::new();
+    place.draft();
+    nest(&place, [("l", "12"), ("s", "8"), ("m", "10")]);
+    place.toile("pattern convert nest.json -o nest.dxf").ends_with(0);
+    let sheet = place.toile("pattern pom nest.dxf --seams patterns/tshirt.seams.toml --json").ends_with(0).json();
+    assert_eq!(sheet["sizes"], serde_json::json!(["8", "10", "12"]));
+    let steps = sheet["points"].as_array().expect("points").iter().filter_map(|point| point["step_mm"].as_f64());
+    assert!(steps.into_iter().all(|step| step > -1e-6), "every step makes wider or longer: {sheet}");
+    for (standard, head) in [("aama", "ANSI/AAMA VERSION: 1.0.0"), ("astm", "ASTM/D13Proposal 1 Version: D 6673-04")] {
+        place.toile(&format!("pattern convert nest.dxf --with-rul --standard {standard} -o style.dxf")).ends_with(0);
+        let rules = std::fs::read_to_string(place.path("style.rul")).expect("written");
+        assert!(rules.starts_with(head) && rules.contains("\r\nSIZE LIST: 8 10 12\r\n"), "{rules}");
+        assert!(rules.contains("\r\nGRADE RULE TABLE: style\r\n"), "{rules}");
+        let drawn = std::fs::read_to_string(place.path("style.dxf")).expect("written");
+        assert_eq!(drawn.matches("\r\nGrade Rule Table: style\r\n").count(), 1);
+        place.toile("pattern convert style.dxf --rul style.rul --with-rul -o again.dxf").ends_with(0);
+        let again = std::fs::read_to_string(place.path("again.dxf")).expect("written");
+        assert!(again.contains("Grade Rule Table: again") && !again.contains("Grade Rule Table: style"));
+    }
+    place.toile("subject add f --sex f --stature-mm 1650 --chest-girth-mm 860").ends_with(0);
+    place.toile("study new mine --pattern nest.dxf --subject f").ends_with(0);
+    let study = std::fs::read_to_string(place.path("mine/study.toml")).expect("written");
+    let places = ["\"8\"", "\"10\"", "\"12\""].map(|size| study.find(size).unwrap_or_else(|| panic!("{study}")));
+    assert!(places.is_sorted(), "{study}");
+    // A study that lists them otherwise is answered in their order too.
+    let [first, _, last] = ["8", "10", "12"].map(|size| format!("\"{size}\""));
+    let turned = study.replace(&first, "\"?\"").replace(&last, &first).replace("\"?\"", &last);
+    place.write("mine/study.toml", turned);
+    let said = place.toile("fit mine --subject f");
+    let columns = ["8 ease_mm", "10 ease_mm", "12 ease_mm"].map(|size| said.out.find(size));
+    assert!(columns.is_sorted() && columns[0].is_some(), "{}", said.out);
+}

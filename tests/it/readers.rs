@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use toile::body::{Measurements, Sex, write_obj};
 use toile::pattern::seams::SeamFile;
-use toile::study::{StudyError, Workspace, patterns::Model};
+use toile::study::{Planned, Selection, StudyError, Workspace, bodies, patterns::Model};
 
 /// A fresh database beside the drafted T-shirt.
 pub struct Readers {
@@ -24,6 +25,29 @@ impl Readers {
 
     fn study_file(&self) -> PathBuf {
         self.folder.path().join("study.toml")
+    }
+
+    /// Writes a file beside the study, or below it.
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        std::fs::write(self.folder.path().join(name), bytes).expect("writable");
+    }
+
+    /// The bytes of such a file.
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.folder.path().join(name)).expect("readable")
+    }
+
+    /// Writes the surface of somebody of a stature, m, as OBJ.
+    pub fn write_scan(&self, name: &str, stature_m: f64) {
+        let body = bodies::build_body(&Measurements::of(Sex::Male, stature_m)).expect("it can be built");
+        self.write(name, write_obj(&body.mesh));
+    }
+
+    /// The jobs of the text of a study file.
+    pub fn plan(&mut self, text: &str) -> Vec<Planned> {
+        self.write("study.toml", text);
+        let study = self.workspace.load_study(&self.study_file()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        self.workspace.plan(&study, &Selection::default()).expect("planned")
     }
 
     /// What is wrong with the text of a study file.

@@ -17,10 +17,11 @@ const NONSENSE: &str = "zzzzzz";
 const DATE: &str = "1979-05-27";
 
 /// A row of a table of the page.
-struct Row {
+pub struct Row {
     /// Words between backquotes in its first cell.
-    keys: Vec<String>,
-    cells: Vec<String>,
+    pub keys: Vec<String>,
+    /// Its cells: key, value, unit, default, meaning.
+    pub cells: Vec<String>,
 }
 
 /// Words between backquotes.
@@ -29,7 +30,7 @@ fn quoted(text: &str) -> Vec<String> {
 }
 
 /// Rows of the page by the heading they stand under.
-fn page() -> BTreeMap<String, Vec<Row>> {
+pub fn page() -> BTreeMap<String, Vec<Row>> {
     let mut found: BTreeMap<String, Vec<Row>> = BTreeMap::new();
     let mut heading = String::new();
     for line in text(&root().join("docs/reference.md")).lines() {
@@ -90,6 +91,11 @@ const STUDY: [Section; 9] = [
     },
     Section { headings: &["[parameters] of FEM-GS", "[parameters] of Hybrid-GS"], beginnings: &["[parameters]\n"] },
 ];
+
+/// Headings of the study file's tables.
+pub fn study_headings() -> impl Iterator<Item = &'static str> {
+    STUDY.iter().flat_map(|section| section.headings).copied()
+}
 
 /// Sections of the seam file.
 const SEAMS: [Section; 6] = [

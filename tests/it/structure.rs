@@ -342,6 +342,57 @@ fn constants_of_the_simulators_are_inputs_of_their_results() {
     assert_eq!(known, written, "`sim::constants` lists each file's");
 }
 
+/// Numbers of geometry and arithmetic that may stand in an expression: parts and multiples, the lines of a limb (12 on each face), degrees
+/// of series, percent, millimetres.
+const PLAIN: [f64; 15] = [0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 18.0, 24.0, 100.0, 1e3, 1e-3];
+
+/// A number up to which one guards a division or a normal, and decides nothing.
+const GUARD: f64 = 1e-6;
+
+/// Where other numbers stand that decide no result: shares of progress, a turn of axes, what a message says.
+const TOLD: [&str; 3] = ["sim::fem::run", "sim::hybrid", "sim::contact::rub"];
+
+/// Numbers written in the functions of a file, but for its tests and the default parameters, which are inputs by themselves.
+#[derive(Default)]
+struct Written(Vec<String>);
+
+impl<'a> Visit<'a> for Written {
+    fn visit_item_mod(&mut self, module: &'a ItemMod) {
+        if !is_test(&module.attrs) {
+            visit::visit_item_mod(self, module);
+        }
+    }
+
+    fn visit_item_impl(&mut self, item: &'a syn::ItemImpl) {
+        let is_default = item.trait_.as_ref().is_some_and(|(_, path, _)| path.is_ident("Default"));
+        if !is_default {
+            visit::visit_item_impl(self, item);
+        }
+    }
+
+    fn visit_lit_float(&mut self, number: &'a syn::LitFloat) {
+        let value: f64 = number.base10_parse().expect("a number");
+        if !PLAIN.contains(&value) && value > GUARD {
+            self.0.push(number.to_string());
+        }
+    }
+}
+
+#[test]
+fn no_number_of_the_simulators_is_written_in_place() {
+    let mut told = Vec::new();
+    for (path, module) in ["linalg", "sim"].into_iter().flat_map(modules_of) {
+        let path = path.join("::");
+        if TOLD.contains(&path.as_str()) || path.contains("::testing") || path.starts_with("sim::laboratory") {
+            continue;
+        }
+        let mut written = Written::default();
+        written.visit_file(&module.file);
+        told.extend(written.0.into_iter().map(|number| format!("{path}: {number}")));
+    }
+    assert!(told.is_empty(), "not in `geom::constants!`, so no input of results: {told:#?}");
+}
+
 /// Whether a constant's type is made of numbers.
 fn is_number(of: &syn::Type) -> bool {
     match of {

@@ -4,6 +4,7 @@
 //! 5 grade reference, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line; curves are flattened. A file is read in three steps: its tags are scanned and counted (`guard`), the `dxf`
 //! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
 
+mod block_names;
 mod blocks;
 mod code_page;
 mod curves;
@@ -21,11 +22,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use dxf::entities::{Entity, EntityType};
 use dxf::{Block, Drawing};
 
+pub(crate) use self::block_names::r12_name;
 use self::blocks::{Drawn, Library};
 pub use self::code_page::CodePage;
 use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
+pub(crate) use self::write::D6673;
 pub use self::write::{Standard, write, write_pieces};
 use super::piece::Piece;
 use super::{scale, size_order};
@@ -119,7 +122,8 @@ impl PatternFile {
         if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 
-    /// Sizes in the order in which they first appear; pieces without one count as the size `""`.
+    /// Sizes from the smallest to the largest, where their names tell it; else in the order in which they first appear.
+    /// Pieces without one count as the size `""`.
     #[must_use]
     pub fn sizes(&self) -> Vec<&str> {
         let mut sizes = Vec::new();
@@ -129,6 +133,7 @@ impl PatternFile {
                 sizes.push(size);
             }
         }
+        size_order::sort(&mut sizes, |size| size);
         sizes
     }
 
@@ -138,7 +143,7 @@ impl PatternFile {
         let sizes = self.sizes();
         let said = self.texts.iter().filter(|(key, _)| is_sample_size(key)).map(|(_, value)| value.as_str());
         let sample = said.filter_map(|said| sizes.iter().find(|size| size.eq_ignore_ascii_case(said))).next();
-        sample.copied().unwrap_or_else(|| size_order::sorted(&sizes).get(sizes.len() / 2).copied().unwrap_or_default())
+        sample.copied().unwrap_or_else(|| sizes.get(sizes.len() / 2).copied().unwrap_or_default())
     }
 
     /// The pieces of one size, half pieces opened, ready for a seam file. Without a `size` the file must hold only one;

@@ -302,7 +302,7 @@ fn only_a_named_size_in_a_named_unit_is_sewn() {
         assert!(error.contains(expect), "{error}");
     };
     refuse(&whole, Some("XL"), "no size `XL`; accepted: one of S");
-    refuse(&file(&edited("Size: S", "Size: M")), None, "2 sizes; accepted: one of M, S");
+    refuse(&file(&edited("Size: S", "Size: M")), None, "2 sizes; accepted: one of S, M");
     refuse(&file(&edited("Units: METRIC", "Note: none")), None, "found no unit");
     let crossed = file(&edited("\r\n550.7600\r\n", "\r\n-50.0000\r\n"));
     let line = crossed.refused[0].line.expect("it is a block");

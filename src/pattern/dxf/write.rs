@@ -1,7 +1,8 @@
-//! Writing AAMA and ASTM DXF (R12): one block a piece, millimetres, one closed polyline on layer 1.
+//! Writing AAMA and ASTM DXF (R12): one block a piece, of its own name, millimetres, one closed polyline on layer 1.
 
 use std::fmt::Write as _;
 
+use super::block_names::block_names;
 use crate::draft::Draft;
 use crate::piece::Piece;
 use geom::V2;
@@ -64,10 +65,11 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Stan
     [head.text.into_bytes(), bytes].concat()
 }
 
-/// Blocks and entities.
+/// Blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files that have them.
 fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> String {
     let mut out = Out { text: String::new(), standard };
-    out.section("BLOCKS", |out| pieces.iter().for_each(|piece| out.block(piece)));
+    let names = block_names(pieces);
+    out.section("BLOCKS", |out| names.iter().zip(pieces).for_each(|(name, piece)| out.block(name, piece)));
     let version = (String::new(), D6673.to_owned());
     out.section("ENTITIES", |out| {
         let units = ("Units".to_owned(), "METRIC".to_owned());
@@ -77,9 +79,9 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
         for (line, (key, value)) in style.filter(|text| !of_version(text)).chain(version).enumerate() {
             out.text(V2::new(0.0, -0.02 - 0.005 * line as f64), key, value);
         }
-        for piece in pieces {
+        for name in &names {
             out.entity("INSERT", "1");
-            out.tag(2, &piece.block);
+            out.tag(2, name);
             out.point(10, &V2::zeros());
         }
     });
@@ -88,7 +90,7 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
 }
 
 /// How a file says that it is by ASTM D6673.
-const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
+pub(crate) const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
 
 /// Distance within which a grade point is a turn point, m.
 const ON_POINT_M: f64 = 0.1e-3;
@@ -148,10 +150,10 @@ impl Out {
         }
     }
 
-    fn block(&mut self, piece: &Piece) {
+    fn block(&mut self, name: &str, piece: &Piece) {
         self.tag(0, "BLOCK");
         self.tag(8, "0");
-        self.tag(2, &piece.block);
+        self.tag(2, name);
         self.tag(70, "64");
         self.point(10, &V2::zeros());
         let mut texts = vec![("Piece Name", piece.name.as_str())];
@@ -217,6 +219,93 @@ impl Out {
         for point in points {
             self.entity("POINT", layer);
             self.point(10, point);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::draft::Model;
+    use crate::{Style, dxf};
+
+    /// What stands in a file, tag by tag: the texts of every block by its name, and the names that are inserted.
+    fn blocks_and_inserts(bytes: &[u8]) -> (Vec<(String, Vec<String>)>, Vec<String>) {
+        let text = String::from_utf8(bytes.to_vec()).expect("UTF-8");
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        assert!(lines.len().is_multiple_of(2) && lines.ends_with(&["0", "EOF"]));
+        let (mut blocks, mut inserts, mut entity, mut is_inside) = (Vec::new(), Vec::new(), "", false);
+        for tag in lines.chunks(2) {
+            match (tag[0], entity) {
+                ("0", _) => {
+                    entity = tag[1];
+                    assert!(!(is_inside && entity == "BLOCK"), "a block in a block");
+                    is_inside = entity == "BLOCK" || is_inside && entity != "ENDBLK";
+                }
+                ("2", "BLOCK") => blocks.push((tag[1].to_owned(), Vec::new())),
+                ("2", "INSERT") => inserts.push(tag[1].to_owned()),
+                ("1", "TEXT") if is_inside => blocks.last_mut().expect("a block").1.push(tag[1].to_owned()),
+                _ => {}
+            }
+        }
+        (blocks, inserts)
+    }
+
+    #[test]
+    fn every_piece_of_a_nest_is_a_block_of_its_own() {
+        // Nine sizes of every draft, with names of sizes that are no names of blocks, and a second sleeve.
+        let nest = |model: Model, sizes: [&str; 9]| -> Vec<Piece> {
+            let drawn = model.drafts().swap_remove(0).pieces;
+            let again = drawn.last().cloned();
+            let drawn: Vec<Piece> = drawn.into_iter().chain(again).collect();
+            let sized = |size: &str| -> Vec<Piece> {
+                drawn.iter().map(|piece| Piece { size: Some(size.to_owned()), ..piece.clone() }).collect()
+            };
+            sizes.into_iter().flat_map(sized).collect()
+        };
+        let letters = ["3XS", "XXS", "XS", "S", "M", "L", "XL", "XXL", "3XL"];
+        let double = ["30/32", "32/34", "34 1/2", "36", "38/40", "40-42", "42.5", "44*", "46/48 long"];
+        for (model, standard) in Model::ALL.into_iter().flat_map(|m| [(m, Standard::Aama), (m, Standard::Astm)]) {
+            for sizes in [letters, double] {
+                let pieces = nest(model, sizes);
+                let written = write_pieces(&pieces, &[], standard);
+                let (blocks, inserts) = blocks_and_inserts(&written);
+                assert_eq!(blocks.len(), pieces.len());
+                let names: Vec<&String> = blocks.iter().map(|(name, _)| name).collect();
+                assert_eq!(inserts.iter().collect::<Vec<_>>(), names, "each block is inserted once");
+                assert_eq!(names.iter().map(|name| name.to_uppercase()).collect::<BTreeSet<_>>().len(), names.len());
+                let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+                assert!(names.iter().all(|name| name.len() <= 31 && name.chars().all(is_plain)), "{names:?}");
+                for (piece, (name, texts)) in pieces.iter().zip(&blocks) {
+                    let size = piece.size.as_deref().unwrap_or_default();
+                    for text in [format!("Piece Name: {}", piece.name), format!("Size: {size}")] {
+                        assert!(texts.contains(&text), "{name}: {texts:?}");
+                    }
+                }
+                let read = dxf::read(&written, "nest.dxf", None).expect("our own file");
+                assert!(read.refused.is_empty() && read.warnings.is_empty(), "{:?}", read.warnings);
+                for (again, piece) in read.pieces.iter().zip(&pieces) {
+                    assert_eq!((&again.name, &again.size), (&piece.name, &piece.size));
+                    assert!((again.perimeter_m() - piece.perimeter_m()).abs() < 1e-5);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_nest_is_sewn_by_the_seams_of_its_sizes() {
+        for model in Model::ALL {
+            let pieces: Vec<Piece> = model.drafts().into_iter().flat_map(|draft| draft.pieces).collect();
+            let nest = dxf::read(&write_pieces(&pieces, &[], Standard::Aama), "a.dxf", None).expect("our own file");
+            for draft in model.drafts() {
+                let drawn = Style::read(&draft.pieces, model.seams(), "a").expect("our own seams");
+                let sized = nest.to_sew(Some(&draft.size)).expect("every size is there");
+                let again = Style::read(&sized, model.seams(), "a").expect("the same seams");
+                let ids = |style: &Style| style.pieces.iter().map(|piece| piece.id.clone()).collect::<Vec<_>>();
+                assert_eq!((ids(&again), again.seams.len()), (ids(&drawn), drawn.seams.len()), "{model:?}");
+            }
         }
     }
 }

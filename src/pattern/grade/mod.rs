@@ -7,7 +7,7 @@
 mod table;
 mod ungrade;
 
-pub use self::table::{GradeError, GradeTable, read, write};
+pub use self::table::{GradeError, GradeTable, is_name_of_table, named_in_pattern, read, write};
 pub use self::ungrade::{Ungraded, ungrade};
 use super::dxf::{PatternFile, Refused};
 use super::piece::{Notch, Piece};

@@ -17,7 +17,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::dxf::Unit;
+use crate::dxf::{D6673, Standard, Unit};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
@@ -106,13 +106,29 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     reader.table(head, rules)
 }
 
-/// Writes a table in millimetres.
+/// The text by which a pattern file names its table, as `(key, value)`.
 #[must_use]
-pub fn write(table: &GradeTable, style: &str) -> String {
-    let mut text = String::from("ANSI/AAMA VERSION: 1.0.0\r\nAUTHOR: Toile\r\nUNITS: METRIC\r\n");
-    let style = style.replace(char::is_control, " ");
+pub fn named_in_pattern(name: &str) -> (String, String) {
+    ("Grade Rule Table".to_owned(), name.to_owned())
+}
+
+/// Whether a text of a pattern file names its table.
+#[must_use]
+pub fn is_name_of_table(key: &str) -> bool {
+    key.eq_ignore_ascii_case("grade rule table")
+}
+
+/// Writes a table in millimetres by a standard; `name` is that by which its pattern file calls it.
+#[must_use]
+pub fn write(table: &GradeTable, name: &str, standard: Standard) -> String {
+    let head = match standard {
+        Standard::Aama => "ANSI/AAMA VERSION: 1.0.0",
+        Standard::Astm => D6673,
+    };
+    let mut text = format!("{head}\r\nAUTHOR: Toile\r\nUNITS: METRIC\r\n");
+    let name = name.replace(char::is_control, " ");
     let (sizes, count) = (table.sizes.join(" "), table.sizes.len());
-    let _ = write!(text, "GRADE RULE TABLE: {style}\r\nNUMBER OF SIZES: {count}\r\nSIZE LIST: {sizes}\r\n");
+    let _ = write!(text, "GRADE RULE TABLE: {name}\r\nNUMBER OF SIZES: {count}\r\nSIZE LIST: {sizes}\r\n");
     let _ = write!(text, "SAMPLE SIZE: {}\r\n", table.sizes[table.sample]);
     for (number, steps) in &table.rules {
         let _ = write!(text, "RULE: DELTA {number}\r\n");

@@ -189,7 +189,10 @@ fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> Patter
     let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
     let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
     let file = dxf::read(&written, "a.dxf", None).expect("our own file");
-    let table = read(write(&table, "a").as_bytes(), "a.rul").expect("our own table");
+    let text = write(&table, "a", standard);
+    let head = if standard == dxf::Standard::Aama { "ANSI/AAMA" } else { "ASTM/D13Proposal 1 Version: D 6673-04\r\n" };
+    assert!(text.starts_with(head) && text.contains("\r\nGRADE RULE TABLE: a\r\n"), "{text}");
+    let table = read(text.as_bytes(), "a.rul").expect("our own table");
     let graded = grade(&file, &table).expect("it grades");
     assert!(graded.refused.is_empty(), "{:?}", graded.refused);
     graded

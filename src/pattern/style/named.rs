@@ -1,10 +1,11 @@
 //! Pieces by the names that seam files call them by.
 
+use crate::dxf::r12_name;
 use crate::piece::Piece;
 
 /// Indices of the pieces that a seam file calls `name`: by their block, else by their piece name, else by either with its
 /// number, `NAME#2`. Names that hold the size, as blocks of nests do, are compared without it; `made_on` is the size that
-/// the seam file was made on.
+/// the seam file was made on. A block is known too by the name that it is written under.
 pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec<usize> {
     let ways: [fn(&Piece) -> &str; 2] = [|piece| &piece.block, |piece| &piece.name];
     let by = |is: &dyn Fn(&Piece) -> bool| (0..pieces.len()).filter(|&i| is(&pieces[i])).collect::<Vec<_>>();
@@ -15,22 +16,33 @@ pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec
         by(&|piece| way(piece) == base).get(number.checked_sub(1)?).copied()
     });
     let by_number = by_number.map(|found| found.into_iter().collect::<Vec<_>>());
-    let bare = made_on.map(|size| without(name, size));
+    let written = [r12_name(name)];
+    let by_written = written.iter().map(|written| by(&|piece| piece.block == *written));
+    // The first of a name has no number in its block.
+    let first = numbered.filter(|(_, number)| *number == 1).map_or(name, |(base, _)| base);
+    let bare = without(first, made_on.unwrap_or_default());
     let by_bare = ways.iter().map(|way| {
-        let is_it = |piece: &Piece| {
-            let size = piece.size.as_deref().unwrap_or_default();
-            bare.as_ref().is_some_and(|bare| *bare == without(way(piece), size))
-        };
-        by(&is_it)
+        let is_it = |piece: &Piece| bare == without(way(piece), piece.size.as_deref().unwrap_or_default());
+        // A name that is nothing but its size says which piece only beside another size.
+        if bare.is_empty() && made_on.is_none() { Vec::new() } else { by(&is_it) }
     });
-    let found = plain.chain(by_number).chain(by_bare).find(|found| !found.is_empty());
+    let found = plain.chain(by_number).chain(by_written).chain(by_bare).find(|found| !found.is_empty());
     found.unwrap_or_default()
 }
 
 /// The words of a name without those that are the size.
 fn without(name: &str, size: &str) -> Vec<String> {
-    let words = name.split(|c: char| !c.is_alphanumeric());
-    words.filter(|word| !word.eq_ignore_ascii_case(size)).map(str::to_ascii_lowercase).collect()
+    let (mut left, size) = (words(name), words(size));
+    while let Some(at) = left.windows(size.len().max(1)).position(|some| *some == size[..]) {
+        left.drain(at..at + size.len());
+    }
+    left
+}
+
+/// The words of a name in small letters, without what stands between them.
+fn words(name: &str) -> Vec<String> {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_lowercase).collect()
 }
 
 #[cfg(test)]
@@ -57,5 +69,30 @@ mod tests {
         check("back-M", None, &[]);
         check("back-M", Some("M"), &[1]);
         check("back-M", Some("S"), &[]);
+    }
+
+    #[test]
+    fn pieces_are_called_by_the_blocks_that_they_were_drawn_in() {
+        let check = |written: [&str; 3], size: Option<&str>, name: &str, made_on: Option<&str>, expect: &[usize]| {
+            let piece = |(k, block): (usize, &str)| Piece {
+                block: block.to_owned(),
+                name: format!("piece {k}"),
+                size: size.map(str::to_owned),
+                ..Piece::default()
+            };
+            let pieces: Vec<Piece> = written.into_iter().enumerate().map(piece).collect();
+            assert_eq!(called(&pieces, name, made_on), expect, "{name} among {written:?}");
+        };
+        let nest = ["F1_XS_S", "F1_XS_S_2", "BK 2_XS_S"];
+        check(nest, Some("XS/S"), "F1", None, &[0]);
+        check(nest, Some("XS/S"), "F1#1", None, &[0]);
+        check(nest, Some("XS/S"), "F1#2", None, &[1]);
+        check(nest, Some("XS/S"), "BK-2", None, &[2]);
+        check(nest, Some("XS/S"), "F1-L/XL", Some("L/XL"), &[0]);
+        check(nest, Some("XS/S"), "F1-L/XL", None, &[]);
+        check(nest, Some("XS/S"), "F", None, &[]);
+        check(["M", "L", "x"], Some("M"), "#", None, &[]);
+        check(["TEE_FR_36", "a_very_long_name_of_a_block_that", "x"], None, "TEE FR_36", None, &[0]);
+        check(["x", "a_very_long_name_of_a_block_tha", "y"], None, "a very long name of a block that", None, &[1]);
     }
 }

@@ -87,13 +87,25 @@ pub struct Simulation<'a> {
     vertex_steps: u64,
     fraction: f64,
     history: Vec<Step>,
+    /// Whether the last stretch of steps ended because none moved anything.
+    is_stuck: bool,
 }
 
 impl<'a> Simulation<'a> {
     /// Starts a run over levels 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
         let history = Vec::new();
-        Self { params, monitor, levels, worn_at_m: None, iteration: 0, vertex_steps: 0, fraction: 0.0, history }
+        Self {
+            params,
+            monitor,
+            levels,
+            worn_at_m: None,
+            iteration: 0,
+            vertex_steps: 0,
+            fraction: 0.0,
+            history,
+            is_stuck: false,
+        }
     }
 
     /// How it simulates.
@@ -114,6 +126,11 @@ impl<'a> Simulation<'a> {
     /// Whether a garment that ends with a fault is put on again otherwise.
     pub fn tries_again(&self) -> bool {
         self.monitor.tries_again()
+    }
+
+    /// Whether the last stretch of steps ended because no step lowered the energy any more.
+    pub fn is_stuck(&self) -> bool {
+        self.is_stuck
     }
 
     /// Iterations so far.
@@ -157,7 +174,9 @@ impl<'a> Simulation<'a> {
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
             self.record(garment, x, &whole(x), info, "sew", 0, widest, 0.2 * done)?;
-            if widest <= params.sewing.weld_gap_m || (step >= params.sewing.sewing_steps && widest <= OPEN_M) {
+            let is_closed =
+                widest <= params.sewing.weld_gap_m || (step >= params.sewing.sewing_steps && widest <= OPEN_M);
+            if is_closed || stepper.is_stuck() {
                 break;
             }
             if mean < least * params.sewing.sewing_progress {
@@ -175,7 +194,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the residual is reached or the steps are used up; returns the residual.
+    /// Steps until the residual is reached, the steps are used up, or none gets anywhere; returns the residual.
     pub fn drape(
         &mut self,
         garment: &Garment,
@@ -196,10 +215,11 @@ impl<'a> Simulation<'a> {
             let fraction = phase.share[0] + (phase.share[1] - phase.share[0]) * done;
             let positions = system.cloth.unweld(x);
             self.record(garment, x, &positions, info, phase.name, phase.level, 0.0, fraction)?;
-            if residual <= phase.tolerance {
+            if residual <= phase.tolerance || stepper.is_stuck() {
                 break;
             }
         }
+        self.is_stuck = stepper.is_stuck();
         Ok(residual)
     }
 

@@ -76,6 +76,8 @@ pub struct Settled {
     pub positions: Vec<V3>,
     /// Rms force over mean vertex weight.
     pub residual: f64,
+    /// Whether its last steps moved nothing, though it was not at rest.
+    pub is_stuck: bool,
     /// How far the contact with the body yields, m.
     pub yields_m: f64,
     /// What its top edge had to be held up with, N.
@@ -99,6 +101,7 @@ impl Settled {
             self_crossings: quality::self_crossings(&self.sewn, &self.triangles),
             welded_vertices: self.sewn.len(),
             braced_n: self.braced_n,
+            is_stuck: self.is_stuck && self.residual > tolerance,
             positions: self.positions,
             history: Vec::new(),
             earlier: Vec::new(),
@@ -157,7 +160,7 @@ impl<'a> Settling<'a> {
         }
         let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
         let (positions, triangles) = (cloth.unweld(&x), cloth.triangles.clone());
-        Ok(Settled { positions, residual, yields_m, braced_n, sewn: x, triangles })
+        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout; says whether
@@ -255,7 +258,7 @@ impl<'a> Settling<'a> {
         let residual = self.hold(&mut system, &mut x, run)?;
         let (yields_m, braced_n) = (system.contact.yields_m(&x), None);
         let (positions, triangles) = (self.cloth.unweld(&x), self.cloth.triangles.clone());
-        Ok(Settled { positions, residual, yields_m, braced_n, sewn: x, triangles })
+        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Steps without friction until it is at rest, or a few; returns the residual.

@@ -248,6 +248,7 @@ fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
         seam_gap_max_m: 0.0,
         self_crossings: crossings,
         braced_n: None,
+        is_stuck: false,
         welded_vertices: 1,
         positions: Vec::new(),
         history: Vec::new(),

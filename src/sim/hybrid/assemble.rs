@@ -16,6 +16,8 @@ geom::constants! {
     "hybrid.assemble",
     /// Steps in which pieces sewn together are laid flat.
     const FLATTENING: u32 = 12;
+    /// Weight of a vertex's place meanwhile, over that of its triangles: no more than keeps the pieces where they are.
+    const HOLD: f64 = 1e-6;
 }
 
 /// A garment in as few pieces as the body needs.
@@ -221,7 +223,7 @@ fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stret
     }
     let mut x: Vec<V3> = sums.into_iter().map(|(sum, n)| sum / n).collect();
     if !inner.is_empty() {
-        let hold = vec![1e-6; count];
+        let hold = vec![HOLD; count];
         let none = vec![V3::zeros(); count];
         if let Some(mut elastic) = Elastic::new(garment, sewn, &x, (&[], 0.0), &[], vec![], hold) {
             for _ in 0..FLATTENING {

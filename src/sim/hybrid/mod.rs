@@ -301,6 +301,7 @@ impl Dressing<'_> {
             seam_gap_max_m: quality::seam_gap_m(garment, &positions),
             self_crossings,
             braced_n: None,
+            is_stuck: false,
             welded_vertices: sewn.x.len(),
             positions,
             history: Vec::new(),

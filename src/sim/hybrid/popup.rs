@@ -18,6 +18,8 @@ geom::constants! {
     const CORRECTIONS: u32 = 2;
     /// What a change of all controls' lengths changes their mean by, at first guess.
     const RESPONSE: f64 = 0.7;
+    /// Least and greatest response that a correction may have found, over that guess.
+    const FOUND: [f64; 2] = [0.3, 2.0];
     /// Error that counts as none.
     const NONE: f64 = 2e-5;
 }
@@ -111,7 +113,7 @@ fn rigid<E>(
             relaxation.control += change;
             moved = relaxation.step(push);
             let next = error(&relaxation.x);
-            response = ((next - now) / change).clamp(0.3 * RESPONSE, 2.0 * RESPONSE);
+            response = ((next - now) / change).clamp(FOUND[0] * RESPONSE, FOUND[1] * RESPONSE);
             now = next;
             tries += 1;
         }

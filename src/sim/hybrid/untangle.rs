@@ -14,6 +14,8 @@ geom::constants! {
     const CORRECTIONS: usize = 20;
     /// Height of a triangle over its base that counts as not flipped.
     const LEAST_HEIGHT: f64 = 0.1;
+    /// Share of what a vertex lacks that it is moved by: a little over, so that rounding leaves no rest of it.
+    const OVER: f64 = 1.01;
 }
 
 /// Turns flipped triangles of a sheet back; returns how many are left.
@@ -88,7 +90,7 @@ impl Sheet<'_> {
             let Some((lack, inwards)) = worst.map(|side| (lacks(side), side.1)).filter(|(lack, _)| *lack > 0.0) else {
                 break;
             };
-            p += inwards * (1.01 * lack);
+            p += inwards * (OVER * lack);
         }
         p
     }

@@ -17,6 +17,8 @@ geom::constants! {
     const BLOCK: usize = 4;
     /// How fast the side changes with the winding number, where an opening is bridged.
     const SHARPNESS: f64 = 4.0;
+    /// Distance from the middle of a block to its corners, over its edge: half its diagonal, and a little.
+    const TO_CORNER: f64 = 0.9;
 }
 
 /// A body with layers on it, their vertices at `positions`, as a body of its own, and its field on the nodes of the body's and more. What is
@@ -75,8 +77,7 @@ impl About {
             Some(side) => *side,
             None => {
                 let middle = V3::from_fn(|k, _| (block[k] as f64 + 0.5) * self.block_m);
-                // Half of the block's diagonal.
-                let is_far = self.surface.nearest_within(&middle, 0.9 * self.block_m + NEAR_M).1.is_none();
+                let is_far = self.surface.nearest_within(&middle, TO_CORNER * self.block_m + NEAR_M).1.is_none();
                 let side = is_far.then(|| self.side(middle));
                 self.blocks.insert(block, side);
                 side

@@ -19,6 +19,8 @@ geom::constants! {
     const HALF_SLEEVE: f64 = 0.2;
     /// One in so many vertices of a sleeve counts as its far end.
     const FAR_SHARE: usize = 10;
+    /// Farthest skin of an arm from its axis, m: what is farther away is the trunk's.
+    const ARM_RADIUS_M: f64 = 0.1;
     /// A joint less than this below the one before is not followed, m.
     const BENT_BACK_M: f64 = 0.05;
     /// Where along the arm its girth is read, from the shoulder joint, m: well below the armpit.
@@ -135,7 +137,7 @@ fn level(joins: &Joins, parts: &mut [(Sheet, f64)]) {
 fn arm_radius(form: &Form, axis: &Axis, below: std::ops::Range<f64>) -> f64 {
     let near = form.arms.iter().filter_map(|p| {
         let (_, radius, height) = axis.coordinates(p);
-        (below.contains(&-height) && radius < 0.1).then_some(radius)
+        (below.contains(&-height) && radius < ARM_RADIUS_M).then_some(radius)
     });
     near.fold(0.0, f64::max)
 }

@@ -10,6 +10,8 @@ geom::constants! {
     const STEPS: usize = 128;
     /// Deepest ellipse that is tried, m.
     const DEEPEST_M: f64 = 3.0;
+    /// Depth that counts as found, m.
+    const FOUND_M: f64 = 1e-4;
 }
 
 /// An ellipse with half axes across and ahead, walked from its apex ahead to both sides.
@@ -37,7 +39,7 @@ impl Ellipse {
         if Self::new(across, low).half_length() >= length {
             return Self::new(across, low);
         }
-        while high - low > 1e-4 {
+        while high - low > FOUND_M {
             let middle = 0.5 * (low + high);
             if Self::new(across, middle).half_length() < length { low = middle } else { high = middle }
         }

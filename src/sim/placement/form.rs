@@ -14,6 +14,8 @@ geom::constants! {
     const SHOULDER_M: f64 = 0.1;
     /// How far a hand reaches beyond the wrist, m.
     const HAND_M: f64 = 0.25;
+    /// How far within the shoulder joint an arm's skin begins, m.
+    const WITHIN_JOINT_M: f64 = 0.03;
 }
 
 /// Right (`1.0`) or left (`-1.0`) of the body.
@@ -136,7 +138,8 @@ fn is_arm(body: &Body, p: &V3) -> bool {
         let [shoulder, elbow, wrist] = arm_bones(body, hand);
         let tip = wrist + (wrist - elbow).try_normalize(0.0).unwrap_or_default() * HAND_M;
         let start = shoulder + (elbow - shoulder).try_normalize(0.0).unwrap_or_default() * SHOULDER_M;
-        distance(p, start, elbow).min(distance(p, elbow, tip)) < ARM_REACH_M && p.x * hand > start.x.abs() - 0.03
+        distance(p, start, elbow).min(distance(p, elbow, tip)) < ARM_REACH_M
+            && p.x * hand > start.x.abs() - WITHIN_JOINT_M
     })
 }
 

@@ -15,6 +15,8 @@ geom::constants! {
     pub const CLEARANCE_M: f64 = 0.02;
     /// Room between the ends of front and back, m.
     const BETWEEN_M: f64 = 0.01;
+    /// Share of the half width within which skin bounds how far ahead a piece starts: at the sides the ellipse has no depth.
+    const BOUNDING: f64 = 0.9;
     /// Share of a turn that a piece takes which goes round the body alone.
     const ROUND: f64 = 0.95;
     /// Seams wider than this share of their height join shoulders, steeper ones sides.
@@ -65,7 +67,7 @@ impl Bent {
         }
         let half_width = form.half_width(bottom, top.min(armpit)) + CLEARANCE_M;
         let ahead = |p: &V3| side * (p.y - axis) / (1.0 - (p.x / half_width).powi(2)).sqrt();
-        let within = form.between(bottom, top).filter(|p| p.x.abs() < 0.9 * half_width);
+        let within = form.between(bottom, top).filter(|p| p.x.abs() < BOUNDING * half_width);
         let least = within.map(ahead).fold(0.0, f64::max) + CLEARANCE_M;
         // Half the ellipse for half the garment; all of it for a piece that goes round alone.
         let half_round = if is_alone { 0.5 * width / ROUND } else { width + 2.0 * BETWEEN_M };

@@ -85,6 +85,8 @@ pub struct Stepper {
     last: Option<Vec<V3>>,
     /// Stress of each membrane element that the last linear solve foresaw, N/m.
     predicted: Option<Vec<Tensor>>,
+    /// Steps up to the last one that moved nothing at the least step size.
+    idle: u32,
 }
 
 geom::constants! {
@@ -99,19 +101,28 @@ geom::constants! {
     const ENOUGH: f64 = 2.0;
     /// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
     const LENGTHENED_FROM_S: f64 = 0.2;
+    /// Steps at the least step size that may move nothing: the first also forgets the step before it, and the second lets anchors of
+    /// friction follow; what the third finds, every later one does.
+    const IDLE_STEPS: u32 = 3;
 }
 
 impl Stepper {
     /// Starts at the smallest step.
     #[must_use]
     pub fn new(params: StepParams) -> Self {
-        Self { params, h_s: params.h_start_s, last: None, predicted: None }
+        Self { params, h_s: params.h_start_s, last: None, predicted: None, idle: 0 }
     }
 
     /// Goes on where another left off, at the greatest step, with the membrane stresses that it foresaw.
     #[must_use]
     pub fn going_on(params: StepParams, predicted: Vec<Tensor>) -> Self {
-        Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted) }
+        Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted), idle: 0 }
+    }
+
+    /// Whether no share of a step lowers the energy any more, however small the step: further ones would do the same.
+    #[must_use]
+    pub fn is_stuck(&self) -> bool {
+        self.idle >= IDLE_STEPS
     }
 
     /// Membrane stresses foreseen by the last step, N/m; none before the first.
@@ -164,6 +175,7 @@ impl Stepper {
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.drag_anchors(x);
+        self.idle = if alpha == 0.0 && self.h_s <= self.params.h_min_s { self.idle + 1 } else { 0 };
         self.h_s = if alpha >= 1.0 {
             (self.h_s * self.params.growth).min(self.params.h_max_s)
         } else if alpha < 0.25 {

@@ -7,7 +7,7 @@ use crate::spec::JobSpec;
 use pattern::dxf::{self, Standard};
 use pattern::handle::Redrawn;
 use pattern::piece::Piece;
-use pattern::{Handle, Style, garmentcode, handle};
+use pattern::{Handle, Style, garmentcode, handle, size_order};
 
 /// A changed pattern in files.
 pub struct Written {
@@ -65,6 +65,7 @@ pub fn nest(
         // The seam file beside the nest is that of the asked size, the last.
         reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
     }
+    size_order::sort(&mut pieces, |piece| piece.size.as_deref().unwrap_or_default());
     let name = format!("{name}.dxf");
     let bytes = dxf::write_pieces(&pieces, &texts(spec), standard);
     let file = SourceFile { name: name.clone(), bytes: bytes.clone().into() };

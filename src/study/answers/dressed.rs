@@ -8,6 +8,7 @@ use crate::faults::drape_faults;
 use crate::rows::Status;
 use crate::store::Store;
 use fit::Simulator;
+use pattern::size_order;
 
 /// How one job of a study ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -59,7 +60,7 @@ pub struct Tally {
     pub slowest_s: Option<f64>,
 }
 
-/// How the current jobs of a study ended, garments and subjects by name.
+/// How the current jobs of a study ended, garments and subjects by name, sizes from the smallest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -71,8 +72,11 @@ pub(crate) fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
         WHERE job.study = ? AND job.is_current
         ORDER BY job.garment, job.size, job.subject, job.simulator, job.repeat";
     let mut statement = store.reader.prepare_cached(sql)?;
-    let rows = statement.query_map([study], dressed_row)?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let mut rows = statement.query_map([study], dressed_row)?.collect::<rusqlite::Result<Vec<Dressed>>>()?;
+    for garment in rows.chunk_by_mut(|a, b| a.garment == b.garment) {
+        size_order::sort(garment, |one| &one.size);
+    }
+    Ok(rows)
 }
 
 fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::error::Result;
 use crate::store::{Store, read};
+use pattern::size_order;
 
 /// Colours that differ in lightness too [Okabe & Ito 2008].
 pub(crate) const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
@@ -79,6 +80,7 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     let mut sizes: Vec<&str> = dots.iter().map(|dot| dot.size.as_str()).collect();
     sizes.sort_unstable();
     sizes.dedup();
+    size_order::sort(&mut sizes, |size| size);
     let colour = |size: &str| COLOURS[sizes.iter().position(|known| *known == size).unwrap_or(0) % COLOURS.len()];
     let (bottom, middle) = (MARGIN + PANEL, left + PANEL / 2.0);
     // Writing into a text does not fail, here and below.

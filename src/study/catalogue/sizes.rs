@@ -10,6 +10,7 @@ use crate::rows::SizeKey;
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
 use crate::store::Store;
+use pattern::size_order;
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub struct SizeRow {
     pub unconfirmed: usize,
 }
 
-/// The current sizes of all styles, by style and in the order in which they came.
+/// The current sizes of all styles, by style and from the smallest to the largest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -64,7 +65,10 @@ pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
         })
     };
     let mut statement = store.reader.prepare_cached(sql)?;
-    let sizes = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
+    let mut sizes = statement.query_map([], row)?.collect::<rusqlite::Result<Vec<SizeRow>>>()?;
+    for style in sizes.chunk_by_mut(|a, b| a.style == b.style) {
+        size_order::sort(style, |row| &row.size);
+    }
     Ok(sizes)
 }
 

@@ -13,7 +13,7 @@ use crate::rows::JobId;
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::{self, Placed, Sewn, SizeFile, SourceFile};
 use crate::store::{self, Store};
-use pattern::{Style, source};
+use pattern::{Style, size_order, source};
 
 /// What is given of a style or a size; an edit keeps what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -202,6 +202,7 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Siz
             sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));
         }
     }
+    size_order::sort(&mut sizes, |sized| &sized.0.name);
     Ok(sizes)
 }
 
@@ -238,7 +239,7 @@ fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
     Ok(store.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
 }
 
-/// The sizes of a style, current revisions.
+/// The sizes of a style from the smallest to the largest, current revisions.
 fn sizes_of(store: &Store, style: &str) -> Result<Vec<Sized>> {
     let sql = "SELECT size.name, pattern_file, pattern, unit
         FROM size JOIN catalogue_entry AS entry
@@ -249,7 +250,8 @@ fn sizes_of(store: &Store, style: &str) -> Result<Vec<Sized>> {
         let pattern = SourceFile { name: row.get(1)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
         Ok((SizeFile { name: row.get(0)?, pattern }, row.get(3)?))
     };
-    let sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<_>>()?;
+    let mut sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<Vec<Sized>>>()?;
+    size_order::sort(&mut sizes, |sized| &sized.0.name);
     Ok(sizes)
 }
 

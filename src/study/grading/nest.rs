@@ -67,8 +67,9 @@ pub fn drawn(
     // The sample is the size in the middle, as pattern makers have it.
     let sample = &names[names.len().saturating_sub(1) / 2];
     let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).map_err(StudyError::stage("grade"))?;
-    let written = dxf::write_pieces(&pieces, &texts(sample), Standard::Aama);
-    let rules = grade::write(&table, garment);
+    let texts = texts(sample).into_iter().chain([grade::named_in_pattern(&whole)]).collect::<Vec<_>>();
+    let written = dxf::write_pieces(&pieces, &texts, Standard::Aama);
+    let rules = grade::write(&table, &whole, Standard::Aama);
     let (again, apart_m) = again(&nest, &written, rules.as_bytes(), &whole)?;
     let style = |name: &String| {
         let pieces = again.to_sew(Some(name)).map_err(StudyError::stage("grade"))?;

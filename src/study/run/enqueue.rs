@@ -78,6 +78,7 @@ pub struct Planned {
 /// no longer has is no longer current.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let all = spec::jobs(study);
+    each_size_has_its_key(&all)?;
     // Before it is said what becomes of each job: one that was given up for the processes that died over it is wanted anew
     // by whoever starts a run.
     queue::take_over(transaction, &mut Watch::default())?;
@@ -91,6 +92,22 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
     }
     chain(transaction, &planned)?;
     Ok(planned)
+}
+
+/// Checks that no size would be given the result of another.
+fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
+    let mut size_of: BTreeMap<String, &JobSpec> = BTreeMap::new();
+    for spec in specs {
+        let JobSpec { garment, size, subject, .. } = spec;
+        let earlier = size_of.entry(spec.inputs.hash()).or_insert(spec);
+        if earlier.size != *size {
+            return Err(StudyError::stage("queue")(format!(
+                "{garment}: sizes `{}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued",
+                earlier.size
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Lets jobs that are to be run wait for those their garments come after, of the same run.

@@ -19,10 +19,14 @@ use crate::store::cache::{Artefact, Cache, Used};
 use body::Body;
 use fit::{self, Ease, Simulator, measure};
 use geom::DistanceField;
+use geom::units::mm;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
 use sim::{self, Distortion, Drape, Fabric, Monitor};
+
+/// Difference of two lengths that are one, m.
+const SAME_LENGTH_M: f64 = 1e-6;
 
 /// The inputs of a subject's body, the same as among those of any job on it.
 pub(crate) fn body_inputs(name: &str, person: &Person) -> Inputs {
@@ -254,9 +258,10 @@ impl Fitting<'_> {
     /// What a drape measures; no artefact is named as used.
     ///
     /// # Errors
-    /// When the garment has no measurement.
+    /// When the garment has no measurement, or other lengths than its pattern.
     pub fn outcome(&self, drape: &Drape) -> Result<Outcome> {
         let garment = self.meshes.finest()?;
+        is_of(garment, self.style)?;
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
         let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
@@ -298,7 +303,10 @@ impl Fitting<'_> {
             worn: WornOn::of(self.body, self.style, (garment, self.fabric), drape, self.simulator)?,
             closures,
             distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
-            warnings: distorted.and_then(|(_, told)| told).into_iter().chain(drape.braced_n.map(braced)).collect(),
+            warnings: [distorted.and_then(|(_, told)| told), drape.braced_n.map(braced), stuck(drape)]
+                .into_iter()
+                .flatten()
+                .collect(),
             used: Vec::new(),
         })
     }
@@ -347,6 +355,30 @@ impl Fitting<'_> {
     }
 }
 
+/// Checks that a mesh measures what its pattern does: each stage may come from the cache, under a key that could be wrong.
+fn is_of(garment: &Garment, style: &Style) -> Result<()> {
+    let fault = |what: String| {
+        let text =
+            format!("{what}: the mesh is not that of this pattern and size, a fault of Toile; nothing is stored");
+        Err(StudyError::stage("measure")(text))
+    };
+    let (meshed, flat) = (&garment.measurements, &style.measurements);
+    if meshed.len() != flat.len() {
+        return fault(format!("{} measurements on the mesh, {} in the flat pattern", meshed.len(), flat.len()));
+    }
+    for (on_mesh, in_pattern) in meshed.iter().zip(flat) {
+        let lengths_m = [on_mesh.l2d_m, in_pattern.l2d_m];
+        if on_mesh.name != in_pattern.name || (lengths_m[0] - lengths_m[1]).abs() > SAME_LENGTH_M {
+            let [found, wanted] = lengths_m.map(mm);
+            let (name, other) = (&on_mesh.name, &in_pattern.name);
+            return fault(format!(
+                "`{name}` is {found:.2} mm on the mesh, `{other}` {wanted:.2} mm in the flat pattern"
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
 fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
     let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
@@ -362,6 +394,17 @@ fn braced(force_n: f64) -> String {
         "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \
          a smaller size, a stiffer fabric or a waistband ([[reinforce]] in the seam file) may hold it"
     )
+}
+
+/// Reason of a drape that ended before it was at rest, where it could get no further.
+fn stuck(drape: &Drape) -> Option<String> {
+    drape.is_stuck.then(|| {
+        format!(
+            "stuck: forces of {:.2} times a vertex's weight are left that no step lowers any more; another `fem.seed` or mesh \
+             (`edge_length_mm`) may come to rest",
+            drape.residual
+        )
+    })
 }
 
 #[cfg(test)]
@@ -429,6 +472,17 @@ mod tests {
         for (ease, chest_m) in girths_m.iter().zip([0.863, 0.956]) {
             assert!((ease.body_girth_m - chest_m).abs() < 0.015 * chest_m, "{}", ease.body_girth_m);
         }
+    }
+
+    #[test]
+    fn a_mesh_of_another_size_is_no_result() {
+        let jobs = quickstart();
+        let (own, other) = (mesh(&jobs[0]).expect("it meshes"), style(&jobs[2]).expect("it can be read"));
+        let finest = own.finest().expect("it meshes");
+        assert_ne!(jobs[0].size, jobs[2].size);
+        assert!(is_of(finest, &style(&jobs[0]).expect("it can be read")).is_ok());
+        let error = is_of(finest, &other).expect_err("another size").to_string();
+        assert!(error.contains("974.10 mm on the mesh") && error.contains("1034.10 mm in the flat pattern"), "{error}");
     }
 
     #[test]

@@ -123,20 +123,22 @@ pub struct Graded {
     pub notes: Vec<String>,
 }
 
-/// The sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it.
+/// The sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The DXF calls
+/// the table by its name.
 ///
 /// # Errors
 /// As [`features`]; and where a piece is not the same in every size.
-pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard) -> Result<Graded> {
+pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, table_name: &str) -> Result<Graded> {
     let all = Beside { size: None, ..*beside };
     let pattern = all.usable_pattern(&SourceFile::read(path)?)?;
     let sample = beside.size.unwrap_or(pattern.sample_size());
     let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).map_err(StudyError::stage("pattern"))?;
-    let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key);
+    let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key) && !grade::is_name_of_table(key);
     let sample = ("Sample Size".to_owned(), table.sizes[table.sample].clone());
-    let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain([sample]).collect();
-    let style = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules: grade::write(&table, &style), notes })
+    let own = [sample, grade::named_in_pattern(table_name)];
+    let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain(own).collect();
+    let rules = grade::write(&table, table_name, standard);
+    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes })
 }
 
 /// A pattern and its seams as GarmentCode JSON.

@@ -98,6 +98,9 @@ pub struct JobSpec {
     pub inputs: Inputs,
 }
 
+/// Input that names the size of a pattern that is draped.
+pub(crate) const PATTERN_SIZE: &str = "pattern.size";
+
 /// Input that names the pose from which a garment was carried.
 pub(crate) const CARRIED_FROM: &str = "carried.from";
 
@@ -224,30 +227,57 @@ fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simula
 
 impl JobSpec {
     /// The same with its inputs as named values, for this program's versions of the stages.
+    ///
+    /// The job is taken apart whole: a field that is added does not compile until somebody decides whether it is an input.
     pub(crate) fn with_inputs(self) -> Self {
+        let Self {
+            // Names of the cell. Those that the pattern, the person and the cloth go by are inputs of their own.
+            garment: _,
+            style: _,
+            size,
+            subject,
+            simulator,
+            repeat,
+            person,
+            pattern,
+            unit,
+            seams,
+            fabric,
+            edge_length_m,
+            parameters,
+            // When and where it runs, which no result depends on.
+            schedule: _,
+            outfit,
+            dressed,
+            // Made here.
+            inputs: _,
+        } = &self;
         let mut inputs = Inputs::default();
-        inputs.set("sim.name", self.simulator.as_str());
-        inputs.set("sim.repeat", self.repeat);
-        inputs.set("mesh.edge_length_mm", millimetres(self.edge_length_m));
-        self.parameters.add_inputs(self.simulator, &mut inputs);
-        if let Some(seams) = &self.seams {
+        inputs.set("sim.name", simulator.as_str());
+        inputs.set("sim.repeat", repeat);
+        inputs.set("mesh.edge_length_mm", millimetres(*edge_length_m));
+        parameters.add_inputs(*simulator, &mut inputs);
+        if let Some(seams) = seams {
             inputs.set(format!("seams.{}", seams.name), seams.hash());
         }
-        inputs.set(format!("pattern.{}", self.pattern.name), self.pattern.hash());
-        if let Some(unit) = &self.unit {
+        inputs.set(format!("pattern.{}", pattern.name), pattern.hash());
+        // A file may hold many sizes, and a seam file says what differs between them.
+        inputs.set(PATTERN_SIZE, size);
+        if let Some(unit) = unit {
             inputs.set("pattern.unit", unit);
         }
-        subject_inputs(&mut inputs, &self.subject, &self.person);
-        fabric_inputs(&mut inputs, &self.fabric);
-        if let Some(outfit) = &self.outfit {
-            inputs.set("outfit.name", &outfit.name);
-            inputs.set("outfit.layer", outfit.layer + 1);
+        subject_inputs(&mut inputs, subject, person);
+        fabric_inputs(&mut inputs, fabric);
+        if let Some(outfit) = outfit {
+            let Outfit { name, layer, layers: _ } = outfit;
+            inputs.set("outfit.name", name);
+            inputs.set("outfit.layer", layer + 1);
             inputs.set("outfit.id", outfit.id());
         }
-        if let Some(from) = self.dressed.as_ref().and_then(|before| before.person.pose) {
-            inputs.set(CARRIED_FROM, from);
+        if let Some(before) = dressed {
+            inputs.set(CARRIED_FROM, before.person.pose.unwrap_or_default());
         }
-        for (name, version) in versions::versions(self.simulator) {
+        for (name, version) in versions::versions(*simulator) {
             inputs.set(name, version);
         }
         Self { inputs, ..self }

@@ -18,7 +18,7 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction, TransactionBehavio
 use crate::error::{Result, StudyError, database_error};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 17] = [
+const MIGRATIONS: [&str; 18] = [
     include_str!("../../../db/migrations/0001_store.sql"),
     include_str!("../../../db/migrations/0002_views.sql"),
     include_str!("../../../db/migrations/0003_published.sql"),
@@ -36,6 +36,7 @@ const MIGRATIONS: [&str; 17] = [
     include_str!("../../../db/migrations/0015_scans.sql"),
     include_str!("../../../db/migrations/0016_outfits.sql"),
     include_str!("../../../db/migrations/0017_drawn.sql"),
+    include_str!("../../../db/migrations/0018_sizes.sql"),
 ];
 
 /// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's
@@ -370,6 +371,44 @@ mod tests {
         };
         check(&of_the_first_days(), "1, 9, 1, 0, 0.01, 0, 5, 5, 5, 0, 1, 0, 0", None);
         check(&released, "1, 9, 1, 0, 0.01, 0, 5, 5, 5, 0, 1, 0, 0, 7", Some(7));
+    }
+
+    #[test]
+    fn results_that_sizes_shared_are_no_longer_current() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        let connection = Connection::open(&path).expect("a new database");
+        connection.execute_batch(&MIGRATIONS[..17].concat()).expect("valid");
+        let job = |id: i64, size: &str, hash: &str, status: &str| {
+            format!(
+                "INSERT INTO size (size_id, style, name, revision, hash, pattern_file, pattern, created_at)
+                    VALUES ({id}, 'tee', '{size} {id}', 1, 'h', 'p', x'', 0);
+                INSERT INTO job (job_id, study_id, garment, size, subject, simulator, input_hash, status, queued_at,
+                    subject_id, style_id, size_id, fabric_id)
+                VALUES ({id}, 1, 'tee {id}', '{size}', 'ii', 'fem', '{hash}', '{status}', 0, 1, 1, {id}, 1);"
+            )
+        };
+        let fill = "INSERT INTO study (study_id, name, path, tight_below_mm, loose_above_mm, updated_at)
+                VALUES (1, 'tops', 'p', 50, 100, 0);
+            INSERT INTO subject (subject_id, name, revision, hash, sex, stature_mm, created_at)
+                VALUES (1, 'ii', 1, 'h', 'male', 1690, 0);
+            INSERT INTO style VALUES (1, 'tee', 1, 'h', 's', '', 0);
+            INSERT INTO fabric (fabric_id, name, revision, hash, density_kg_m2, thickness_mm, membrane_warp_n_m,
+                    membrane_weft_n_m, membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body,
+                    friction_self, source, created_at)
+                VALUES (1, 'poplin', 1, 'h', 0.1, 0.2, 1, 1, 0, 1, 1, 1, 0, 0, '', 0);";
+        connection.execute_batch(fill).expect("valid");
+        let jobs =
+            [(1, "S", "a", "done"), (2, "M", "a", "not_converged"), (3, "S", "b", "done"), (4, "L", "a", "queued")];
+        jobs.iter().for_each(|(id, size, hash, status)| {
+            connection.execute_batch(&job(*id, size, hash, status)).expect("valid");
+        });
+        connection.pragma_update(None, "user_version", 17).expect("writable");
+        drop(connection);
+        let connection = open(&path, Access::Create).expect("brought up to date");
+        let list = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, String>(0)).expect("some");
+        assert_eq!(list("SELECT group_concat(job_id) FROM job WHERE is_current"), "3,4");
+        assert_eq!(list("SELECT group_concat(job_id) FROM job_log WHERE text LIKE '%another size%'"), "1,2");
     }
 
     #[test]

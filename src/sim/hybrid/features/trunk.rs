@@ -16,6 +16,8 @@ geom::constants! {
     /// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
     /// pop-up gives them their depth.
     const MOST_DEPTH_M: f64 = 0.005;
+    /// Distance from the middle within which a point of a trunk lies at its centre, m.
+    const CENTRE_M: f64 = 0.02;
 }
 
 /// A seam of a trunk piece with a piece of the other face, or with its other half.
@@ -223,11 +225,10 @@ impl Mapper<'_> {
 
     /// The line of the trunk on which a point at its side or centre lies: 0 to 12 in front, 12 to 24 behind.
     fn trunk_line(&self, own: Face, place: &V3) -> f64 {
-        let half_width = 0.02;
         let front = own == Face::Front;
-        if place.x > half_width {
+        if place.x > CENTRE_M {
             if front { 0.0 } else { 24.0 }
-        } else if place.x < -half_width {
+        } else if place.x < -CENTRE_M {
             12.0
         } else if front {
             6.0

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use crate::patterns::{Unit, unit_of};
+use crate::patterns::{Nest, Unit, unit_of};
 use crate::spec::Limits;
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::sweep::{self, EDGE_MM};
@@ -13,6 +13,7 @@ use crate::spec::file::values::{lookup, source, unique};
 use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule, target};
 use crate::spec::parameters::Parameters;
 use geom::units::from_mm;
+use pattern::size_order;
 use sim::Fabric;
 
 const GARMENT_KEYS: [&str; 15] = [
@@ -68,7 +69,7 @@ pub(super) fn garments(
         let schedule = schedule::schedule(reader, &place, &before, common.limits);
         let subjects = wearers(reader, &place, top, subjects);
         let style = reader.text(&place, "style");
-        let Sewn { seams, unit, sizes } = match &style {
+        let Sewn { seams, unit, mut sizes } = match &style {
             Some(style) if !place.table.contains_key("seams") => in_catalogue(reader, &place, style, common.styles),
             _ => {
                 let sewn = sewn(reader, &place, common.folder);
@@ -80,6 +81,8 @@ pub(super) fn garments(
                 sewn
             }
         };
+        told_apart(reader, &place, &sizes, unit.as_deref());
+        size_order::sort(&mut sizes, |size| &size.name);
         let edge_length_m = reader.number(&place, "edge_length_mm", EDGE_MM).map_or(common.edge_length_m, from_mm);
         let mut parameters = common.parameters.clone();
         for (name, value) in sweep::parameters(reader, &place).iter() {
@@ -111,6 +114,45 @@ pub(super) fn garments(
         }
     }
     garments
+}
+
+/// Refuses sizes that would be the same pieces: several of one file, which does not hold each of them.
+fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], unit: Option<&str>) {
+    let mut of_file: BTreeMap<String, Vec<&SizeFile>> = BTreeMap::new();
+    for size in sizes {
+        of_file.entry(size.pattern.hash()).or_default().push(size);
+    }
+    for sharing in of_file.into_values().filter(|sharing| sharing.len() > 1) {
+        let pattern = &sharing[0].pattern;
+        // A file that cannot be read says why when it is.
+        let Some(held) = held_sizes(pattern, unit.and_then(unit_of)) else { continue };
+        let mut taken = BTreeSet::new();
+        for size in &sharing {
+            let found = held.iter().position(|name| name.eq_ignore_ascii_case(&size.name));
+            let wrong = match found {
+                _ if held.len() == 1 => {
+                    format!("is one of {} of {}, which holds one size", sharing.len(), pattern.name)
+                }
+                None => format!("is none of {}", pattern.name),
+                Some(index) if !taken.insert(index) => format!("is a second name of one size of {}", pattern.name),
+                Some(_) => continue,
+            };
+            let accepted = match held.as_slice() {
+                [_] => "a file a size, or one that holds them all".to_owned(),
+                names => format!("one of {}", names.join(", ")),
+            };
+            reader.problem(&place.span, format!("{}: size `{}` {wrong}; accepted: {accepted}", place.name, size.name));
+        }
+    }
+}
+
+/// Names of the sizes that a pattern holds; `None` where it cannot be read.
+fn held_sizes(pattern: &SourceFile, unit: Option<Unit>) -> Option<Vec<String>> {
+    if pattern.holds_seams() {
+        return Some(vec![String::new()]);
+    }
+    let nest = Nest::read(pattern, unit).ok()?;
+    Some(nest.sizes().into_iter().map(str::to_owned).collect())
 }
 
 /// A style of the catalogue in all of its sizes, or those that are named.

@@ -382,3 +382,36 @@ fn a_pattern_in_any_unit_is_read_and_exported() {
     let told = load(&format!("{GOOD}unit = \"yard\"\n")).expect_err("no unit of patterns");
     assert!(told.contains("unit `yard`; accepted: mm, cm, in, m"), "{told}");
 }
+
+#[test]
+fn sizes_of_one_file_are_those_that_it_holds() {
+    let drafts = pattern::draft::Model::Tshirt.drafts();
+    let pieces: Vec<_> = drafts.iter().flat_map(|draft| draft.pieces.clone()).collect();
+    let nest = pattern::dxf::write_pieces(&pieces, &[], pattern::dxf::Standard::Aama);
+    let one = pattern::dxf::write(&drafts[0]);
+    let check = |sizes: &str, expected: &[&str]| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).expect("writable");
+        write("nest.dxf", &nest);
+        write("one.dxf", &one);
+        write("tee.seams.toml", b"seams");
+        let (before, _) = GOOD.split_once("sizes = ").expect("there");
+        write("study.toml", format!("{before}sizes = [{sizes}]\n").as_bytes());
+        let told = match Study::load(&folder.path().join("study.toml"), &known()) {
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(told.lines().count(), expected.len(), "{sizes}: {told}");
+        expected.iter().for_each(|text| assert!(told.contains(text), "{sizes}: {told}"));
+    };
+    let of = |file: &str, names: &[&str]| {
+        let size = |name: &&str| format!("{{ name = \"{name}\", pattern = \"{file}\" }}");
+        names.iter().map(size).collect::<Vec<_>>().join(", ")
+    };
+    check(&of("nest.dxf", &["S", "M", "L"]), &[]);
+    check(&of("nest.dxf", &["S", "XS"]), &["garment tee: size `XS` is none of nest.dxf; accepted: one of S, M, L"]);
+    check(&of("nest.dxf", &["S", "s"]), &["size `s` is a second name of one size of nest.dxf"]);
+    check(&of("one.dxf", &["S"]), &[]);
+    let only = "is one of 2 of one.dxf, which holds one size; accepted: a file a size, or one that holds them all";
+    check(&of("one.dxf", &["S", "M"]), &[&format!("size `S` {only}"), &format!("size `M` {only}")]);
+}
