@@ -8,6 +8,7 @@ use study::{Alteration, AlteredLevel, AlteredReading, Table, Value, Wish, files}
 
 /// Finds or applies a change of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
+    arguments.output.as_deref().map(|folder| output::folder(folder, &["dxf", "toml", "json", "svg"])).transpose()?;
     let workspace = context.workspace()?;
     let study = context.study(&workspace, &arguments.study)?;
     let wish = Wish {

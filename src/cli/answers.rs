@@ -11,6 +11,10 @@ use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
 use study::{EaseRow, Finding, StudyError, Table, Value, saved_queries, saved_query};
 
+/// Formats of rows by the endings of files.
+const FORMATS: [(&str, Format); 4] =
+    [("csv", Format::Csv), ("json", Format::Json), ("parquet", Format::Parquet), ("txt", Format::Table)];
+
 /// `toile sql`. Ctrl-C ends a query that takes too long.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     let project = project_folder().map(|project| project.join("db").join("queries"));
@@ -34,7 +38,10 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
         }
         (None, None) => return Err(CliError::Usage("no query; give one, or a file with -f".into())),
     };
-    let format = arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table });
+    let format = match &arguments.output {
+        Some(path) => output::kind_or(path, arguments.format, &FORMATS)?,
+        None => arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table }),
+    };
     if format == Format::Parquet && arguments.output.is_none() && std::io::stdout().is_terminal() {
         return Err(CliError::Usage("a Parquet file is not for a terminal; give a file with -o".into()));
     }

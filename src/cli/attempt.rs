@@ -28,6 +28,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         pose: arguments.pose,
         reach: arguments.reach,
     };
+    output::folder(&arguments.output, &["png", "glb", "obj"])?;
     files::make_folder(&arguments.output)?;
     let mut phase_before = String::new();
     let all = study::attempt(&asked, &mut |phase, share| {

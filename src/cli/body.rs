@@ -15,6 +15,9 @@ use study::{Given, MEASUREMENTS, Person, Table, Value, View, files};
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);
 
+/// Endings of the files of a body.
+const FILES: [&str; 3] = ["obj", "png", "json"];
+
 /// Runs a body command.
 pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
@@ -24,6 +27,7 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
         }
         Body::Build(arguments) => build(context, arguments)?,
         Body::Pose { file, arm_deg, leg_deg, forward_deg, step_deg, unit, sex, output } => {
+            output::folder(output, &FILES)?;
             let source = files::SourceFile::read(file)?;
             let body = bodies::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
             let [arm_deg, leg_deg, forward_deg, step_deg] = [*arm_deg, *leg_deg, *forward_deg, *step_deg];
@@ -68,6 +72,7 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
+    output::folder(&arguments.output, &FILES)?;
     if let Some(file) = &arguments.scan {
         refuse_beside_scan(arguments.measured.0.first())?;
         let source = files::SourceFile::read(file)?;

@@ -12,6 +12,7 @@ const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
 
 /// Prints how probable it is that the sizes of a garment fit somebody, or what becomes of planted people.
 pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
+    arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let workspace = context.workspace()?;
     let study = context.study(&workspace, &arguments.study)?;
     let question = Question {

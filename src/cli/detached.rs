@@ -14,7 +14,7 @@ use signal_hook::consts::SIGINT;
 use super::context::Context;
 use super::progress::Progress;
 use super::{End, Outcome, output};
-use study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace};
+use study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace, files};
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(250);
@@ -80,6 +80,5 @@ pub fn follow(context: &Context, workspace: &Workspace, study: &str) -> Outcome 
 
 /// Where a run in the background says what it has to say: beside the database.
 fn log_file(database: &Path, study: &str) -> PathBuf {
-    let name: String = study.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
-    database.with_file_name(format!("{name}.run.log"))
+    database.with_file_name(format!("{}.run.log", files::study_folder(study)))
 }

@@ -3,10 +3,12 @@
 use super::args::Grade;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, xlsx};
-use study::{GradeWish, Grading, SizeSet, SizeShare, Table, Value, files};
+use study::{GradeWish, Grading, SizeSet, SizeShare, Table, Value, file_part, files};
 
 /// Finds the sizes that fit the most people, prints and writes them.
 pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
+    let endings = ["dxf", "rul", "toml", "svg", "xlsx"];
+    arguments.output.as_deref().map(|folder| output::folder(folder, &endings)).transpose()?;
     let workspace = context.workspace()?;
     let study = context.study(&workspace, &arguments.study)?;
     let wish = GradeWish {
@@ -25,7 +27,7 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     }
     let found = study::grade(&study, &wish)?;
     if let Some(folder) = &arguments.output {
-        let name = format!("{}.xlsx", found.garment);
+        let name = format!("{}.xlsx", file_part(&found.garment));
         let sheets = sheets(&found);
         let sheets: Vec<(&str, &Table)> = sheets.iter().map(|(name, table)| (*name, table)).collect();
         let mut all = found.files.clone();

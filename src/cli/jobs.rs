@@ -12,6 +12,7 @@ use study::run_job;
 pub fn run(context: &Context, command: &Job) -> Outcome {
     match command {
         Job::Handout { study, output, part } => {
+            output::folder(output, &["json"])?;
             let mut workspace = context.workspace()?;
             let study = context.study(&workspace, study)?;
             let handed = workspace.hand_out(&study, &selection(part), output)?;
@@ -20,6 +21,7 @@ pub fn run(context: &Context, command: &Job) -> Outcome {
             context.say(format_args!("{}: {} jobs, {} handed out", study.name, handed.len(), files.len()));
         }
         Job::Run { file, output, database } => {
+            output.as_deref().map(|path| output::kind(path, &[("json", ())])).transpose()?;
             let ran = run_job(file, output.as_deref(), database.as_deref())?;
             output::text(&format!("{}\n", ran.file.display()))?;
             if let Some(error) = ran.error {

@@ -1,13 +1,15 @@
 //! Standard output: data only, as a table, CSV or JSON. Everything else goes to standard error.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, TableComponent, presets};
 use serde_json::{Map, Value as Json};
 
+use super::CliError;
 use super::args::Format;
 use geom::units::significant;
-use study::{Table, Value};
+use study::{Table, Value, files};
 
 /// Says what went wrong, on standard error.
 pub fn tell(message: &impl std::fmt::Display) {
@@ -23,6 +25,33 @@ pub fn note(text: &impl std::fmt::Display) {
 pub fn printable(text: &str) -> String {
     let is_plain = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_default().to_string() }).collect()
+}
+
+/// The format that the name of a file to be written says: one of those whose endings are accepted.
+pub fn kind<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> Result<T, CliError> {
+    files::kind_of(path, accepted).map_err(CliError::Usage)
+}
+
+/// The format of a file to be written: what its name says, or what is asked for where its name has no ending.
+pub fn kind_or<T: Copy + PartialEq>(path: &Path, asked: Option<T>, accepted: &[(&str, T)]) -> Result<T, CliError> {
+    let Some(asked) = asked else { return kind(path, accepted) };
+    if path.extension().is_none() {
+        return Ok(asked);
+    }
+    let of_asked: Vec<(&str, T)> = accepted.iter().copied().filter(|(_, format)| *format == asked).collect();
+    kind(path, &of_asked).map_err(|error| CliError::Usage(format!("--format contradicts the file's name: {error}")))
+}
+
+/// Checks a folder to be written to: a name that ends as the files that come into it would be taken for one of them.
+pub fn folder(path: &Path, endings: &[&str]) -> Result<(), CliError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    if path.is_dir() || !endings.iter().any(|ending| extension.eq_ignore_ascii_case(ending)) {
+        return Ok(());
+    }
+    Err(CliError::Usage(format!(
+        "{}: found a name of a file; accepted: a folder, into which files are written",
+        path.display()
+    )))
 }
 
 /// Writes text to standard output; a closed pipe (`| head`) is no error.
@@ -60,7 +89,7 @@ pub fn table(table: &Table, format: Format) -> io::Result<()> {
 pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     Ok(match format {
         Format::Table => pretty(table).into_bytes(),
-        Format::Csv => csv(table)?.into_bytes(),
+        Format::Csv => table.csv().into_bytes(),
         Format::Json => document(&rows(table))?.into_bytes(),
         Format::Parquet => super::parquet::bytes(table),
     })
@@ -100,16 +129,6 @@ fn short(value: &Value) -> String {
     }
 }
 
-fn csv(table: &Table) -> io::Result<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(&table.columns)?;
-    for row in &table.rows {
-        writer.write_record(row.iter().map(Value::to_string))?;
-    }
-    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
 /// Rows as JSON objects, keys in order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
     let cell = |value: &Value| match value {
@@ -139,7 +158,7 @@ mod tests {
     #[test]
     fn formats_hold_the_same_rows() {
         insta::assert_snapshot!(pretty(&sample()));
-        insta::assert_snapshot!(csv(&sample()).expect("memory"));
+        insta::assert_snapshot!(sample().csv());
         insta::assert_snapshot!(serde_json::to_string(&rows(&sample())).expect("plain values"));
     }
 }

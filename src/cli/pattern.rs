@@ -21,6 +21,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Propose { path, cut, answer, ask, output } => {
+            output.as_deref().map(|file| output::kind(file, &[("toml", ())])).transpose()?;
             let proposed =
                 |answers: &[(usize, char)]| seams::propose(path, &cut.asking(answers)).map_err(CliError::from);
             let proposed = if *ask { questions::ask(answer.clone(), proposed)? } else { proposed(answer)? };
@@ -30,6 +31,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Seam(edit) => seam(context, edit),
         Pattern::Sew(files) => sew::run(context, files),
         Pattern::Draft { style, output } => {
+            output::folder(output, &["dxf", "toml"])?;
             for path in files::write_files(output, &patterns::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
             }
@@ -37,6 +39,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         }
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
+            output::kind(output, &[("svg", ())])?;
             let sheet = patterns::sheet(&style(files)?);
             write(context, output, sheet)?;
             Ok(End::Done)

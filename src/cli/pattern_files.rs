@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::args::{BesideFiles, Format};
+use super::args::BesideFiles;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, xlsx};
 use study::files;
@@ -22,6 +22,7 @@ pub fn beside(files: &BesideFiles) -> Beside<'_> {
 
 /// Writes the features of a pattern's pieces, or prints them.
 pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Option<&Path>) -> Outcome {
+    output.map(|output| output::kind(output, &[("json", ())])).transpose()?;
     let json = pattern_files::features(path, &beside(files))? + "\n";
     match output {
         Some(output) => write(context, output, json.into_bytes())?,
@@ -29,6 +30,18 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
     }
     Ok(End::Done)
 }
+
+/// Format of a sheet with points of measure.
+#[derive(Clone, Copy)]
+enum SheetFormat {
+    Csv,
+    Xlsx,
+    Svg,
+}
+
+/// Formats of sheets by the endings of files.
+const SHEETS: [(&str, SheetFormat); 3] =
+    [("csv", SheetFormat::Csv), ("xlsx", SheetFormat::Xlsx), ("svg", SheetFormat::Svg)];
 
 /// Prints the points of measure of a pattern, or writes them as a sheet.
 pub fn points_of_measure(
@@ -38,28 +51,36 @@ pub fn points_of_measure(
     how: &Asking<'_>,
     output: Option<&Path>,
 ) -> Outcome {
+    let format = output.map(|file| output::kind(file, &SHEETS)).transpose()?;
     let specified = specification(path, seams, how)?;
     specified.notes.iter().for_each(|note| context.say(note));
-    let Some(output) = output else {
+    let Some((output, format)) = output.zip(format) else {
         match context.json {
             true => output::json(&specified)?,
             false => context.print(&specified.table())?,
         }
         return Ok(End::Done);
     };
-    let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let bytes = match extension.as_str() {
-        "csv" => output::encoded(&specified.table(), Format::Csv)?,
-        "svg" => specified.drawing.clone().into_bytes(),
-        "xlsx" => xlsx::bytes(&[(&specified.garment, &specified.table())])?,
-        _ => {
-            let found = format!("{}: found `.{extension}`; accepted: X.csv, X.xlsx or X.svg", output.display());
-            return Err(CliError::Usage(found));
-        }
+    let bytes = match format {
+        SheetFormat::Csv => specified.table().csv().into_bytes(),
+        SheetFormat::Svg => specified.drawing.clone().into_bytes(),
+        SheetFormat::Xlsx => xlsx::bytes(&[(&specified.garment, &specified.table())])?,
     };
     write(context, output, bytes)?;
     Ok(End::Done)
 }
+
+/// Format of a pattern.
+#[derive(Clone, Copy)]
+enum PatternFormat {
+    /// AAMA or ASTM DXF.
+    Dxf,
+    /// GarmentCode.
+    Json,
+}
+
+/// Formats of patterns by the endings of files; SVG is written by `toile pattern sheet`.
+const PATTERNS: [(&str, PatternFormat); 2] = [("dxf", PatternFormat::Dxf), ("json", PatternFormat::Json)];
 
 /// How a pattern is written.
 pub struct Written<'a> {
@@ -79,9 +100,8 @@ pub fn convert(
     Written { seams, standard, with_rul }: &Written<'_>,
     output: &Path,
 ) -> Outcome {
-    let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let bytes = match extension.as_str() {
-        "dxf" if *with_rul => {
+    let bytes = match output::kind(output, &PATTERNS)? {
+        PatternFormat::Dxf if *with_rul => {
             let table = output.with_extension("rul");
             let name = table.file_stem().unwrap_or_default().to_string_lossy();
             let graded = pattern_files::convert_to_graded(path, &beside(files), *standard, &name)?;
@@ -89,11 +109,13 @@ pub fn convert(
             write(context, &table, graded.rules.into_bytes())?;
             graded.dxf
         }
-        "dxf" => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,
-        "json" => (pattern_files::convert_to_garmentcode(path, *seams, &beside(files))? + "\n").into_bytes(),
-        _ => {
-            let accepted = "X.dxf (AAMA or ASTM DXF) or X.json (GarmentCode); SVG is written by `toile pattern sheet`";
-            return Err(CliError::Usage(format!("{}: found `.{extension}`; accepted: {accepted}", output.display())));
+        PatternFormat::Dxf => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,
+        PatternFormat::Json if *with_rul => {
+            let found = format!("{}: --with-rul writes a DXF file; accepted: X.dxf", output.display());
+            return Err(CliError::Usage(found));
+        }
+        PatternFormat::Json => {
+            (pattern_files::convert_to_garmentcode(path, *seams, &beside(files))? + "\n").into_bytes()
         }
     };
     write(context, output, bytes)?;

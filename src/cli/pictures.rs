@@ -43,6 +43,9 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
     };
     let jobs: Vec<JobId> = arguments.jobs.iter().copied().map(JobId).collect();
     let workspace = context.workspace()?;
+    let endings: &[(&str, ())] =
+        if arguments.turntable.is_some() { &[("png", ()), ("apng", ())] } else { &[("png", ())] };
+    output::kind(&arguments.output, endings)?;
     let png = match (arguments.turntable, jobs.as_slice()) {
         (None, _) => workspace.pictures(&jobs, &order)?,
         (Some(pictures), [job]) => workspace.turntable(*job, &order, pictures)?,
@@ -58,7 +61,13 @@ fn colour(text: &str) -> Result<Rgb, CliError> {
 
 /// Runs `toile export`: writes body and garment of a result as a mesh file.
 pub fn export(context: &Context, arguments: &Export) -> Outcome {
-    let format = match arguments.format {
+    let formats = [
+        ("glb", FormatArgument::Glb),
+        ("obj", FormatArgument::Obj),
+        ("ply", FormatArgument::Ply),
+        ("stl", FormatArgument::Stl),
+    ];
+    let format = match output::kind_or(&arguments.output, arguments.format, &formats)? {
         FormatArgument::Glb => MeshFormat::Glb,
         FormatArgument::Obj => MeshFormat::Obj,
         FormatArgument::Ply => MeshFormat::Ply,
@@ -90,15 +99,28 @@ pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
 
 /// Writes a chart as what the name of its file ends in.
 pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
-    match file.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => write(context, file, chart.svg().as_bytes().to_vec()),
-        Some("png") => write(context, file, chart.png().map_err(|error| CliError::Usage(error.to_string()))?),
-        _ => Err(CliError::Usage(format!("{} is neither .svg nor .png", file.display()))),
-    }
+    let bytes = match chart_format(file)? {
+        ChartFormat::Svg => chart.svg().as_bytes().to_vec(),
+        ChartFormat::Png => chart.png().map_err(|error| CliError::Usage(error.to_string()))?,
+    };
+    write(context, file, bytes)
+}
+
+/// Format of a chart in a file.
+#[derive(Clone, Copy)]
+pub enum ChartFormat {
+    Svg,
+    Png,
+}
+
+/// The format of a chart that the name of its file says.
+pub fn chart_format(file: &Path) -> Result<ChartFormat, CliError> {
+    output::kind(file, &[("svg", ChartFormat::Svg), ("png", ChartFormat::Png)])
 }
 
 /// Runs `toile report`: writes the report of a study, and its PDF where that is asked.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
+    arguments.output.as_deref().map(|folder| output::folder(folder, &["html", "pdf", "csv"])).transpose()?;
     let workspace = context.workspace()?;
     let name = context.study_name(&workspace, &arguments.study)?;
     let purpose = arguments.purpose.map(|purpose| match purpose {
@@ -127,7 +149,7 @@ fn print_page(context: &Context, folder: &Path) -> Outcome {
         Command::new(browser)
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer"])
             .arg(format!("--print-to-pdf={}", pdf.display()))
-            .arg(format!("file://{}", page.display()))
+            .arg(&page)
             .output()
             .ok()
     };
@@ -200,5 +222,5 @@ fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
 /// `reports/STUDY` of the project; without a project, beside the database.
 pub fn default_folder(context: &Context, study: &str) -> PathBuf {
     let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
-    project_folder().unwrap_or_else(beside).join("reports").join(study)
+    project_folder().unwrap_or_else(beside).join("reports").join(files::study_folder(study))
 }

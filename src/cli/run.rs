@@ -61,7 +61,10 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         }
         Engine::Slurm => {
             let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
-            let folder = arguments.slurm_dir.clone().unwrap_or_else(|| beside().join("slurm").join(&study.name));
+            let folder = arguments
+                .slurm_dir
+                .clone()
+                .unwrap_or_else(|| beside().join("slurm").join(files::study_folder(&study.name)));
             let options = SlurmOptions { folder, tasks: workers, sbatch: arguments.sbatch.clone() };
             slurm(context, &mut workspace, &study, &selection, &options, arguments.why)?
         }

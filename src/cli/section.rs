@@ -9,6 +9,7 @@ use study::{CrossSection, CutAt, CutCloth, GarmentWorn, JobId, Simulator, Table,
 
 /// Prints cross sections, or draws one.
 pub fn section(context: &Context, arguments: &Section) -> Outcome {
+    arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let workspace = context.workspace()?;
     let study = context.study_name(&workspace, &arguments.study)?;
     let at = match (&arguments.level, arguments.at_mm) {

@@ -21,6 +21,7 @@ const LOOK: Duration = Duration::from_millis(100);
 
 /// Sews a pattern, once or whenever its seam file has changed.
 pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
+    output::kind(&arguments.output, &[("png", ())])?;
     let is_left = Arc::new(AtomicBool::new(false));
     if arguments.watch {
         signal_hook::flag::register(SIGINT, is_left.clone())?;

@@ -69,12 +69,14 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
             }
         }
         StudyCommand::Sizes { study, output } => {
+            output::kind(output, &[("svg", ())])?;
             let workspace = context.workspace()?;
             let svg = workspace.size_map(&context.study_name(&workspace, study)?)?;
             return write(context, output, svg.into_bytes());
         }
         StudyCommand::Nearest { study, subject } => return nearest(context, study, subject),
         StudyCommand::Export { study, output } => {
+            output::folder(output, &["toml"])?;
             let study = context.study(&context.workspace()?, study)?;
             for path in files::write_files(output, &export_study(&study))? {
                 context.say(format_args!("wrote {}", path.display()));

@@ -15,6 +15,7 @@ const DOCUMENT: &str = "audit.json";
 /// Makes the study, runs what of it has not been run, and says how it ended; exit code 3 where a drape has a fault.
 pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
     let folder = &arguments.output;
+    output::folder(folder, &["toml", "json"])?;
     let wardrobe = wardrobe(arguments)?;
     let Opened { files, refused } = wardrobe.open()?;
     files::make_folder(folder)?;

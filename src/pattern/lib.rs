@@ -26,6 +26,7 @@ pub mod seams;
 pub mod size_order;
 pub mod source;
 pub mod style;
+pub mod table;
 mod unfold;
 
 pub use garment::{

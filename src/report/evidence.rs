@@ -80,8 +80,8 @@ impl EvidencePart {
     }
 
     /// All charts of the section, in the order of the page.
-    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        self.differences.iter().chain(self.crossovers.iter().map(|c| &c.chart)).chain(&self.without)
+    pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
+        self.differences.iter_mut().chain(self.crossovers.iter_mut().map(|c| &mut c.chart)).chain(&mut self.without)
     }
 }
 

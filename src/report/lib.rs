@@ -7,6 +7,7 @@
 pub mod chart;
 pub mod data;
 mod evidence;
+mod names;
 mod page;
 mod repeats;
 mod runs;
@@ -17,6 +18,7 @@ pub mod viewer;
 
 pub use chart::Chart;
 pub use data::ReportData;
+pub use names::{FileNames, file_part};
 
 use askama::Template;
 
@@ -57,7 +59,7 @@ pub enum Purpose {
 /// # Errors
 /// A link that is not relative, a picture that is neither PNG nor JPEG, or a chart that cannot be drawn.
 pub fn html(data: &ReportData) -> Result<String, ReportError> {
-    Ok(page::Page::new(data, None)?.render()?)
+    Ok(page(data, None, &mut FileNames::default())?.render()?)
 }
 
 /// The files of a report by their relative paths: `index.html` for its purpose, the other page beside it where garments are fitted,
@@ -72,12 +74,14 @@ pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>
     };
     let is_fitted = !data.fit.sheets.is_empty();
     let compare = if is_fitted { compare } else { "index.html" };
-    let page = page::Page::new(data, is_fitted.then_some(fit))?;
+    let mut names = FileNames::default();
+    let mut page = page(data, is_fitted.then_some(fit), &mut names)?;
     let mut files = vec![(compare.to_owned(), page.render()?.into_bytes())];
     if is_fitted {
         files.push((fit.to_owned(), sheet::FitPage::new(data, compare)?.render()?.into_bytes()));
     }
-    for chart in data.fit.sheets.iter().flat_map(|sheet| &sheet.sections) {
+    for mut chart in data.fit.sheets.iter().flat_map(|sheet| sheet.sections.clone()) {
+        chart.name_among(&mut names);
         files.push((chart.address("svg"), chart.svg().as_bytes().to_vec()));
     }
     for chart in page.charts() {
@@ -85,6 +89,13 @@ pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>
         files.push((chart.address("png"), chart.png()?));
     }
     Ok(files)
+}
+
+/// The page that compares the simulators, its charts named apart.
+fn page<'a>(data: &'a ReportData, fit: Option<&'a str>, names: &mut FileNames) -> Result<page::Page<'a>, ReportError> {
+    let mut page = page::Page::new(data, fit)?;
+    page.charts().for_each(|chart| chart.name_among(names));
+    Ok(page)
 }
 
 #[cfg(test)]

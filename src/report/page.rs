@@ -166,11 +166,11 @@ pub(super) fn address(kind: &str, bytes: &[u8]) -> String {
 
 impl<'a> Page<'a> {
     /// All charts, in the order of the page.
-    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        let of_evidence = self.evidence.iter().flat_map(EvidencePart::charts);
-        let of_repeats = self.repeats.iter().flat_map(|part| &part.charts);
-        let of_groups = self.groups.iter().flat_map(Group::charts);
-        of_groups.chain(of_evidence).chain(&self.ease_chart).chain(&self.time_chart).chain(of_repeats)
+    pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
+        let of_evidence = self.evidence.iter_mut().flat_map(EvidencePart::charts);
+        let of_repeats = self.repeats.iter_mut().flat_map(|part| &mut part.charts);
+        let of_groups = self.groups.iter_mut().flat_map(Group::charts);
+        of_groups.chain(of_evidence).chain(&mut self.ease_chart).chain(&mut self.time_chart).chain(of_repeats)
     }
 
     pub fn new(data: &'a ReportData, fit: Option<&'a str>) -> Result<Self, ReportError> {

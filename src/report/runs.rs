@@ -26,9 +26,9 @@ pub(super) struct Group {
 
 impl Group {
     /// All charts of the group, in the order of the page.
-    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        let of_series = self.series.iter().flat_map(|s| [&s.chi_chart].into_iter().chain(&s.mean_chart));
-        of_series.chain(&self.metric_charts).chain(&self.residual_chart)
+    pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
+        let of_series = self.series.iter_mut().flat_map(|s| [&mut s.chi_chart].into_iter().chain(&mut s.mean_chart));
+        of_series.chain(&mut self.metric_charts).chain(&mut self.residual_chart)
     }
 }
 

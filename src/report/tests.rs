@@ -1,5 +1,5 @@
 use super::data::*;
-use super::{Purpose, ReportError, chart, html};
+use super::{Purpose, ReportError, chart, files, html};
 use fit::measure::Chi;
 use fit::{Basis, Cuts, Ease, Finding, FitClass, Simulator};
 use render::{Rgb, Scale, png};
@@ -142,7 +142,7 @@ fn the_page_needs_nothing_else() {
 
 #[test]
 fn charts_are_files_beside_the_page_and_its_links_lead_to_them() {
-    let files = super::files(&sample(), Purpose::Compare).unwrap();
+    let files = files(&sample(), Purpose::Compare).unwrap();
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let page = String::from_utf8(files[0].1.clone()).unwrap();
     let links: Vec<&str> = page.split("href=\"charts/").skip(1).filter_map(|rest| rest.split('"').next()).collect();
@@ -238,6 +238,31 @@ fn what_cannot_be_shown_is_refused() {
     let mut data = sample();
     data.runs[0].views[0].bytes = b"GIF89a".to_vec();
     assert!(matches!(html(&data), Err(ReportError::PictureFormat(_))));
+}
+
+#[test]
+fn charts_of_different_names_are_different_files() {
+    let names =
+        [("上衣", "M"), ("衬衫", "M"), ("tee", "M"), ("tee+", "M"), ("Tee", "M"), ("tee", "../2X"), ("tee", "..:2X")];
+    let of = |(garment, size): &(&str, &str)| {
+        ["i", "ii"].map(|subject| TryOn {
+            garment: (*garment).into(),
+            size: (*size).into(),
+            ..run(subject, Simulator::Fem, 1.04)
+        })
+    };
+    let data = ReportData { runs: names.iter().flat_map(of).collect(), ..sample() };
+    let files = files(&data, Purpose::Compare).unwrap();
+    let paths: std::collections::BTreeSet<String> = files.iter().map(|(path, _)| path.to_lowercase()).collect();
+    assert_eq!(paths.len(), files.len(), "{paths:?}");
+    let page = String::from_utf8(files[0].1.clone()).unwrap();
+    for (path, _) in &files[1..] {
+        assert!(path.starts_with("charts/") && !path.contains("..") && path.matches('/').count() == 1, "{path}");
+        assert_eq!(page.matches(&format!("href=\"{path}\"")).count(), 1, "{path}");
+    }
+    for path in ["charts/上衣-size-m-ei.png", "charts/tee+-size-m-ei.svg", "charts/tee-size-2x-ei-2.svg"] {
+        assert!(paths.contains(path), "{path} of {paths:?}");
+    }
 }
 
 #[test]

@@ -27,6 +27,7 @@ use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, MeasurementKind, Spot, Style};
 use render::export::{MeshFormat, Part};
 use render::{self, Camera, Frame, Material, Rgb, Scene};
+use report::FileNames;
 use sim::hybrid::Closure;
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
@@ -431,10 +432,11 @@ fn files(
         garments.iter().zip(drapes).map(|(garment, drape)| mesh(garment, &drape.positions)).collect();
     let materials: Vec<Material> = (0..cloths.len()).map(|number| material(simulator, number)).collect();
     let mut files = vec![(format!("{stem}.png"), four_views(body, &cloths, &materials)?)];
+    let mut names = FileNames::default();
     for (garment, drape) in garments.iter().zip(drapes) {
         if let Some(popup) = drape.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup) {
             let picture = four_views(body, &[mesh(garment, &popup.positions)], &[Material::popup()])?;
-            files.push(("popup.png".to_owned(), picture));
+            files.push((format!("{}.png", names.part("popup")), picture));
         }
     }
     let colours = |mesh: &TriMesh, colour: Rgb| vec![colour; mesh.positions.len()];

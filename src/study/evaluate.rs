@@ -9,6 +9,7 @@ use std::path::Path;
 use crate::error::{Result, StudyError};
 use body::{Camera, Girths, Sex, from_pictures, from_scan};
 use geom::units::mm;
+use pattern::table;
 
 /// A row of a table: values by column.
 type Row = BTreeMap<String, String>;
@@ -116,15 +117,21 @@ fn table(folder: &Path, name: &str) -> Result<Vec<Row>> {
         let accepted = "CSV tables manifest.csv and measurements.csv with a column id";
         StudyError::stage("body")(format!("{}: {problem}; accepted: {accepted}", path.display()))
     };
-    let broken = |error: csv::Error| refuse(error.to_string());
-    let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_path(&path).map_err(broken)?;
-    let heads = reader.headers().map_err(broken)?.clone();
+    let bytes = std::fs::read(&path).map_err(|error| refuse(error.to_string()))?;
+    let text = table::text(&bytes).map_err(|line| refuse(format!("line {line} is no UTF-8")))?;
+    let mut rows = table::rows(text).into_iter();
+    let heads = rows.next().map_or_else(Vec::new, |row| row.cells);
     if !heads.iter().any(|head| head == "id") {
         return Err(refuse("it has no column id".to_owned()));
     }
-    let row =
-        |record: csv::StringRecord| heads.iter().zip(&record).map(|(h, v)| (h.to_owned(), v.to_owned())).collect();
-    reader.records().map(|record| record.map(row).map_err(broken)).collect()
+    let mut read = Vec::new();
+    for row in rows {
+        if row.cells.len() > heads.len() {
+            return Err(refuse(format!("line {} has {} cells for {} columns", row.line, row.cells.len(), heads.len())));
+        }
+        read.push(heads.iter().cloned().zip(row.cells).collect());
+    }
+    Ok(read)
 }
 
 fn text<'a>(row: &'a Row, column: &str) -> &'a str {

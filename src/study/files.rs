@@ -1,10 +1,14 @@
 //! Files that a study brings, as read; a pattern may be a folder with one piece a file.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::error::{Result, StudyError};
 use pattern::source::{self, Kind};
+use report::file_part;
+
+/// Most bytes of a study's name, which files are called after.
+const MOST_NAME_BYTES: usize = 200;
 
 /// A file that a study brings, as read, or the DXF files of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -130,6 +134,24 @@ fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..at], &bytes[at + 1..]))
 }
 
+/// The format that the name of a file to be written says: one of those whose endings are accepted.
+///
+/// # Errors
+/// What was found and would be accepted.
+pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Result<T, String> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    if let Some((_, kind)) = accepted.iter().find(|(ending, _)| extension.eq_ignore_ascii_case(ending)) {
+        return Ok(*kind);
+    }
+    let found = if extension.is_empty() { "no ending".to_owned() } else { format!("`.{extension}`") };
+    let names: Vec<String> = accepted.iter().map(|(ending, _)| format!("X.{ending}")).collect();
+    let names = match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
+    };
+    Err(format!("{}: found {found}; accepted: {names}", path.display()))
+}
+
 /// Makes a folder, or finds out that it cannot be written, before hours are spent on what goes there.
 ///
 /// # Errors
@@ -141,11 +163,37 @@ pub fn make_folder(folder: &Path) -> Result<()> {
     std::fs::remove_file(&probe).map_err(StudyError::io(&probe))
 }
 
+/// Whether a study may be called so: its reports, logs and jobs lie in a folder or file of that name.
+///
+/// # Errors
+/// What is accepted.
+pub(crate) fn check_study_name(name: &str) -> std::result::Result<(), String> {
+    let is_odd = |letter: char| letter.is_control() || matches!(letter, '/' | '\\');
+    let is_one = !name.trim().is_empty() && name != "." && name != ".." && !name.chars().any(is_odd);
+    if is_one && name.len() <= MOST_NAME_BYTES {
+        return Ok(());
+    }
+    Err(format!("accepted: a name that a folder may have, of at most {MOST_NAME_BYTES} bytes, without `/` and `\\`"))
+}
+
+/// What the folder or file of a study is called: as the study, whose name a study file has checked. A database may hold
+/// another from elsewhere.
+#[must_use]
+pub fn study_folder(study: &str) -> String {
+    if check_study_name(study).is_ok() { study.to_owned() } else { file_part(study) }
+}
+
 /// Writes files into a folder, which is made where it is missing; returns their paths.
 ///
 /// # Errors
-/// When the folder or a file cannot be written.
+/// When the folder or a file cannot be written, or a file's name leads out of the folder: then nothing is written.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>> {
+    let is_within = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    if let Some((name, _)) = files.iter().find(|(name, _)| name.is_empty() || !is_within(name)) {
+        let message =
+            format!("{}: file `{name}` would not lie in it; accepted: names below the folder", folder.display());
+        return Err(StudyError::stage("store")(message));
+    }
     let mut paths = Vec::new();
     for (name, bytes) in files {
         let path = folder.join(name);
@@ -172,6 +220,55 @@ mod tests {
         write("another.json", "{\"pattern\": {\"panels\": {}}}");
         let told = SourceFile::read_pattern(folder.path()).expect_err("two").to_string();
         assert!(told.contains("2 patterns as JSON"), "{told}");
+    }
+
+    #[test]
+    fn the_ending_of_a_file_is_its_format() {
+        let check = |name: &str, expect: std::result::Result<u8, &str>| {
+            let found = kind_of(Path::new(name), &[("csv", 1), ("json", 2), ("txt", 3)]);
+            assert_eq!(found, expect.map_err(str::to_owned), "{name}");
+        };
+        check("a.csv", Ok(1));
+        check("b/a.b.JSON", Ok(2));
+        check("a.parquet", Err("a.parquet: found `.parquet`; accepted: X.csv, X.json or X.txt"));
+        check("csv", Err("csv: found no ending; accepted: X.csv, X.json or X.txt"));
+        assert_eq!(kind_of(Path::new("a.b"), &[("svg", ())]), Err("a.b: found `.b`; accepted: X.svg".to_owned()));
+    }
+
+    #[test]
+    fn files_lie_in_their_folder() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("a/b");
+        let check = |name: &str, expect: bool| {
+            let written = write_files(&inner, &[(name.to_owned(), b"x".to_vec())]);
+            assert_eq!(written.is_ok(), expect, "{name}");
+        };
+        check("x.csv", true);
+        check("charts/上衣 ..svg", true);
+        check("../x.csv", false);
+        check("charts/../../x.csv", false);
+        check("", false);
+        check(&folder.path().join("x.csv").to_string_lossy(), false);
+        assert!(!folder.path().join("x.csv").exists() && !folder.path().join("a/x.csv").exists());
+    }
+
+    #[test]
+    fn a_study_is_called_as_a_folder_may_be() {
+        let long = "x".repeat(MOST_NAME_BYTES + 1);
+        let check = |name: &str, folder: &str| {
+            assert_eq!(check_study_name(name).is_ok(), name == folder, "{name:?}");
+            assert_eq!(study_folder(name), folder, "{name:?}");
+        };
+        for same in ["thesis", "first try", "上衣", ".hidden", "a: b", "T-shirt, 2nd"] {
+            check(same, same);
+        }
+        check("../../../OUT", "OUT");
+        check("/etc/x", "etc-x");
+        check("a\\b", "a-b");
+        check("..", "unnamed");
+        check("  ", "unnamed");
+        check("a\nb", "a-b");
+        check(&long, &long[..160]);
     }
 
     #[test]

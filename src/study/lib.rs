@@ -90,7 +90,7 @@ pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass
 pub use pattern::Handle;
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
-pub use report::{Chart, Purpose};
+pub use report::{Chart, Purpose, file_part};
 pub use sim::fabric::{Stretched, USUAL as USUAL_FABRIC};
 pub use sim::laboratory::bench as lab;
 pub use sim::{Fabric, Monitor, Stage, Step};

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use fit::{FitClass, Simulator};
+use pattern::table;
 use sim::{Progress, Step};
 
 /// Number of a job in its database.
@@ -377,6 +378,28 @@ pub struct Table {
     pub columns: Vec<String>,
     /// Rows of values, in order of the columns.
     pub rows: Vec<Vec<Value>>,
+}
+
+impl Table {
+    /// As CSV; of its texts no spreadsheet takes one for a formula.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let rows = self.rows.iter().map(|row| csv_row(row));
+        std::iter::once(csv_head(&self.columns)).chain(rows).collect()
+    }
+}
+
+/// The headings of a table as a line of CSV.
+pub(crate) fn csv_head(columns: &[String]) -> String {
+    table::line(columns.iter().map(|name| table::guarded(name)))
+}
+
+/// A row as a line of CSV.
+pub(crate) fn csv_row(row: &[Value]) -> String {
+    table::line(row.iter().map(|value| match value {
+        Value::Text(text) => table::guarded(text),
+        other => other.to_string().into(),
+    }))
 }
 
 /// A value of a [`Table`].

@@ -81,7 +81,7 @@ fn the_chance_of_fit_is_told_with_its_intervals() {
         ("chance mine --subject nobody", "male-ii"),
         ("chance mine --subject male-ii --size XXXL", "XXXL"),
         ("chance mine --subject male-ii --error-factor 0", "above 0"),
-        ("chance mine --subject male-ii -o chance.pdf", "neither .svg nor .png"),
+        ("chance mine --subject male-ii -o chance.pdf", "accepted: X.svg or X.png"),
     ] {
         let said = place.toile(wrong).ends_with(2).err;
         assert!(said.contains(words), "{wrong}: {said}");

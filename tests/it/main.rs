@@ -36,3 +36,4 @@ mod tree;
 mod wardrobe;
 mod words;
 mod workbench;
+mod written;

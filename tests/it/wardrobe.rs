@@ -36,9 +36,12 @@ fn all_is_dressed_in_all_and_what_cannot_be_is_left_out_with_its_reason() {
     // What is done is not done again; a table of pairs says who wears what, and may name only what is there.
     let again = place.toile(command).ends_with(0);
     assert!(again.err.contains("1 jobs, 0 to run, 1 up to date"), "{}", again.err);
-    place.write("pairs.csv", "garment,body\nshirt,fat\n");
+    place.write("pairs.csv", "garment;body\r\n\r\nshirt;fat\r\n");
     let unknown = place.toile(&format!("{command} --pairs pairs.csv")).ends_with(2);
-    assert!(unknown.err.contains("no body `fat`") || unknown.err.contains("fat"), "{}", unknown.err);
+    assert!(unknown.err.contains("pairs.csv:3: no body `fat`"), "{}", unknown.err);
+    place.write("pairs.csv", "garment,who\nshirt,fat\n");
+    let unknown = place.toile(&format!("{command} --pairs pairs.csv")).ends_with(2);
+    assert!(unknown.err.contains("pairs.csv:1: no column `body`; accepted: "), "{}", unknown.err);
     let empty = place.toile("audit garments bodies --bodies bodies -o empty").ends_with(2);
     assert!(empty.err.contains("none of them a pattern"), "{}", empty.err);
 }

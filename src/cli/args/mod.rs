@@ -324,10 +324,10 @@ pub struct Sql {
     /// A file with the query; - is standard input.
     #[arg(long, short, group = "source", value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// How to print the rows.
+    /// How to print the rows; a file has the format of its ending.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// File to write to, in place of standard output.
+    /// File to write to, in place of standard output: X.csv, X.json, X.parquet, or X.txt for a table in columns.
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
@@ -487,13 +487,13 @@ pub enum MeshFormat {
 pub struct Export {
     /// Number of the job (`toile queue ls`).
     pub job: i64,
-    /// Format of the file.
+    /// Format of the file, where its name has no ending.
     #[arg(long, value_enum)]
-    pub format: MeshFormat,
+    pub format: Option<MeshFormat>,
     /// What colours the vertices.
     #[arg(long, value_enum, default_value_t = Map::Plain)]
     pub map: Map,
-    /// File to write.
+    /// File to write: X.glb, X.obj, X.ply or X.stl.
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 }

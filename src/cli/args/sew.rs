@@ -24,7 +24,7 @@ pub struct SewFiles {
     /// Sew again whenever the seam file has changed, until Ctrl-C.
     #[arg(long)]
     pub watch: bool,
-    /// Picture to write.
+    /// PNG file to write.
     #[arg(long, short, value_name = "FILE", default_value = "sewn.png")]
     pub output: PathBuf,
 }

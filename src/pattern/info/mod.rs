@@ -10,6 +10,7 @@ mod xlsx;
 use super::dxf::PatternFile;
 use super::garment::Role;
 use super::piece::Piece;
+use super::table;
 use geom::V2;
 
 /// Names of the column that says which piece a row is about.
@@ -66,7 +67,8 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     let mut rows = if bytes.starts_with(b"PK") {
         xlsx::rows(bytes).map_err(|found| fail(None, found, "an XLSX workbook whose first sheet is the table"))?
     } else {
-        csv_rows(bytes).map_err(|(row, found)| fail(row, found, "CSV in UTF-8, with as many cells in every row"))?
+        csv_rows(bytes)
+            .map_err(|(row, found)| fail(Some(row), found, "CSV in UTF-8, with as many cells in every row"))?
     };
     rows.retain(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
     if rows.is_empty() {
@@ -87,31 +89,14 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
 }
 
 /// Rows of CSV with their numbers, or the number of the row that is wrong and why.
-fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (Option<usize>, String)> {
-    let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
-    let text = text.map_err(|error| (None, format!("a byte that is no UTF-8 at {}", error.valid_up_to())))?;
-    let head = text.lines().next().unwrap_or_default();
-    let count = |delimiter: u8| head.bytes().filter(|&byte| byte == delimiter).count();
-    let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',');
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .delimiter(delimiter)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        // Blank lines before a record belong to it.
-        let line = |position: Option<&csv::Position>| {
-            let position = position?;
-            let rest = text.as_bytes().get(position.byte() as usize..)?;
-            let blank = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|&&byte| byte == b'\n');
-            Some(position.line() as usize + blank.count())
-        };
-        let record = record.map_err(|error| (line(error.position()), error.to_string()))?;
-        let number = line(record.position()).unwrap_or(rows.len() + 1);
-        rows.push((number, record.iter().map(str::to_owned).collect()));
+fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (usize, String)> {
+    let text = table::text(bytes).map_err(|line| (line, "a byte that is no UTF-8".to_owned()))?;
+    let rows = table::rows(text);
+    let count = rows.first().map_or(0, |head| head.cells.len());
+    if let Some(odd) = rows.iter().find(|row| row.cells.len() != count) {
+        return Err((odd.line, format!("{} cells, where the row of column names has {count}", odd.cells.len())));
     }
-    Ok(rows)
+    Ok(rows.into_iter().map(|row| (row.line, row.cells)).collect())
 }
 
 impl PieceTable {

@@ -72,8 +72,10 @@ fn wrong_tables_are_refused_with_row_and_column() {
     check(b"piece,grain_deg\nFRONT,up\n", Some(2), Some("grain_deg"), "`up`");
     check(b"piece,role\nFRONT,hood\n", Some(2), Some("role"), "`hood`; accepted: front, back");
     check(b"piece,size\nFRONT,XL\n", Some(2), Some("piece"), "piece `FRONT` of size `XL`");
-    check(b"piece,quantity\nFRONT\n", Some(2), None, "CSV");
-    check(b"piece\n\xff\n", None, None, "no UTF-8");
+    check(b"piece,quantity\nFRONT\n", Some(2), None, "1 cells, where the row of column names has 2; accepted: CSV");
+    check(b"piece\r\n\r\n\xff\r\n", Some(3), None, "no UTF-8");
+    check(b"piece,quantity\r\nFRONT,1\r\nBACK,two\r\n", Some(3), Some("quantity"), "`two`");
+    check(b"piece,note,quantity\r\nFRONT,\"a\r\nb\",1\r\n\r\nBACK,,two\r\n", Some(5), Some("quantity"), "`two`");
     check(b"PK\x03\x04and no more", None, None, "cut off");
 }
 

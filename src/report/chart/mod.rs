@@ -19,6 +19,7 @@ pub use residual::residual_chart;
 pub use scatter::{ease_chart, time_chart};
 pub use section::{Worn, section_chart};
 
+use super::names::{FileNames, file_part};
 use super::{ReportError, theme};
 use image::imageops;
 use render::{RenderError, png, rasterise_svg};
@@ -37,10 +38,12 @@ pub struct Chart {
 impl Chart {
     /// A chart of a kind (`chi`) under a title.
     fn new(kind: &str, title: &str, svg: String, alt: String) -> Self {
-        let plain: String =
-            title.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { ' ' }).collect();
-        let words: Vec<&str> = plain.split_whitespace().chain([kind]).collect();
-        Self { name: words.join("-"), svg, alt }
+        Self { name: file_part(&format!("{title} {kind}").to_lowercase()), svg, alt }
+    }
+
+    /// Takes a name that no other chart of the report has.
+    pub(super) fn name_among(&mut self, names: &mut FileNames) {
+        self.name = names.part(&self.name);
     }
 
     /// Where a report keeps the chart as a file of an extension, relative to its page.

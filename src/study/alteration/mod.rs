@@ -27,6 +27,7 @@ use fit::target::Target;
 use geom::units::mm;
 use pattern::dxf::Standard;
 use pattern::{Handle, Style};
+use report::FileNames;
 
 /// By how much a handle is moved to see what it changes, m.
 const STEP_M: f64 = 0.002;
@@ -261,9 +262,12 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     };
     let moves = bench.moves(&found.amounts);
     let changed = style.moved(&moves).map_err(StudyError::stage("alter"))?;
-    let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard)?;
+    let mut names = FileNames::default();
+    let name = names.part(&format!("{}-{}-{}", spec.garment, spec.size, spec.subject));
+    let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard, &name)?;
     if wish.is_nest {
-        written.files.push(written::nest(&spec, &others, &moves, wish.standard)?);
+        let name = names.part(&format!("{}-nest-{}", spec.garment, spec.subject));
+        written.files.push(written::nest(&spec, &others, &moves, wish.standard, &name)?);
     }
     let levels = bench.levels(&changed, &written.again);
     let reasons = if wish.moves_mm.is_empty() { bench.reasons(&found.amounts, &levels) } else { Vec::new() };

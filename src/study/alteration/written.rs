@@ -17,7 +17,7 @@ pub struct Written {
     pub again: Style,
 }
 
-/// Writes a job's style as its handles change it: DXF with its seam file, or GarmentCode JSON where the pattern holds its own seams.
+/// Writes a job's style as its handles change it into files called `name`: DXF with its seam file, or GarmentCode JSON where the pattern holds its own seams.
 ///
 /// # Errors
 /// What the handles refuse of the pieces as they are drawn; what cannot be read again.
@@ -26,8 +26,8 @@ pub fn written(
     [style, changed]: [&Style; 2],
     moves: &[(Handle, f64)],
     standard: Standard,
+    name: &str,
 ) -> Result<Written> {
-    let name = format!("{}-{}-{}", spec.garment, spec.size, spec.subject);
     let sheet = (format!("{name}.svg"), pattern::drawing::changed_svg(style, changed).into_bytes());
     let Some(seams) = &spec.seams else {
         let text = serde_json::to_vec_pretty(&garmentcode::document(changed)).map_err(StudyError::stage("alter"))?;
@@ -44,7 +44,7 @@ pub fn written(
     Ok(Written { files: files.collect(), again })
 }
 
-/// All sizes of a garment as the handles change them alike, in one DXF: every piece in every size, read again before it is handed out.
+/// All sizes of a garment as the handles change them alike, in one DXF called `name`: every piece in every size, read again before it is handed out.
 ///
 /// # Errors
 /// What the handles refuse of a size, and what cannot be read again; a pattern that holds its own seams, of which a nest cannot be made.
@@ -53,6 +53,7 @@ pub fn nest(
     others: &[JobSpec],
     moves: &[(Handle, f64)],
     standard: Standard,
+    name: &str,
 ) -> Result<(String, Vec<u8>)> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut reseamed = None;
@@ -65,7 +66,7 @@ pub fn nest(
         reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
     }
     size_order::sort(&mut pieces, |piece| piece.size.as_deref().unwrap_or_default());
-    let name = format!("{}-nest-{}.dxf", spec.garment, spec.subject);
+    let name = format!("{name}.dxf");
     let bytes = dxf::write_pieces(&pieces, &texts(spec), standard);
     let file = SourceFile { name: name.clone(), bytes: bytes.clone().into() };
     for of in others.iter().chain([spec]) {

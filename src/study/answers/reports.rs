@@ -57,7 +57,7 @@ fn count(folder: &Path) -> usize {
 /// # Errors
 /// When there is no such study, a stored result cannot be read, or a file cannot be written.
 pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
-    let folder = folder.join(study);
+    let folder = folder.join(files::study_folder(study));
     files::write_files(&folder, &reporting::report(store, study, None)?)?;
     Ok(folder.join("index.html"))
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::Problem;
+use pattern::table;
 
 /// Format of a file to import.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,10 +29,9 @@ pub(super) fn unknown_format(path: &Path, accepted: &str) -> Problem {
     Problem::of(path, format!("its name tells no format that can be imported; accepted: {accepted}"))
 }
 
-/// The text of a file.
+/// The text of a file, without a byte order mark.
 pub(super) fn text_of<'b>(path: &Path, bytes: &'b [u8]) -> Result<&'b str, Vec<Problem>> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
+    table::text(bytes).map_err(|line| {
         let message = "bytes that are no text; accepted: UTF-8".to_owned();
         vec![Problem { line: Some(line), ..Problem::of(path, message) }]
     })

@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use csv::{ReaderBuilder, StringRecord, Trim};
-
 use crate::catalogue::format::text_of;
 use crate::catalogue::import::Read;
 use crate::catalogue::{Part, check_name};
@@ -12,6 +10,7 @@ use crate::error::{Problem, nearest};
 use crate::spec::fields::{Entry, Given, filled, keys};
 use crate::spec::file::Placed;
 use geom::units::significant;
+use pattern::table::{self, Row};
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
@@ -21,38 +20,23 @@ const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan
 const BODIES: [(&str, &str); 2] =
     [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
 
-/// Reads a table: the rows that are right, and what is wrong with the others. Columns may be divided by commas, semicolons or tabs, empty
-/// cells are no values.
+/// Reads a table: the rows that are right, and what is wrong with the others. Empty cells are no values.
 ///
 /// # Errors
 /// Where its heading is wrong, or it is no table.
 pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
-    let text = text_of(path, bytes)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let head = text.lines().next().unwrap_or_default();
-    let delimiter = [b',', b';', b'\t'].into_iter().max_by_key(|mark| head.bytes().filter(|byte| byte == mark).count());
-    let mut reader = ReaderBuilder::new()
-        .delimiter(delimiter.unwrap_or(b','))
-        .flexible(true)
-        .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let unreadable = |error: csv::Error| {
-        let line = error.position().map(|position| position.line() as usize);
-        vec![Problem { line, ..Problem::of(path, error.to_string()) }]
-    };
-    let columns: Vec<Column> =
-        reader.headers().map_err(unreadable)?.iter().map(|text| Column::read::<T>(part, text)).collect();
-    let header = StringRecord::from_iter(columns.iter().map(|column| column.key.as_str()));
-    let mut problems = header_problems::<T>(path, part, &header);
+    let mut rows = table::rows(text_of(path, bytes)?).into_iter();
+    let head = rows.next().unwrap_or(Row { line: 1, cells: vec![] });
+    let columns: Vec<Column> = head.cells.iter().map(|text| Column::read::<T>(part, text)).collect();
+    let header: Vec<&str> = columns.iter().map(|column| column.key.as_str()).collect();
+    let mut problems = header_problems::<T>(path, part, head.line, &header);
     if !problems.is_empty() {
         return Err(problems);
     }
     let mut entries = Vec::new();
     let mut names = BTreeSet::new();
-    for record in reader.records() {
-        let record = record.map_err(unreadable)?;
-        let line = record.position().map_or(0, |position| position.line() as usize);
-        match row(part, &columns, &header, &record) {
+    for Row { line, cells } in rows {
+        match row(part, &columns, &header, &cells) {
             Ok((name, _)) if !names.insert(name.clone()) => {
                 problems.push(Problem::at(path, line, format!("{part} `{name}` is there twice; names must differ")));
             }
@@ -118,15 +102,15 @@ fn is_name(part: Part, column: &str) -> bool {
     column == part.as_str() || NAMES.contains(&column)
 }
 
-fn header_problems<T: Entry>(path: &Path, part: Part, header: &StringRecord) -> Vec<Problem> {
+fn header_problems<T: Entry>(path: &Path, part: Part, line: usize, header: &[&str]) -> Vec<Problem> {
     let accepted = keys::<T>();
     let mut problems = Vec::new();
     if !header.iter().any(|column| is_name(part, column)) {
         problems.push(format!("no column `name`; accepted: name, {}", accepted.join(", ")));
     }
-    for (k, column) in header.iter().enumerate() {
+    for (k, &column) in header.iter().enumerate() {
         let place = format!("column {}", k + 1);
-        if header.iter().take(k).any(|before| before == column) {
+        if header[..k].contains(&column) {
             problems.push(format!("{place}: `{column}` is there twice"));
         } else if !(accepted.contains(&column) || is_name(part, column) || IGNORED.contains(&column)) {
             let hint = match nearest(column, accepted.iter().copied().chain(["name"])) {
@@ -136,20 +120,20 @@ fn header_problems<T: Entry>(path: &Path, part: Part, header: &StringRecord) -> 
             problems.push(format!("{place}: unknown column `{column}`; {hint}"));
         }
     }
-    problems.into_iter().map(|message| Problem::at(path, 1, message)).collect()
+    problems.into_iter().map(|message| Problem::at(path, line, message)).collect()
 }
 
 /// Name and entry of a row.
 fn row<T: Entry>(
     part: Part,
     columns: &[Column],
-    header: &StringRecord,
-    record: &StringRecord,
+    header: &[&str],
+    record: &[String],
 ) -> Result<(String, T), Vec<String>> {
     if record.len() != header.len() {
         return Err(vec![format!("{} cells; accepted: {}, as in the first line", record.len(), header.len())]);
     }
-    let cells = || header.iter().zip(record.iter());
+    let cells = || header.iter().copied().zip(record.iter().map(String::as_str));
     let name = cells().find(|(column, _)| is_name(part, column)).map_or("", |(_, cell)| cell);
     let given: Vec<Given> = cells()
         .zip(columns)
@@ -160,7 +144,7 @@ fn row<T: Entry>(
     if let Some((column, accepted)) = BODIES.iter().find(is_given) {
         return Err(vec![format!("{name}: its `{column}` is in no table; {accepted}")]);
     }
-    let placed = |(key, problem): Given| match header.iter().position(|column| column == key) {
+    let placed = |(key, problem): Given| match header.iter().position(|column| *column == key) {
         Some(k) => format!("column {}: {problem}", k + 1),
         None => problem,
     };

@@ -35,6 +35,9 @@ fn a_folder_without_tables_is_refused_and_a_lost_mesh_is_listed() {
     let told = evaluate(folder.path()).expect_err("no tables").to_string();
     assert!(told.contains("manifest.csv: ") && told.contains("accepted: CSV tables"), "{told}");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a table");
+    write("manifest.csv", "id,sex,file\r\n\r\na,F,lost.obj,more\r\n");
+    let told = evaluate(folder.path()).expect_err("a cell without a column").to_string();
+    assert!(told.contains("manifest.csv: line 3 has 4 cells for 3 columns; accepted: "), "{told}");
     write("manifest.csv", "id,sex,file\na,F,lost.obj\n");
     write("measurements.csv", "id,stature_cm\na,160\n");
     let found = evaluate(folder.path()).expect("two tables");

@@ -28,6 +28,7 @@ use body::Sex;
 use fit::coverage::{Asks, Search, Series, Turns};
 use geom::units::mm;
 use pattern::Style;
+use report::file_part;
 
 /// Greatest turn of a knob either way, m.
 const LIMIT_M: f64 = 0.150;
@@ -240,7 +241,7 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     ];
     let picture = picture::svg(&held_out, &bands, &pictured, &asked.entry.name);
     let mut files = nest.files;
-    files.push((format!("{}.svg", asked.entry.name), picture.into_bytes()));
+    files.push((format!("{}.svg", file_part(&asked.entry.name)), picture.into_bytes()));
     Ok(Grading {
         garment: asked.entry.name.clone(),
         base: asked.spec.size.clone(),

@@ -12,6 +12,7 @@ use geom::units::mm;
 use pattern::dxf::{self, PatternFile, Standard};
 use pattern::grade::{self, Ungraded};
 use pattern::{Piece, Style, handle};
+use report::FileNames;
 
 /// How far a size that the rules make may lie from the size as drawn, m.
 const APART_M: f64 = 0.1e-3;
@@ -45,13 +46,15 @@ pub fn drawn(
         let texts = [("Style Name", garment.as_str()), ("Sample Size", size), ("Units", "METRIC")];
         texts.map(|(key, value)| (key.to_owned(), value.to_owned()))
     };
-    let mut files = vec![(format!("{garment}.seams.toml"), seams.bytes.to_vec())];
+    let mut parts = FileNames::default();
+    let whole = parts.part(garment);
+    let mut files = vec![(format!("{whole}.seams.toml"), seams.bytes.to_vec())];
     let mut nest: Option<PatternFile> = None;
     for (name, turns) in names.iter().zip(turns) {
         let pieces = handle::redrawn(&base, &seams.bytes, &seams.name, &knobs.moves(turns));
         let mut pieces = pieces.map_err(StudyError::stage("grade"))?.pieces;
         pieces.iter_mut().for_each(|piece| piece.size = Some(name.clone()));
-        let file = format!("{garment}-{name}.dxf");
+        let file = format!("{}.dxf", parts.part(&format!("{garment}-{name}")));
         let written = dxf::write_pieces(&pieces, &texts(name), Standard::Aama);
         let read = dxf::read(&written, &file, None).map_err(StudyError::stage("grade"))?;
         files.push((file, written));
@@ -64,24 +67,24 @@ pub fn drawn(
     // The sample is the size in the middle, as pattern makers have it.
     let sample = &names[names.len().saturating_sub(1) / 2];
     let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).map_err(StudyError::stage("grade"))?;
-    let texts = texts(sample).into_iter().chain([grade::named_in_pattern(garment)]).collect::<Vec<_>>();
+    let texts = texts(sample).into_iter().chain([grade::named_in_pattern(&whole)]).collect::<Vec<_>>();
     let written = dxf::write_pieces(&pieces, &texts, Standard::Aama);
-    let rules = grade::write(&table, garment, Standard::Aama);
-    let (again, apart_m) = again(&nest, &written, rules.as_bytes(), garment)?;
+    let rules = grade::write(&table, &whole, Standard::Aama);
+    let (again, apart_m) = again(&nest, &written, rules.as_bytes(), &whole)?;
     let style = |name: &String| {
         let pieces = again.to_sew(Some(name)).map_err(StudyError::stage("grade"))?;
         Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("grade"))
     };
     let styles = names.iter().map(style).collect::<Result<_>>()?;
-    files.push((format!("{garment}.dxf"), written));
-    files.push((format!("{garment}.rul"), rules.into_bytes()));
+    files.push((format!("{whole}.dxf"), written));
+    files.push((format!("{whole}.rul"), rules.into_bytes()));
     Ok(Nest { styles, apart_m, files })
 }
 
 /// What the written sample size and rules make, and the greatest distance of it from the nest, m.
-fn again(nest: &PatternFile, written: &[u8], rules: &[u8], garment: &str) -> Result<(PatternFile, f64)> {
-    let sample = dxf::read(written, &format!("{garment}.dxf"), None).map_err(StudyError::stage("grade"))?;
-    let table = grade::read(rules, &format!("{garment}.rul")).map_err(StudyError::stage("grade"))?;
+fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result<(PatternFile, f64)> {
+    let sample = dxf::read(written, &format!("{name}.dxf"), None).map_err(StudyError::stage("grade"))?;
+    let table = grade::read(rules, &format!("{name}.rul")).map_err(StudyError::stage("grade"))?;
     let again = grade::grade(&sample, &table).map_err(StudyError::stage("grade"))?;
     let mut apart_m: f64 = 0.0;
     for piece in &nest.pieces {

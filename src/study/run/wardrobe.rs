@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
 use crate::bodies;
-use crate::error::{Result, StudyError};
+use crate::error::{Problem, Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Nest, Unit};
 use crate::seams::{Asking, proposal};
@@ -14,6 +12,7 @@ use crate::spec::file::{holds_measurements, read_measurements};
 use crate::spec::new_study::{Outline, Worn};
 use body::Measurements;
 use fit::Simulator;
+use pattern::table::{self, Row};
 
 /// Endings of files that are bodies.
 const BODIES: [&str; 9] = ["obj", "ply", "stl", "glb", "toml", "smis", "vit", "yaml", "yml"];
@@ -52,13 +51,6 @@ pub struct Opened {
 enum Wearer {
     Measured(Box<Measurements>),
     Scanned(PathBuf),
-}
-
-/// A row of the table of pairs.
-#[derive(Deserialize)]
-struct Couple {
-    garment: String,
-    body: String,
 }
 
 impl Wardrobe {
@@ -137,16 +129,33 @@ impl Wardrobe {
             return Ok(garments.keys().map(|garment| (garment.clone(), all.clone())).collect());
         };
         let mut wearers: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        let unreadable = |error: csv::Error| StudyError::stage("audit")(format!("{}: {error}", path.display()));
-        for row in csv::Reader::from_path(path).map_err(unreadable)?.deserialize() {
-            let Couple { garment, body } = row.map_err(unreadable)?;
-            let known = |what, name: &str, is_known: bool, all: Vec<String>| match is_known {
-                true => Ok(()),
-                false => Err(StudyError::NotFound { what, name: name.to_owned(), known: all }),
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        let refuse = |line: usize, found: String| StudyError::File(vec![Problem::at(path, line, found)]);
+        let text = table::text(&bytes).map_err(|line| refuse(line, "bytes that are no UTF-8".to_owned()))?;
+        let rows = table::rows(text);
+        let (line, head) = rows.first().map_or((1, &[][..]), |row| (row.line, &row.cells[..]));
+        let column = |name: &str| {
+            let found = head.iter().position(|column| column == name);
+            found.ok_or_else(|| refuse(line, format!("no column `{name}`; accepted: the columns garment and body")))
+        };
+        let (of_garment, of_body) = (column("garment")?, column("body")?);
+        let mut problems = Vec::new();
+        for Row { line, cells } in rows.iter().skip(1) {
+            let mut known = |what, column: usize, names: Vec<&String>| {
+                let name = cells.get(column).map_or("", String::as_str);
+                if !names.iter().any(|known| *known == name) {
+                    let known = names.into_iter().cloned().collect();
+                    let missing = StudyError::NotFound { what, name: name.to_owned(), known };
+                    problems.push(Problem::at(path, *line, missing.to_string()));
+                }
+                name.to_owned()
             };
-            known("garment", &garment, garments.contains_key(&garment), garments.keys().cloned().collect())?;
-            known("body", &body, bodies.contains_key(&body), bodies.keys().cloned().collect())?;
+            let garment = known("garment", of_garment, garments.keys().collect());
+            let body = known("body", of_body, bodies.keys().collect());
             wearers.entry(garment).or_default().push(body);
+        }
+        if !problems.is_empty() {
+            return Err(StudyError::File(problems));
         }
         Ok(wearers)
     }

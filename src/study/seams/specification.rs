@@ -9,7 +9,7 @@ use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Nest};
 use crate::rows::{Table, Value};
-use geom::units::{mm, signed_tenths};
+use geom::units::mm;
 use pattern::Style;
 use pattern::pom::Point;
 
@@ -108,31 +108,71 @@ impl Specification {
         Self { garment, sizes, points, notes: Vec::new(), drawing }
     }
 
-    /// The sheet: a row a point, a column a size, mm, and the steps from size to size.
+    /// The sheet: a row a point, a column a size, mm, and a column a step from the size before.
     #[must_use]
     pub fn table(&self) -> Table {
         let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };
         let mut columns = vec!["point".to_owned()];
         columns.extend(self.sizes.iter().map(name));
-        if self.sizes.len() > 1 {
-            columns.push("steps_mm".to_owned());
-        }
+        columns.extend(self.sizes.iter().skip(1).map(|size| format!("{size}_step_mm")));
         columns.push("definition".to_owned());
         let row = |point: Point| -> Option<Vec<Value>> {
             let of = |size: &String| self.points.iter().find(|one| one.point == point.as_str() && one.size == *size);
             let all: Vec<Option<&SpecifiedPoint>> = self.sizes.iter().map(of).collect();
             all.iter().any(Option::is_some).then_some(())?;
-            let rounded = |mm: f64| Value::Real((mm * 10.0).round() / 10.0);
+            // A step of nothing has no sign.
+            let rounded = |mm: f64| Value::Real((mm * 10.0).round() / 10.0 + 0.0);
+            let step = |one: &Option<&SpecifiedPoint>| one.and_then(|one| one.step_mm).map_or(Value::Null, rounded);
             let mut row = vec![Value::Text(point.as_str().to_owned())];
             row.extend(all.iter().map(|one| one.map_or(Value::Null, |one| rounded(one.length_mm))));
-            if self.sizes.len() > 1 {
-                let steps = all.iter().skip(1).map(|one| one.and_then(|one| one.step_mm));
-                let words: Vec<String> = steps.map(|mm| mm.map_or("-".to_owned(), signed_tenths)).collect();
-                row.push(Value::Text(words.join(" ")));
-            }
+            row.extend(all.iter().skip(1).map(step));
             row.push(Value::Text(point.definition().to_owned()));
             Some(row)
         };
         Table { columns, rows: Point::ALL.into_iter().filter_map(row).collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patterns::Model;
+
+    #[test]
+    fn a_sheet_has_a_column_of_numbers_for_each_step() {
+        let files = patterns::drafted(Model::Tshirt);
+        let file = |name: &str| {
+            let (name, bytes) = files.iter().find(|(known, _)| known == name).expect("drafted");
+            SourceFile { name: name.clone(), bytes: bytes.clone().into() }
+        };
+        let seams = file("tshirt.seams.toml");
+        let style = |size: &&str| {
+            let pattern = file(&format!("tshirt-{size}.dxf"));
+            patterns::read_style(&pattern, Some(&seams), None, None).expect("it is sewn")
+        };
+        let check = |sizes: &[&str], columns: &[&str]| {
+            let styles: Vec<Style> = sizes.iter().map(style).collect();
+            let names = sizes.iter().map(|size| size.to_uppercase()).collect();
+            let table = Specification::of("tee".to_owned(), names, &styles).table();
+            assert_eq!(table.columns, columns);
+            let chest = table.rows.iter().find(|row| row[0] == Value::Text("half_chest".into())).expect("a chest");
+            let number = |name: &str| {
+                let column = columns.iter().position(|column| *column == name)?;
+                if let Value::Real(number) = chest[column] { Some(number) } else { None }
+            };
+            for (before, size) in columns.iter().zip(&columns[1..]).skip(1) {
+                let Some(step) = number(&size.replace("_mm", "_step_mm")) else { continue };
+                let grown = number(size).expect("a length") - number(before).expect("a length");
+                assert!((step - grown).abs() < 0.11 && step != 0.0, "{before} to {size}: {step}, not {grown}");
+            }
+            for line in table.csv().lines().skip(1) {
+                assert!(!line.split(',').any(|cell| cell.starts_with(['+', '='])), "{line}");
+            }
+        };
+        check(&["m"], &["point", "M_mm", "definition"]);
+        let three = ["point", "S_mm", "M_mm", "L_mm", "M_step_mm", "L_step_mm", "definition"];
+        check(&["s", "m", "l"], &three);
+        let falling = ["point", "L_mm", "M_mm", "S_mm", "M_step_mm", "S_step_mm", "definition"];
+        check(&["l", "m", "s"], &falling);
     }
 }

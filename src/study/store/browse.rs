@@ -9,7 +9,8 @@ use rusqlite::ErrorCode;
 use rusqlite::fallible_iterator::FallibleIterator;
 
 use crate::error::{Result, StudyError};
-use crate::rows::{Table, Value};
+use crate::files::kind_of;
+use crate::rows::{Table, Value, csv_head, csv_row};
 use crate::store::{Store, sql};
 
 /// The rows of a query, as far as they were wanted.
@@ -53,21 +54,22 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
     Ok(answer)
 }
 
-/// Writes all rows of a query into a file: JSON where its name ends so, CSV otherwise. Returns how many rows.
+/// Writes all rows of a query into a file, CSV or JSON as its name ends. Returns how many rows.
 ///
 /// # Errors
-/// What SQLite says of the query; when the file is there already or cannot be written; when it was stopped.
+/// What SQLite says of the query; when the file has another ending, is there already or cannot be written; when it was
+/// stopped.
 pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
-    let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    let is_json = kind_of(path, &[("csv", false), ("json", true)]).map_err(StudyError::stage("sql"))?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
     let mut out = BufWriter::new(file);
     let mut rows = 0;
     let written = each_row(store, text, stop, |columns, row| {
         let line = match (&row, is_json) {
             (None, true) => String::new(),
-            (None, false) => csv_line(columns.iter().cloned()),
+            (None, false) => csv_head(columns),
             (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
-            (Some(row), false) => csv_line(row.iter().map(Value::to_string)),
+            (Some(row), false) => csv_row(row),
         };
         rows += usize::from(row.is_some());
         out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
@@ -152,15 +154,6 @@ pub fn relations(store: &Store) -> Result<Vec<Relation>> {
     Ok(found)
 }
 
-/// A record of CSV; fields with separators, quotes or line ends are quoted.
-fn csv_line(fields: impl Iterator<Item = String>) -> String {
-    let quoted = |field: String| {
-        let needs = field.contains(['"', ',', '\n', '\r']);
-        if needs { format!("\"{}\"", field.replace('"', "\"\"")) } else { field }
-    };
-    fields.map(quoted).collect::<Vec<_>>().join(",") + "\n"
-}
-
 /// A row as a JSON object, keys in order of the columns.
 fn json_line(columns: &[String], row: &[Value]) -> String {
     let cell = |value: &Value| match value {
@@ -225,7 +218,13 @@ mod tests {
         assert_eq!(rows, serde_json::json!([{"x": 1, "t": "a,\"b"}, {"x": 2, "t": "a,\"b"}]));
         write("none.json", "SELECT 1 AS a WHERE 0").expect("written");
         assert_eq!(text("none.json"), "[]\n");
+        write("c.CSV", "SELECT '=1+2' AS '-x', -5 AS y, '-5' AS z, '@a' AS w").expect("written");
+        assert_eq!(text("c.CSV"), "'-x,y,z,w\n'=1+2,-5,-5,'@a\n");
         assert!(write("a.csv", "SELECT 1").is_err(), "it is there already");
+        for other in ["a.parquet", "a.txt", "a"] {
+            let told = write(other, "SELECT 1").expect_err(other).to_string();
+            assert!(told.contains("accepted: X.csv or X.json") && !folder.path().join(other).exists(), "{told}");
+        }
         assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
     }
 

@@ -17,7 +17,7 @@ use crate::store::read::{self, JobFilter};
 use crate::store::{Store, sql};
 use fit::Simulator;
 use report::data::{Fact, FitData, RawLink};
-use report::{self, Purpose, ReportData};
+use report::{self, FileNames, Purpose, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 13] = [
@@ -77,7 +77,7 @@ pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Ve
     let mut files = Vec::new();
     let data = report_data(store, study, &mut files)?;
     for (view, file, _) in RAW {
-        files.push((file.to_owned(), csv_of(&of_study(store, view, study)?)?));
+        files.push((file.to_owned(), of_study(store, view, study)?.csv().into_bytes()));
     }
     let simulators = data.runs.iter().map(|run| run.simulator);
     let compares = Simulator::ALL.iter().all(|one| simulators.clone().any(|other| other == *one));
@@ -90,19 +90,15 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let bodies = facts::bodies(store, study, &jobs)?;
     let drawings = facts::drawings(store, &jobs, patterns::sheet)?;
+    let mut names = FileNames::default();
     for drawing in &drawings {
-        let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
-        files.push((name, drawing.svg.clone().into_bytes()));
+        let name = names.part(&format!("pattern-{}-{}", drawing.garment, drawing.size));
+        files.push((format!("{name}.svg"), drawing.svg.clone().into_bytes()));
     }
-    let runs = runs::report_runs(store, study, &jobs, files)?;
+    let (runs, sheets) = runs::report_runs(store, study, &jobs, files)?;
     let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
     let worn = worn::worn(store, study, fit_card::fit_cards(store, study)?)?;
-    let sheet = |(path, _): &(String, Vec<u8>)| {
-        let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".jpg")?;
-        Some(link((path, &format!("all try-ons of {name} on one sheet"))))
-    };
-    let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
     let today = one(store, "SELECT date('now')")?;
     Ok(ReportData {
         title: study.to_owned(),
@@ -185,16 +181,6 @@ fn mm_value(value: &Value) -> f64 {
 /// A text as SQL literal.
 fn quoted(text: &str) -> String {
     format!("'{}'", text.replace('\'', "''"))
-}
-
-/// A table as CSV bytes.
-fn csv_of(table: &Table) -> Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(&table.columns).map_err(StudyError::stage("report"))?;
-    for row in &table.rows {
-        writer.write_record(row.iter().map(Value::to_string)).map_err(StudyError::stage("report"))?;
-    }
-    writer.into_inner().map_err(|error| StudyError::stage("report")(error.into_error()))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::answers::audit::{self, Finding};
 use crate::answers::reporting::facts::{self, number};
-use crate::answers::reporting::{self, csv_of, mm_value};
+use crate::answers::reporting::{self, mm_value};
 use crate::error::{Result, StudyError};
 use crate::rows::Value;
 use crate::store::evidence::{self, PUBLISHED};
@@ -64,7 +64,7 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
     };
     let mut files = report::files(&data, Purpose::Compare).map_err(StudyError::stage("report"))?;
     for (view, file, _) in RAW {
-        files.push((file.to_owned(), csv_of(&sql::query(store, &format!("SELECT * FROM {view}"))?)?));
+        files.push((file.to_owned(), sql::query(store, &format!("SELECT * FROM {view}"))?.csv().into_bytes()));
     }
     Ok(files)
 }

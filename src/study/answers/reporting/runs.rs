@@ -13,7 +13,7 @@ use crate::store::{Store, read, sql};
 use fit::measure::Chi;
 use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};
-use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, TryOn};
+use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, RawLink, TryOn};
 use sim::Stage;
 
 /// Pixels of a picture on the page.
@@ -32,13 +32,13 @@ const MAPS: [(Map, &[View]); 3] = [
     (Map::Gap, &[View::Front]),
 ];
 
-/// All runs with their pictures, which share one frame; the pictures are also added to `files`.
+/// All runs with their pictures, which share one frame, and links to sheets of them; the pictures are also added to `files`.
 pub(super) fn report_runs(
     store: &Store,
     study: &str,
     jobs: &[JobRow],
     files: &mut Vec<(String, Vec<u8>)>,
-) -> Result<Vec<TryOn>> {
+) -> Result<(Vec<TryOn>, Vec<RawLink>)> {
     let eases = facts::ease_matrices(store, study)?;
     let mut dressed = Vec::new();
     for job in jobs {
@@ -49,7 +49,7 @@ pub(super) fn report_runs(
     let frame = Frame { height_m: ROOM * least.height_m, ..least };
     let shown = dressed.iter().flatten().count().max(FULL_SIZE);
     let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
-    let mut runs = Vec::new();
+    let (mut runs, mut links) = (Vec::new(), Vec::new());
     let mut sheets = Sheets::of(study, jobs);
     let threads = thread::available_parallelism().map_or(1, usize::from);
     for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
@@ -66,11 +66,14 @@ pub(super) fn report_runs(
                 }
                 files.extend(kept);
             }
-            files.extend(sheets.add(job, cells)?);
+            if let Some((link, sheet)) = sheets.add(job, cells)? {
+                files.push((link.href.clone(), sheet));
+                links.push(link);
+            }
         }
         runs.extend(taken);
     }
-    Ok(runs)
+    Ok((runs, links))
 }
 
 /// Runs with their ease, without pictures.

@@ -8,9 +8,9 @@ use crate::answers::reporting::runs::PICTURE;
 use crate::error::{Result, StudyError};
 use crate::rows::JobRow;
 use render::{self, Cell, RenderError, View};
+use report::FileNames;
+use report::data::RawLink;
 
-/// Where sheets with all try-ons of a garment and size begin.
-pub(super) const SHEETS: &str = "pictures/try-on-";
 /// Longest side of a sheet, without labels, pixels.
 const SHEET_SIDE: f64 = 5500.0;
 /// Jobs one below the other on a sheet of one column of jobs.
@@ -20,6 +20,7 @@ const JOBS_HIGH: f64 = 10.0;
 /// together would not fit into memory.
 pub(super) struct Sheets<'a> {
     study: &'a str,
+    names: FileNames,
     open: BTreeMap<(&'a str, &'a str), Sheet>,
 }
 
@@ -64,11 +65,15 @@ impl<'a> Sheets<'a> {
         for job in jobs {
             *counts.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
         }
-        Self { study, open: counts.into_iter().map(|(key, count)| (key, Sheet::new(count))).collect() }
+        Self {
+            study,
+            names: FileNames::default(),
+            open: counts.into_iter().map(|(key, count)| (key, Sheet::new(count))).collect(),
+        }
     }
 
-    /// Adds what a job shows; gives the sheet that it completes, as a file.
-    pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(String, Vec<u8>)>> {
+    /// Adds what a job shows; gives the sheet that it completes, as a link and the file behind it.
+    pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(RawLink, Vec<u8>)>> {
         let (garment, size) = (job.garment.as_str(), job.size.as_str());
         let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
         sheet.left -= 1;
@@ -80,7 +85,11 @@ impl<'a> Sheets<'a> {
         let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::jpeg(&sheet));
         self.open.remove(&(garment, size));
         match picture {
-            Ok(picture) => Ok(Some((format!("{SHEETS}{garment}-{size}.jpg"), picture))),
+            Ok(picture) => {
+                let name = self.names.part(&format!("try-on-{garment}-{size}"));
+                let label = format!("all try-ons of {garment}, size {size}, on one sheet");
+                Ok(Some((RawLink { href: format!("pictures/{name}.jpg"), label }, picture)))
+            }
             // Thousands of runs fit on no sheet; each has its own pictures.
             Err(RenderError::Size { .. }) => Ok(None),
             Err(error) => Err(StudyError::stage("render")(error)),

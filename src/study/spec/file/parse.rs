@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::error::Problem;
+use crate::files::check_study_name;
 use crate::spec::fields::{Entry, keys};
 use crate::spec::file::garments::{Common, garments};
 use crate::spec::file::outfits::outfits;
@@ -44,7 +45,12 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
 
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = match reader.text(&top, "name") {
-        Some(name) => name.into_inner().to_owned(),
+        Some(name) => {
+            if let Err(accepted) = check_study_name(name.get_ref()) {
+                reader.problem(&name.span(), format!("study: `name` is {:?}; {accepted}", name.get_ref()));
+            }
+            name.into_inner().to_owned()
+        }
         None => folder_name(folder),
     };
     let fabrics = fabrics(&mut reader, &top, &known.fabrics);

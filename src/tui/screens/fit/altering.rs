@@ -9,7 +9,7 @@ use crate::screens::fit::state::{Alter, Draping};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text::{duration, quoted};
-use study::{Alteration, JobRow, Simulator};
+use study::{Alteration, JobRow, Simulator, file_part};
 
 /// What is said where nothing is shown that could be changed.
 const CLOSED: &str = "a finds what to change first";
@@ -169,7 +169,7 @@ impl State {
 
 /// The folder that a changed pattern is meant to go into.
 fn folder(found: &Alteration) -> String {
-    format!("altered/{}_{}_{}", found.garment, found.size, found.subject)
+    format!("altered/{}", file_part(&format!("{}_{}_{}", found.garment, found.size, found.subject)))
 }
 
 /// The command that finds the same and writes it.

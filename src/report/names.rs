@@ -1,0 +1,114 @@
+//! Names that become parts of file names: those of garments, sizes, subjects, fabrics and studies are free texts.
+
+use std::collections::BTreeSet;
+
+/// Most bytes of a part. File systems take names of 255 bytes, and a part gets words and an ending beside it.
+const MOST_BYTES: usize = 160;
+/// What a name without a letter or digit is called.
+const NAMELESS: &str = "unnamed";
+/// Names of devices, which no file of Windows may have before its first dot.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+/// Devices that have a number after their name.
+const NUMBERED: [&str; 2] = ["com", "lpt"];
+
+/// A name as a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay; whatever else stands
+/// between them becomes one `-`. It is never empty, begins with no dot and has a bounded length. Different names may get
+/// the same part: [`FileNames`] tells them apart.
+#[must_use]
+pub fn file_part(name: &str) -> String {
+    let mut part = String::new();
+    let mut is_gap = false;
+    for letter in name.chars() {
+        if !stays(letter) {
+            is_gap = true;
+            continue;
+        }
+        let gap = if is_gap && !part.is_empty() { "-" } else { "" };
+        if part.len() + gap.len() + letter.len_utf8() > MOST_BYTES {
+            break;
+        }
+        part.push_str(gap);
+        part.push(letter);
+        is_gap = false;
+    }
+    let part = part.trim_start_matches(['.', '-']).trim_end_matches(['.', '-']);
+    if !part.contains(|letter: char| letter.is_alphanumeric()) {
+        return NAMELESS.to_owned();
+    }
+    if is_device(part) { format!("{part}_") } else { part.to_owned() }
+}
+
+/// Whether a character may stand in a file name on any system, and in the address of a page unescaped.
+fn stays(letter: char) -> bool {
+    // Signs within words, such as vowels and tones, are marks of their scripts and no letters.
+    let is_mark = matches!(letter, '\u{300}'..='\u{1fff}' | '\u{3099}' | '\u{309a}' | '\u{a800}'..='\u{abff}');
+    letter.is_alphanumeric() || "_.+=".contains(letter) || (is_mark && !letter.is_whitespace())
+}
+
+/// Whether a name is that of a device of Windows.
+fn is_device(part: &str) -> bool {
+    let stem = part.split('.').next().unwrap_or_default().to_lowercase();
+    let is_numbered =
+        |word: &&str| stem.strip_prefix(*word).is_some_and(|number| matches!(number.as_bytes(), [b'1'..=b'9']));
+    DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(|word| is_numbered(&word))
+}
+
+/// Parts of file names in one folder, no two of them equal where capitals do not count.
+#[derive(Clone, Debug, Default)]
+pub struct FileNames(BTreeSet<String>);
+
+impl FileNames {
+    /// A name as a part that no other has; a number is added where the plain part is taken.
+    pub fn part(&mut self, name: &str) -> String {
+        let plain = file_part(name);
+        let numbered = (2..).map(|number: usize| format!("{plain}-{number}"));
+        let mut free = std::iter::once(plain.clone()).chain(numbered).filter(|part| self.0.insert(part.to_lowercase()));
+        free.next().unwrap_or(plain)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_becomes_a_part_of_a_file_name() {
+        let long = "衣".repeat(100);
+        let check = |name: &str, expect: &str| assert_eq!(file_part(name), expect, "{name:?}");
+        for same in
+            ["S", "tee", "2X+", "上衣", "ÉTÉ-40", "male_ii", "a=0.4", "1.5", "\u{e40}\u{e2a}\u{e37}\u{e49}\u{e2d}"]
+        {
+            check(same, same);
+        }
+        check("e\u{301}te\u{301}", "e\u{301}te\u{301}");
+        check("S/M", "S-M");
+        check("/../../../../OUTSIDE", "OUTSIDE");
+        check("..", NAMELESS);
+        check("", NAMELESS);
+        check("+-+", NAMELESS);
+        check(".hidden", "hidden");
+        check("a\\b:c*d?e\"f<g>h|i", "a-b-c-d-e-f-g-h-i");
+        check("tee, size S", "tee-size-S");
+        check("50 % #1 &co", "50-1-co");
+        check("a\u{202e}b\0c\nd\u{200b}e", "a-b-c-d-e");
+        check("tee . ", "tee");
+        check("a - /b--c", "a-b-c");
+        check("con", "con_");
+        check("NUL.txt", "NUL.txt_");
+        check("com1", "com1_");
+        check("com", "com");
+        check("com10", "com10");
+        check("console", "console");
+        check(&long, &"衣".repeat(53));
+    }
+
+    #[test]
+    fn names_of_one_folder_differ() {
+        let names = ["S/M", "S:M", "s-m", "tee", "tee+", "TEE", "S-M-2", "上衣", "衬衫", "?", "*"];
+        let mut taken = FileNames::default();
+        let parts: Vec<String> = names.iter().map(|name| taken.part(name)).collect();
+        let expect =
+            ["S-M", "S-M-2", "s-m-3", "tee", "tee+", "TEE-2", "S-M-2-2", "上衣", "衬衫", "unnamed", "unnamed-2"];
+        assert_eq!(parts, expect);
+    }
+}
