@@ -11,11 +11,11 @@ use super::recognise::{CONTRADICTED, DETAIL_SHARE, LEAST_UNNAMED_FIT, Reading};
 use super::shape::Shape;
 use super::templates::Template;
 use super::told::Told;
-use super::{Class, Face, Hand, ProposedSeam, SURER, best_reading, sewn, wear};
+use super::{Class, Face, Hand, ProposedSeam, SURER, Sewn, best_sewn, wear};
 use crate::piece::Piece;
 
-/// Kinds that a piece without a name may be.
-const LOOKS: [Class; 4] = [Class::Body, Class::Leg, Class::Sleeve, Class::Skirt];
+/// Kinds that have a shape of their own, and so can contradict a name; bands and skirts are rectangles, as anything is.
+const SHAPED: [Class; 3] = [Class::Body, Class::Leg, Class::Sleeve];
 /// Gain in the sum of confidences, less one for each seam that lacks, for which what names say is set aside: half a seam. Without their
 /// names pieces are less sure anyway.
 const LEAST_GAIN: f64 = 0.5;
@@ -28,8 +28,8 @@ const WELL_SEWN: f64 = 0.5;
 
 /// What a name says that may not hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Claim {
-    /// The kind of piece, though it looks like another.
+enum Says {
+    /// The kind of piece, though it looks like this one.
     Class(Class),
     /// Front or back, though it looks like a sleeve or no piece is called the other.
     Face,
@@ -37,47 +37,49 @@ enum Claim {
     Hand,
 }
 
+/// What may not hold of the names of some pieces, all of them or none: of one by its own name, of several by what all names say.
+#[derive(Clone, Debug, PartialEq)]
+struct Claim {
+    pieces: Vec<usize>,
+    says: Says,
+    is_own: bool,
+}
+
 /// What pieces are called, without what does not hold, and the way to read them.
 pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<Named>, Reading) {
     let all: Vec<Named> = told.iter().map(|told| told.all()).collect();
-    let (_, reading) = best_reading(pieces, &all, asker);
-    let claims = doubtful(pieces, told, &all, &well_sewn(pieces, &all, reading, asker));
+    let as_called = best_sewn(pieces, &all, asker);
+    let claims = doubtful(pieces, told, &all, &well_sewn(pieces, &as_called));
     if claims.is_empty() {
-        return (all, reading);
+        return (all, as_called.reading);
     }
-    let mut aside = aside(pieces, &all, &claims, asker);
-    for (k, &(piece, claim)) in claims.iter().enumerate() {
-        let is_own = match claim {
-            Claim::Class(_) => told[piece].own.class.is_some(),
-            Claim::Face => told[piece].own.face.is_some(),
-            Claim::Hand => told[piece].own.hand.is_some(),
-        };
-        if aside[k] && is_own {
-            let (text, choices) = question(&pieces[piece].name, all[piece], claim);
-            aside[k] = asker.ask(text, choices, Some(1)) == Some(1);
-        }
+    let mut aside = aside(pieces, &all, &claims, as_called, asker);
+    for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
+        let piece = claim.pieces[0];
+        let (text, choices) = question(&pieces[piece].name, all[piece], claim.says);
+        *is_aside = asker.ask(text, choices, Some(1)) == Some(1);
     }
     let named = without(&all, &claims, &aside);
-    let (_, reading) = best_reading(pieces, &named, asker);
+    let reading = best_sewn(pieces, &named, asker).reading;
     (named, reading)
 }
 
 /// What is asked of a claim that is set aside: what the name says, and what holds else.
-fn question(name: &str, named: Named, claim: Claim) -> (String, [String; 2]) {
-    match claim {
-        Claim::Class(looks) => {
+fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
+    match says {
+        Says::Class(looks) => {
             let says = named.class.map_or("part", Class::as_str);
             let looks = looks.as_str();
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
             (text, [says, looks].map(|class| format!("a {class}")))
         }
-        Claim::Face => {
+        Says::Face => {
             let face = named.face.unwrap_or(Face::Front);
             let text =
                 format!("piece `{name}`: its name says a {face}, and what is sewn to it something else; which is it?");
             (text, [format!("a {face}"), "what its outline says".to_owned()])
         }
-        Claim::Hand => {
+        Says::Hand => {
             let hand = named.hand.unwrap_or(Hand::Right);
             let text = format!(
                 "piece `{name}`: its name says the {hand} side, and no piece is the {}; which is it?",
@@ -89,32 +91,42 @@ fn question(name: &str, named: Named, claim: Claim) -> (String, [String; 2]) {
 }
 
 /// What names say without the claims that are set aside.
-fn without(all: &[Named], claims: &[(usize, Claim)], aside: &[bool]) -> Vec<Named> {
+fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
     let mut named = all.to_vec();
-    for (&(piece, claim), _) in claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside) {
-        match claim {
-            Claim::Class(_) => named[piece].class = None,
-            Claim::Face => named[piece].face = None,
-            Claim::Hand => named[piece].hand = None,
+    for (claim, _) in claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside) {
+        for &piece in &claim.pieces {
+            match claim.says {
+                Says::Class(_) => named[piece].class = None,
+                Says::Face => named[piece].face = None,
+                Says::Hand => named[piece].hand = None,
+            }
         }
     }
     named
 }
 
 /// Which claims are set aside: those without which the seams are surer.
-fn aside(pieces: &[Piece], all: &[Named], claims: &[(usize, Claim)], asker: &Asker<'_>) -> Vec<bool> {
-    let sum = |aside: &[bool]| {
-        let named = without(all, claims, aside);
-        let (sum, reading) = best_reading(pieces, &named, asker);
-        let (worn, seams) = sewn(pieces, &named, reading, asker);
-        sum - SURER * wear::lacking(&worn, &seams).len() as f64
+fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: Sewn, asker: &Asker<'_>) -> Vec<bool> {
+    let worth = |sewn: &Sewn| sewn.sum() - SURER * wear::lacking(&sewn.worn, &sewn.seams).len() as f64;
+    // A kind that a piece has without its name too is none that its outline contradicts.
+    let is_confirmed = |sewn: &Sewn, claim: &Claim| {
+        let is_other = |&piece: &usize| {
+            let class = sewn.worn.iter().find(|one| one.piece == piece).map(|one| one.class);
+            class.is_some() && class != all[piece].class
+        };
+        matches!(claim.says, Says::Class(_)) && !claim.pieces.iter().any(is_other)
+    };
+    let of = |aside: &[bool]| {
+        let sewn = best_sewn(pieces, &without(all, claims, aside), asker);
+        let is_vain = claims.iter().zip(aside).any(|(claim, is_aside)| *is_aside && is_confirmed(&sewn, claim));
+        if is_vain { f64::NEG_INFINITY } else { worth(&sewn) }
     };
     let mut aside = vec![false; claims.len()];
-    let mut best = sum(&aside);
-    let is_detail = |&(piece, _): &(usize, Claim)| all[piece].class == Some(Class::Other);
+    let mut best = worth(&as_called);
+    let is_detail = |claim: &Claim| all[claim.pieces[0]].class == Some(Class::Other);
     let worn: Vec<bool> = claims.iter().map(|claim| !is_detail(claim)).collect();
     for trial in [worn, vec![true; claims.len()]] {
-        let found = sum(&trial);
+        let found = of(&trial);
         if found > best + LEAST_GAIN {
             (aside, best) = (trial, found);
         }
@@ -122,7 +134,7 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[(usize, Claim)], asker: &Ask
     // What is set aside needlessly stands again, and what is doubted alone may go.
     for k in 0..claims.len() {
         aside[k] = !aside[k];
-        let changed = sum(&aside);
+        let changed = of(&aside);
         if changed > best + if aside[k] { LEAST_GAIN } else { -NO_LOSS } {
             best = changed;
         } else {
@@ -133,7 +145,7 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[(usize, Claim)], asker: &Ask
 }
 
 /// Claims that outlines, seams or the other names contradict.
-fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) -> Vec<(usize, Claim)> {
+fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) -> Vec<Claim> {
     let worn: Vec<&Named> = all.iter().filter(|named| named.class != Some(Class::Other)).collect();
     let faces: Vec<Face> = worn.iter().filter_map(|named| named.face).collect();
     let is_one_face = faces.len() > 1 && faces.iter().all(|face| *face == faces[0]);
@@ -144,10 +156,25 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
         (0..all.len()).any(|other| well_sewn[other] && is_rival(other))
     };
     let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
-    let mut claims = Vec::new();
+    let mut claims: Vec<Claim> = Vec::new();
+    let mut doubt = |piece: usize, says: Says| {
+        let is_own = |told: &Told| match says {
+            Says::Class(_) => told.own.class.is_some(),
+            Says::Face => told.own.face.is_some(),
+            Says::Hand => told.own.hand.is_some(),
+        };
+        let is_same =
+            |claim: &Claim| !claim.is_own && std::mem::discriminant(&claim.says) == std::mem::discriminant(&says);
+        if is_own(&told[piece]) {
+            claims.push(Claim { pieces: vec![piece], says, is_own: true });
+        } else if !claims.iter().any(is_same) {
+            let pieces = (0..told.len()).filter(|&other| !is_own(&told[other])).collect();
+            claims.push(Claim { pieces, says, is_own: false });
+        }
+    };
     for (k, named) in all.iter().enumerate() {
         let Some(shape) = Shape::of(&pieces[k]).filter(|_| !named.is_nameless()) else { continue };
-        let kinds: Vec<Class> = LOOKS.into_iter().filter(|&class| named.class != Some(class)).collect();
+        let kinds: Vec<Class> = SHAPED.into_iter().filter(|&class| named.class != Some(class)).collect();
         let (looks, fit) = best_of(&shape, &kinds);
         let is_like_another = fit >= LEAST_UNNAMED_FIT;
         let gain = named.class.map_or(0.0, |class| fit - best_of(&shape, &[class]).1);
@@ -159,32 +186,31 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
             Some(_) => gain > CONTRADICTED || !is_spare(k),
         };
         if is_doubtful {
-            claims.push((k, Claim::Class(looks)));
+            doubt(k, Says::Class(looks));
         }
         let is_sleeve = named.class.is_none() && is_like_another && looks == Class::Sleeve;
         if named.face.is_some() && named.class != Some(Class::Other) && (is_one_face || is_sleeve) {
-            claims.push((k, Claim::Face));
+            doubt(k, Says::Face);
         }
         if named.class != Some(Class::Other) && named.hand.is_some_and(is_alone) {
-            claims.push((k, Claim::Hand));
+            doubt(k, Says::Hand);
         }
     }
     claims
 }
 
-/// Which pieces are sewn to others, all for sure, as they are called.
-fn well_sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) -> Vec<bool> {
-    let (worn, seams) = sewn(pieces, named, reading, asker);
+/// Which pieces are sewn to others, all for sure.
+fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     let drawn = |edge: &String| {
         let id = edge.split_once('.').map(|(id, _)| id);
-        worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
+        sewn.worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
     };
     let is_well_sewn = |piece: usize| {
         let of = |seam: &ProposedSeam| -> Vec<usize> {
             seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect()
         };
         let own: Vec<(&ProposedSeam, Vec<usize>)> =
-            seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of)| of.contains(&piece)).collect();
+            sewn.seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of)| of.contains(&piece)).collect();
         own.iter().all(|(seam, _)| seam.confidence >= WELL_SEWN)
             && own.iter().any(|(_, of)| of.iter().any(|other| *other != piece))
     };

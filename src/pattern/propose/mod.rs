@@ -25,8 +25,6 @@ mod pose;
 mod raglan;
 mod recognise;
 mod ring;
-#[cfg(test)]
-mod scratch;
 mod seam_kind;
 mod sew;
 mod shape;
@@ -380,25 +378,37 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// The way to read the pieces under which most seams are sure, and how sure they are, all in all.
-fn best_reading(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> (f64, Reading) {
-    let sum = |way: Reading| sewn(pieces, named, way, asker).1.iter().map(|seam| seam.confidence).sum::<f64>();
-    let ways = Reading::ways(pieces, named);
-    let (&first, rest) = ways.split_first().expect("there is always one way");
-    let surer = |best: (f64, Reading), &way: &Reading| {
-        let sum = sum(way);
-        if sum > best.0 + SURER { (sum, way) } else { best }
-    };
-    rest.iter().fold((sum(first), first), surer)
+/// Pieces as worn and the seams between them, as they are read in one way.
+struct Sewn {
+    reading: Reading,
+    worn: Vec<Worn>,
+    seams: Vec<ProposedSeam>,
 }
 
-/// Pieces as worn and the seams between them, read in one way, with nobody to ask.
-fn sewn(pieces: &[Piece], named: &[Named], way: Reading, asker: &Asker<'_>) -> (Vec<Worn>, Vec<ProposedSeam>) {
-    let recognised = recognise::recognise(pieces, named, way, &mut asker.aside());
+impl Sewn {
+    /// How sure its seams are, all in all.
+    fn sum(&self) -> f64 {
+        self.seams.iter().map(|seam| seam.confidence).sum()
+    }
+}
+
+/// The pieces read in the way under which most seams are sure, with nobody to ask.
+fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
+    let ways = Reading::ways(pieces, named);
+    let (&first, rest) = ways.split_first().expect("there is always one way");
+    let surer = |best: Sewn, &way: &Reading| {
+        let found = sewn(pieces, named, way, asker);
+        if found.sum() > best.sum() + SURER { found } else { best }
+    };
+    rest.iter().fold(sewn(pieces, named, first, asker), surer)
+}
+
+fn sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) -> Sewn {
+    let recognised = recognise::recognise(pieces, named, reading, &mut asker.aside());
     let chosen = choose::choose(pieces, recognised, &mut asker.aside());
     let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
     let seams = sew::sew(&worn, &mut asker.aside());
-    (worn, seams)
+    Sewn { reading, worn, seams }
 }
 
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
