@@ -11,7 +11,7 @@ use super::recognise::{CONTRADICTED, DETAIL_SHARE, LEAST_UNNAMED_FIT, Reading};
 use super::shape::Shape;
 use super::templates::Template;
 use super::told::Told;
-use super::{Class, Face, Hand, ProposedSeam, SURER, Sewn, best_sewn, wear};
+use super::{Class, Face, Hand, ProposedSeam, Sewn, best_sewn};
 use crate::piece::Piece;
 
 /// Kinds that have a shape of their own, and so can contradict a name; bands and skirts are rectangles, as anything is.
@@ -53,7 +53,7 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     if claims.is_empty() {
         return (all, as_called.reading);
     }
-    let mut aside = aside(pieces, &all, &claims, as_called, asker);
+    let mut aside = aside(pieces, &all, &claims, &as_called, asker);
     for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
         let piece = claim.pieces[0];
         let (text, choices) = question(&pieces[piece].name, all[piece], claim.says);
@@ -106,8 +106,7 @@ fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
 }
 
 /// Which claims are set aside: those without which the seams are surer.
-fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: Sewn, asker: &Asker<'_>) -> Vec<bool> {
-    let worth = |sewn: &Sewn| sewn.sum() - SURER * wear::lacking(&sewn.worn, &sewn.seams).len() as f64;
+fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, asker: &Asker<'_>) -> Vec<bool> {
     // A kind that a piece has without its name too is none that its outline contradicts.
     let is_confirmed = |sewn: &Sewn, claim: &Claim| {
         let is_other = |&piece: &usize| {
@@ -119,10 +118,10 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: Sewn, ask
     let of = |aside: &[bool]| {
         let sewn = best_sewn(pieces, &without(all, claims, aside), asker);
         let is_vain = claims.iter().zip(aside).any(|(claim, is_aside)| *is_aside && is_confirmed(&sewn, claim));
-        if is_vain { f64::NEG_INFINITY } else { worth(&sewn) }
+        if is_vain { f64::NEG_INFINITY } else { sewn.worth() }
     };
     let mut aside = vec![false; claims.len()];
-    let mut best = worth(&as_called);
+    let mut best = as_called.worth();
     let is_detail = |claim: &Claim| all[claim.pieces[0]].class == Some(Class::Other);
     let worn: Vec<bool> = claims.iter().map(|claim| !is_detail(claim)).collect();
     for trial in [worn, vec![true; claims.len()]] {

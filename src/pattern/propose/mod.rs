@@ -386,19 +386,20 @@ struct Sewn {
 }
 
 impl Sewn {
-    /// How sure its seams are, all in all.
-    fn sum(&self) -> f64 {
-        self.seams.iter().map(|seam| seam.confidence).sum()
+    /// How sure its seams are, all in all, less one sure seam for each that lacks.
+    fn worth(&self) -> f64 {
+        let sum: f64 = self.seams.iter().map(|seam| seam.confidence).sum();
+        sum - wear::lacking(&self.worn, &self.seams).len() as f64
     }
 }
 
-/// The pieces read in the way under which most seams are sure, with nobody to ask.
+/// The pieces read in the way under which most seams are sure and fewest lack, with nobody to ask.
 fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
     let ways = Reading::ways(pieces, named);
     let (&first, rest) = ways.split_first().expect("there is always one way");
     let surer = |best: Sewn, &way: &Reading| {
         let found = sewn(pieces, named, way, asker);
-        if found.sum() > best.sum() + SURER { found } else { best }
+        if found.worth() > best.worth() + SURER { found } else { best }
     };
     rest.iter().fold(sewn(pieces, named, first, asker), surer)
 }

@@ -32,6 +32,8 @@ const LEAST_DIFFERENCE: f64 = 0.01;
 
 /// Difference of waists that tells the front of a skirt from its back, m: an ease that nobody sews in by chance.
 const CLEAR_WAIST_M: f64 = 10e-3;
+/// The same where only one of the two is called front or back, m: the precision that outlines are drawn with.
+const ANY_WAIST_M: f64 = 0.1e-3;
 
 /// Area of a piece over that of the largest below which a nameless one is a detail: the sleeve of a T-shirt has a fifth, half of a child's
 /// one a tenth.
@@ -512,7 +514,9 @@ fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised],
     }
     let Some([front, back]) = front_and_back(found, &skirts) else { return };
     let (as_named, otherwise) = if front == one { (straight, turned) } else { (turned, straight) };
-    if as_named.zip(otherwise).is_some_and(|(as_named, otherwise)| as_named > otherwise + CLEAR_WAIST_M) {
+    let are_called = skirts.iter().all(|&i| named[found[i].piece].face.is_some());
+    let least = if are_called { CLEAR_WAIST_M } else { ANY_WAIST_M };
+    if as_named.zip(otherwise).is_some_and(|(as_named, otherwise)| as_named > otherwise + least) {
         ask_faces([front, back], pieces, named, found, asker);
     }
 }
