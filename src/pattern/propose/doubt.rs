@@ -107,18 +107,19 @@ fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
 
 /// Which claims are set aside: those without which the seams are surer.
 fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, asker: &Asker<'_>) -> Vec<bool> {
-    // A kind that a piece has without its name too is none that its outline contradicts.
-    let is_confirmed = |sewn: &Sewn, claim: &Claim| {
-        let is_other = |&piece: &usize| {
+    // A piece whose name is set aside is sewn to others then, and as what its name does not say.
+    let is_vain = |sewn: &Sewn, claim: &Claim| {
+        let is_otherwise = |&piece: &usize| {
             let class = sewn.worn.iter().find(|one| one.piece == piece).map(|one| one.class);
-            class.is_some() && class != all[piece].class
+            let is_other = !matches!(claim.says, Says::Class(_)) || class != all[piece].class;
+            is_other && seams_of(sewn, piece).iter().any(|(_, of)| of.iter().any(|other| *other != piece))
         };
-        matches!(claim.says, Says::Class(_)) && !claim.pieces.iter().any(is_other)
+        !claim.pieces.iter().any(is_otherwise)
     };
     let of = |aside: &[bool]| {
         let sewn = best_sewn(pieces, &without(all, claims, aside), asker);
-        let is_vain = claims.iter().zip(aside).any(|(claim, is_aside)| *is_aside && is_confirmed(&sewn, claim));
-        if is_vain { f64::NEG_INFINITY } else { sewn.worth() }
+        let mut set = claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside);
+        if set.any(|(claim, _)| is_vain(&sewn, claim)) { f64::NEG_INFINITY } else { sewn.worth() }
     };
     let mut aside = vec![false; claims.len()];
     let mut best = as_called.worth();
@@ -200,20 +201,22 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
 
 /// Which pieces are sewn to others, all for sure.
 fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
-    let drawn = |edge: &String| {
-        let id = edge.split_once('.').map(|(id, _)| id);
-        sewn.worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
-    };
     let is_well_sewn = |piece: usize| {
-        let of = |seam: &ProposedSeam| -> Vec<usize> {
-            seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect()
-        };
-        let own: Vec<(&ProposedSeam, Vec<usize>)> =
-            sewn.seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of)| of.contains(&piece)).collect();
+        let own = seams_of(sewn, piece);
         own.iter().all(|(seam, _)| seam.confidence >= WELL_SEWN)
             && own.iter().any(|(_, of)| of.iter().any(|other| *other != piece))
     };
     (0..pieces.len()).map(is_well_sewn).collect()
+}
+
+/// Seams of a piece, with the pieces that each joins.
+fn seams_of(sewn: &Sewn, piece: usize) -> Vec<(&ProposedSeam, Vec<usize>)> {
+    let drawn = |edge: &String| {
+        let id = edge.split_once('.').map(|(id, _)| id);
+        sewn.worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
+    };
+    let of = |seam: &ProposedSeam| seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect();
+    sewn.seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of): &(_, Vec<usize>)| of.contains(&piece)).collect()
 }
 
 /// The kind of some whose templates fit best, and how well.

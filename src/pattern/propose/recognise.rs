@@ -516,8 +516,19 @@ fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised],
     let (as_named, otherwise) = if front == one { (straight, turned) } else { (turned, straight) };
     let are_called = skirts.iter().all(|&i| named[found[i].piece].face.is_some());
     let least = if are_called { CLEAR_WAIST_M } else { ANY_WAIST_M };
-    if as_named.zip(otherwise).is_some_and(|(as_named, otherwise)| as_named > otherwise + least) {
+    let Some((as_named, otherwise)) = as_named.zip(otherwise) else { return };
+    if as_named > otherwise + least {
         ask_faces([front, back], pieces, named, found, asker);
+    } else if !are_called && as_named > otherwise - least {
+        // One name alone tells both apart.
+        let Some(&called) = [front, back].iter().find(|&&i| named[found[i].piece].face.is_some()) else { return };
+        let text = format!("is piece `{}` a front or a back?", reference(pieces, found[called].piece));
+        let says = usize::from(found[called].face == Some(Face::Back));
+        if asker.ask(text, ["a front", "a back"], Some(says)).is_some_and(|choice| choice != says) {
+            for index in [front, back] {
+                found[index].face = found[index].face.map(Face::other);
+            }
+        }
     }
 }
 
