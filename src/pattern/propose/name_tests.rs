@@ -121,3 +121,25 @@ fn a_tee_top_is_sewn_as_it_is_or_asked_about_whatever_it_is_called() {
 fn a_dress_is_sewn_as_it_is_or_asked_about_whatever_it_is_called() {
     check(Model::Dress);
 }
+
+#[test]
+fn a_name_that_the_outline_contradicts_is_asked_about_and_one_that_it_bears_out_makes_surer() {
+    let drafts = Model::Tshirt.drafts();
+    let pieces = &drafts[0].pieces;
+    let call = |names: [&str; 3]| renamed(pieces, |k, _| names[k].to_owned());
+    let sure = |names: [&str; 3]| propose(&call(names)).pieces.iter().map(|piece| piece.confidence).sum::<f64>();
+    assert!(sure(["FRONT", "BACK", "SLEEVE"]) > sure(["1", "2", "3"]));
+    let check = |names: [&str; 3], asked: &str, choices: [&str; 2]| {
+        let called = call(names);
+        let found = propose(&called);
+        let question = found.questions.iter().find(|question| question.text.contains(asked));
+        let question = question.unwrap_or_else(|| panic!("{names:?}: {:?}", found.questions));
+        assert_eq!((question.choices.as_slice(), question.taken), (&choices.map(str::to_owned)[..], Some(1)));
+        assert_eq!(sewn_edges(&found), sewn_edges(&propose(pieces)), "{names:?}");
+        let answered = propose_answered(&called, &[(question.number, 'a')]).expect("a choice");
+        assert_ne!(sewn_edges(&answered), sewn_edges(&found), "{names:?}");
+    };
+    check(["FRONT", "BACK", "JEAN"], "`JEAN`: its name says a leg", ["a leg", "a sleeve"]);
+    check(["FRONT", "BACK", "POCKET"], "`POCKET`: its name says a part", ["a part", "a sleeve"]);
+    check(["SLEEVE", "BACK", "ARM"], "`SLEEVE`: its name says a sleeve", ["a sleeve", "a trunk"]);
+}
