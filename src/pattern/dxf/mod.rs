@@ -183,11 +183,11 @@ impl PatternFile {
             });
         }
         let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(wanted);
-        let said = self.texts.iter().filter(|(key, _)| is_of_garment(key)).map(|(_, value)| value.clone());
-        let garment: Vec<String> = said.chain([wanted.to_owned()]).collect();
+        let said = self.texts.iter().filter(|(key, _)| is_of_garment(key)).map(|(_, value)| value);
+        let garment: Vec<&String> = said.collect();
         let to_sew = |piece: &Piece| {
             let whole = piece.unfolded().unwrap_or_else(|| piece.clone());
-            Piece { garment: garment.clone(), ..whole }
+            Piece { garment: garment.iter().copied().chain(&piece.size).cloned().collect(), ..whole }
         };
         let pieces: Vec<Piece> = self.pieces.iter().filter(is_of).map(to_sew).collect();
         if pieces.is_empty() {

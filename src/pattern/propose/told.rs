@@ -55,8 +55,9 @@ impl Told {
 
 /// What a file says of each of its pieces.
 pub fn told(pieces: &[Piece]) -> Vec<Told> {
-    let words = words_of(pieces);
-    let (own, common) = parted(&words);
+    let (words, of_style) = words_of(pieces);
+    let (own, mut common) = parted(&words);
+    common.extend(of_style);
     let common_text = |text: &str| pieces.len() > 1 && pieces.iter().all(|piece| has_text(piece, text));
     let common_texts = pieces.first().into_iter().flat_map(|piece| texts(piece, &KEYS));
     let common_texts = common_texts.filter(|text| common_text(text)).map(names::read);
@@ -144,12 +145,13 @@ fn read(words: &[String], is_kind_known: bool) -> Named {
     names::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
 }
 
-/// The words of every name, without the name of the style and of the size as the file has them.
-fn words_of(pieces: &[Piece]) -> Vec<Vec<String>> {
+/// The words of every name, without the name of the style and of the size as the file has them, and which of those say a kind.
+fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<String>) {
     let names: Vec<Vec<String>> = pieces.iter().map(|piece| names::words(&piece.name)).collect();
     let names: Vec<Vec<String>> = names.iter().map(|words| loosened(words, &names)).collect();
     let hands: Vec<Hand> = names.iter().flatten().filter_map(|word| names::word_of(word)?.hand).collect();
     let is_pair = Hand::BOTH.into_iter().all(|hand| hands.contains(&hand));
+    let mut of_style: Vec<String> = Vec::new();
     let without = |(piece, mut words): (&Piece, Vec<String>)| {
         for text in &piece.garment {
             let said = names::words(text);
@@ -158,12 +160,14 @@ fn words_of(pieces: &[Piece]) -> Vec<Vec<String>> {
             let is_hand =
                 is_pair && said.iter().any(|word| names::word_of(word).is_some_and(|said| said.hand.is_some()));
             if let Some(at) = at.filter(|_| !said.is_empty() && said.len() < words.len() && !is_hand) {
-                words.drain(at..at + said.len());
+                let is_kind = |word: &String| names::word_of(word).is_some_and(|said| said.class.is_some());
+                of_style.extend(words.drain(at..at + said.len()).filter(is_kind));
             }
         }
         words
     };
-    pieces.iter().zip(names).map(without).collect()
+    let words = pieces.iter().zip(names).map(without).collect();
+    (words, of_style)
 }
 
 /// Words cut where the name of a style runs into one of the trade's: where what stands before that is a word of another piece's name, or
@@ -275,6 +279,11 @@ mod tests {
         check(&["FRONT L", "COLLAR"], &["L"], &["front", "collar"]);
         check(&["FRONT L", "FRONT R", "COLLAR"], &["L"], &["front left", "front right", "collar"]);
         check(&["FRONT", "BACK"], &["FRONT"], &["front", "back"]);
+        let skirt = ["SKIRT FRONT", "SKIRT BACK", "BAND"];
+        check(&skirt, &["Skirt"], &["front", "back", ""]);
+        let of_style = |name: &&str| Piece { garment: vec!["Skirt".to_owned()], ..called(name) };
+        let all = all(&skirt.iter().map(of_style).collect::<Vec<_>>());
+        assert!(all.iter().all(|named| named.class == Some(Class::Skirt)), "a skirt that is called so: {all:?}");
     }
 
     #[test]
