@@ -32,8 +32,8 @@ pub struct Piece {
     pub block: String,
     /// `Piece Name`, or the block's name where none is given.
     pub name: String,
-    /// What the file says that it is, in words; empty where its name is all that is known.
-    pub told: String,
+    /// What the file calls the garment and its sample size: such words in a name say nothing of the piece.
+    pub garment: Vec<String>,
     /// Size, where the piece or the file names one.
     pub size: Option<String>,
     /// How many are cut, as written (`2`, or `1,1` for left and right).
@@ -71,12 +71,6 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The words that say what it is: its name, where nothing says more.
-    #[must_use]
-    pub fn words(&self) -> &str {
-        if self.told.is_empty() { &self.name } else { &self.told }
-    }
-
     /// Length of the outline, m.
     #[must_use]
     pub fn perimeter_m(&self) -> f64 {

@@ -327,7 +327,7 @@ impl Drawn {
         Ok(Piece {
             block: block.to_owned(),
             name: take(&mut texts, "piece name").unwrap_or_else(|| block.to_owned()),
-            told: String::new(),
+            garment: Vec::new(),
             size: take(&mut texts, "size"),
             quantity: take(&mut texts, "quantity"),
             texts,

@@ -188,8 +188,13 @@ impl PatternFile {
             });
         }
         let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(wanted);
-        let pieces: Vec<Piece> =
-            self.pieces.iter().filter(is_of).map(|piece| piece.unfolded().unwrap_or_else(|| piece.clone())).collect();
+        let said = self.texts.iter().filter(|(key, _)| is_of_garment(key)).map(|(_, value)| value);
+        let garment: Vec<&String> = said.collect();
+        let to_sew = |piece: &Piece| {
+            let whole = piece.unfolded().unwrap_or_else(|| piece.clone());
+            Piece { garment: garment.iter().copied().chain(&piece.size).cloned().collect(), ..whole }
+        };
+        let pieces: Vec<Piece> = self.pieces.iter().filter(is_of).map(to_sew).collect();
         if pieces.is_empty() {
             return Err(DxfError::new(
                 &self.file,
@@ -205,7 +210,18 @@ impl PatternFile {
 /// Whether a text of a file says its sample size.
 #[must_use]
 pub fn is_sample_size(key: &str) -> bool {
-    key.to_ascii_lowercase().replace(['_', ' '], "") == "samplesize"
+    plain(key) == "samplesize"
+}
+
+/// Whether a text of a file says what the garment is called, or its sample size.
+fn is_of_garment(key: &str) -> bool {
+    is_sample_size(key)
+        || ["style", "stylename", "stylenumber", "styleno", "model", "modelname"].contains(&plain(key).as_str())
+}
+
+/// A key in lower case, without what parts its words.
+fn plain(key: &str) -> String {
+    key.to_ascii_lowercase().replace(['_', ' '], "")
 }
 
 /// Reads a DXF file. `unit` says the unit, whatever the file says; `file_name` is used in messages.

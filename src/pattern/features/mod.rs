@@ -233,7 +233,7 @@ impl PieceFeatures {
         Piece {
             block: self.information.block,
             name: self.information.name,
-            told: String::new(),
+            garment: Vec::new(),
             size: self.information.size,
             quantity: self.information.quantity,
             texts,

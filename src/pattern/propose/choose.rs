@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::ask::Asker;
+use super::names::Part;
 use super::recognise::{Recognised, is_whole_leg, length_m};
 use super::worn::{self, id_of};
-use super::{Class, Face, Hand, Label, names, sew};
+use super::{Class, Face, Hand, Label, sew};
 use crate::piece::Piece;
 
 /// Most combinations of pieces that are tried.
@@ -91,11 +92,10 @@ fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<R
 /// is no sleeve.
 fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_whole_sleeve = |one: &&Recognised| one.class == Class::Sleeve && one.face.is_none();
-    let names: Vec<&str> =
-        recognised.iter().filter(is_whole_sleeve).map(|one| pieces[one.piece].name.as_str()).collect();
-    let unders = names.iter().filter(|name| names::is_under_sleeve(name)).count();
-    if unders > 0 && unders < names.len() {
-        let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let whole: Vec<&Recognised> = recognised.iter().filter(is_whole_sleeve).collect();
+    let unders = whole.iter().filter(|one| one.part == Some(Part::Under)).count();
+    if unders > 0 && unders < whole.len() {
+        let names = whole.iter().map(|one| format!("`{}`", pieces[one.piece].name)).collect::<Vec<_>>().join(", ");
         asker.tell(format!(
             "left out: {names}: a sleeve in two pieces; at which place of the armhole do its seams begin?"
         ));

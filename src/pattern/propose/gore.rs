@@ -4,7 +4,7 @@
 //! and details; so are panels that are alike. A pair cut for left and right alternates with its mirror image.
 
 use super::Class;
-use super::names;
+use super::names::{Named, Part};
 use crate::piece::Piece;
 use geom::polyline::{perimeter, signed_area};
 
@@ -49,26 +49,23 @@ impl Cut {
 }
 
 /// How each piece is cut as a gore; `None` for a piece that is no gore.
-pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
-    let is_plain = |piece: &Piece| {
-        let named = names::read(piece.words());
-        match named.class {
-            Some(Class::Waistband | Class::Other) => true,
-            Some(Class::Skirt) | None => named.face.is_none(),
-            _ => false,
-        }
+pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
+    let is_plain = |named: &Named| match named.class {
+        Some(Class::Waistband | Class::Other) => true,
+        Some(Class::Skirt) | None => named.face.is_none(),
+        _ => false,
     };
-    let are_plain = pieces.iter().all(is_plain);
+    let are_plain = named.iter().all(is_plain);
     // A panel may be anything: its name alone says less than that there are others like it.
-    let are_alike = alike(pieces.iter().filter(|piece| names::is_panel(&piece.name)));
-    let is_gore = |piece: &Piece| {
-        let named = names::read(piece.words());
-        let is_called = named.class == Some(Class::Skirt)
-            || named.class.is_none() && names::is_gore(&piece.name)
-            || named.class.is_none() && names::is_panel(&piece.name) && are_alike;
+    let of_panels = pieces.iter().zip(named).filter(|(_, named)| named.part == Some(Part::Panel));
+    let are_alike = alike(of_panels.map(|(piece, _)| piece));
+    let is_gore = |named: &Named| {
+        let is_part = named.part == Some(Part::Gore) || named.part == Some(Part::Panel) && are_alike;
+        let is_called = named.class == Some(Class::Skirt) || named.class.is_none() && is_part;
         are_plain && is_called && named.hand.is_none()
     };
-    let cuts: Vec<Option<Cut>> = pieces.iter().map(|piece| is_gore(piece).then(|| Cut::of(piece))).collect();
+    let cut = |(piece, named): (&Piece, &Named)| is_gore(named).then(|| Cut::of(piece));
+    let cuts: Vec<Option<Cut>> = pieces.iter().zip(named).map(cut).collect();
     let times: u32 = cuts.iter().flatten().map(|cut| cut.times().min(MOST + 1)).sum();
     if (LEAST..=MOST).contains(&times) { cuts } else { vec![None; pieces.len()] }
 }
@@ -85,6 +82,7 @@ fn alike<'p>(pieces: impl Iterator<Item = &'p Piece>) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::told::{Told, told};
     use super::*;
     use geom::V2;
 
@@ -103,6 +101,10 @@ mod tests {
         check(Some("0"), &[false]);
     }
 
+    fn named(pieces: &[Piece]) -> Vec<Named> {
+        told(pieces).into_iter().map(Told::all).collect()
+    }
+
     #[test]
     fn gores_are_told_by_name_and_number() {
         let check = |pieces: &[(&str, &str)], are: &[bool]| {
@@ -112,7 +114,11 @@ mod tests {
                 ..Piece::default()
             };
             let pieces: Vec<Piece> = pieces.iter().map(piece).collect();
-            assert_eq!(gores(&pieces).iter().map(Option::is_some).collect::<Vec<_>>(), are, "{pieces:?}");
+            assert_eq!(
+                gores(&pieces, &named(&pieces)).iter().map(Option::is_some).collect::<Vec<_>>(),
+                are,
+                "{pieces:?}"
+            );
         };
         check(&[("GORE", "8"), ("WAISTBAND", "1")], &[true, false]);
         check(&[("SKIRT GORE", "3,3")], &[true]);
@@ -135,7 +141,7 @@ mod tests {
                 ..Piece::default()
             };
             let pieces: Vec<Piece> = widths.iter().map(panel).collect();
-            assert!(gores(&pieces).iter().all(|gore| gore.is_some() == are), "{widths:?}");
+            assert!(gores(&pieces, &named(&pieces)).iter().all(|gore| gore.is_some() == are), "{widths:?}");
         };
         check(&[0.2, 0.2, 0.201], true);
         check(&[0.2, 0.2, 0.3], false);

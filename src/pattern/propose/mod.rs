@@ -10,10 +10,13 @@ mod align;
 mod ask;
 mod cap;
 mod choose;
+mod doubt;
 #[cfg(test)]
 mod garment_tests;
 mod gore;
 mod lengths;
+#[cfg(test)]
+mod name_tests;
 mod names;
 mod nest;
 mod notched;
@@ -39,6 +42,7 @@ use std::fmt;
 
 use self::ask::Asker;
 pub use self::ask::{Answers, Question, UnknownAnswer};
+use self::names::Named;
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
@@ -255,8 +259,8 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
 
 /// Roles of pieces by their names alone, for files that hold their seams.
 pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
-    let named: Vec<names::Named> = names.iter().map(|name| names::read(name)).collect();
-    let is_below = |one: &names::Named| matches!(one.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
+    let named: Vec<Named> = names.iter().map(|name| names::read(name)).collect();
+    let is_below = |one: &Named| matches!(one.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
     let is_bodice = named.iter().any(is_below);
     named.iter().map(|one| role_of(one.class, one.face, one.hand, is_bodice)).collect()
 }
@@ -374,43 +378,58 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// The way to read the pieces under which most seams are sure.
-fn best_reading(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &Asker<'_>) -> Reading {
-    let ways = Reading::ways(pieces, &is_detail);
-    let sum = |way: Reading| -> f64 {
-        let recognised = recognise::recognise(pieces, &is_detail, way, &mut asker.aside());
-        let chosen = choose::choose(pieces, recognised, &mut asker.aside());
-        let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
-        sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
-    };
-    let (first, rest) = ways.split_first().expect("there is always one way");
-    if rest.is_empty() {
-        return *first;
+/// Pieces as worn and the seams between them, as they are read in one way.
+struct Sewn {
+    reading: Reading,
+    worn: Vec<Worn>,
+    seams: Vec<ProposedSeam>,
+}
+
+impl Sewn {
+    /// How sure its seams are, all in all, less one sure seam for each that lacks.
+    fn worth(&self) -> f64 {
+        let sum: f64 = self.seams.iter().map(|seam| seam.confidence).sum();
+        sum - wear::lacking(&self.worn, &self.seams).len() as f64
     }
-    let surer = |best: (f64, Reading), &way: &Reading| {
-        let sum = sum(way);
-        if sum > best.0 + SURER { (sum, way) } else { best }
+}
+
+/// The pieces read in the way under which most seams are sure and fewest lack, with nobody to ask.
+fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
+    let ways = Reading::ways(pieces, named);
+    let (&first, rest) = ways.split_first().expect("there is always one way");
+    let surer = |best: Sewn, &way: &Reading| {
+        let found = sewn(pieces, named, way, asker);
+        if found.worth() > best.worth() + SURER { found } else { best }
     };
-    rest.iter().fold((sum(*first), *first), surer).1
+    rest.iter().fold(sewn(pieces, named, first, asker), surer)
+}
+
+fn sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) -> Sewn {
+    let recognised = recognise::recognise(pieces, named, reading, &mut asker.aside());
+    let chosen = choose::choose(pieces, recognised, &mut asker.aside());
+    let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
+    let seams = sew::sew(&worn, &mut asker.aside());
+    Sewn { reading, worn, seams }
 }
 
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
-    let told = told::told(pieces);
-    let pieces = told.as_slice();
     let (mut asker, mut notes) = (Asker::new(answers), Vec::new());
-    let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
-    let is_detail = |piece: &Piece| recognise::is_detail(piece, largest_m2);
-    let listed = pieces.iter().filter(|piece| is_detail(piece)).map(|piece| format!("`{}`", piece.name));
-    let mut details: Vec<String> = listed.collect();
-    details.dedup();
-    if !details.is_empty() {
+    let (named, reading) = doubt::settled(pieces, &told::told(pieces), &mut asker);
+    let details = recognise::details(pieces, &named);
+    let mut listed: Vec<String> = pieces
+        .iter()
+        .zip(details)
+        .filter(|(_, is_detail)| *is_detail)
+        .map(|(piece, _)| format!("`{}`", piece.name))
+        .collect();
+    listed.dedup();
+    if !listed.is_empty() {
         notes.push(format!(
             "left out: {}: by their names or their size details that a drape does without",
-            details.join(", ")
+            listed.join(", ")
         ));
     }
-    let reading = best_reading(pieces, is_detail, &asker);
-    let recognised = recognise::recognise(pieces, is_detail, reading, &mut asker);
+    let recognised = recognise::recognise(pieces, &named, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.

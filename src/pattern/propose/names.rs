@@ -1,6 +1,12 @@
 //! What a piece's name says, in the languages of [`super::words`].
+//!
+//! A name is cut into words, and a word that is none of the trade's into words of the trade: `Vorderhose` is `vorder` and `hose`. What is
+//! left over makes it another word: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.
 
-use super::words::{CLASSES, FACES, HANDS};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use super::words::{CLASSES, FACES, HANDS, PARTS, PLAIN};
 use super::{Class, Face, Hand};
 
 /// What is read from a name.
@@ -12,69 +18,164 @@ pub struct Named {
     pub face: Option<Face>,
     /// Side of the wearer.
     pub hand: Option<Hand>,
+    /// Which part of its kind it is.
+    pub part: Option<Part>,
 }
 
-/// Parts of words that say the lower piece of a sleeve in two.
-const UNDER: [&str; 8] = ["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн"];
+/// What tells parts of one kind from each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The piece below the arm of a sleeve in two.
+    Under,
+    /// A gore of a skirt: one part among several alike.
+    Gore,
+    /// Any part of a garment.
+    Panel,
+}
+
+impl Named {
+    /// What it says together with another; of two kinds, faces, hands or parts the one that is listed first.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        fn first<T: Copy + PartialEq>(a: Option<T>, b: Option<T>, order: impl Iterator<Item = T>) -> Option<T> {
+            order.into_iter().find(|&one| a == Some(one) || b == Some(one)).or(a).or(b)
+        }
+        Self {
+            class: first(self.class, other.class, CLASSES.iter().map(|(class, _)| *class)),
+            face: first(self.face, other.face, Face::BOTH.into_iter()),
+            hand: first(self.hand, other.hand, Hand::BOTH.into_iter()),
+            part: first(self.part, other.part, PARTS.iter().map(|(part, _)| *part)),
+        }
+    }
+
+    /// Whether it says neither a kind, nor front or back, nor a side.
+    #[must_use]
+    pub fn is_nameless(self) -> bool {
+        (self.class, self.face, self.hand) == (None, None, None)
+    }
+}
 
 /// Words after which a name tells only of a detail (`front with pocket`).
 const DETAILS: [&str; 13] =
     ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
 
-/// Tells kind, face and hand of a piece from the words of its name.
+/// First letter of the scripts that put a word or a syllable in a sign.
+const SIGNS: char = '\u{2e80}';
+/// Scripts whose words hold marks beside their letters.
+const MARKED: std::ops::Range<char> = '\u{900}'..'\u{e00}';
+/// Letters of a word from which on it is a word in compounds too, in an alphabet.
+const LEAST_IN_COMPOUND: usize = 3;
+/// Most letters that an ending has.
+const LONGEST_ENDING: usize = 3;
+
+/// Words of a name, in lower case: it is cut where letters end, where capitals begin, and between alphabets and signs.
+#[must_use]
+pub fn words(name: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut before: Option<char> = None;
+    for c in name.chars() {
+        if !c.is_alphabetic() && !MARKED.contains(&c) {
+            // An article that is cut short is no initial.
+            if matches!(c, '\'' | '\u{2019}') && before.is_some() {
+                words.pop_if(|word| word.chars().count() == 1);
+            }
+            before = None;
+            continue;
+        }
+        let goes_on = |before: char| (before >= SIGNS) == (c >= SIGNS) && !(before.is_lowercase() && c.is_uppercase());
+        match words.last_mut().filter(|_| before.is_some_and(goes_on)) {
+            Some(word) => word.extend(c.to_lowercase()),
+            None => words.push(c.to_lowercase().collect()),
+        }
+        before = Some(c);
+    }
+    words
+}
+
+/// Tells kind, face and hand of a piece from its name.
 #[must_use]
 pub fn read(name: &str) -> Named {
-    let lower = name.to_lowercase();
-    let words: Vec<&str> = lower
-        .split(|c: char| !c.is_alphabetic())
-        .filter(|word| !word.is_empty())
-        .take_while(|word| !DETAILS.contains(word))
-        .collect();
-    // A part of up to three letters must be a whole word, but for scripts that put a word or a syllable in a sign.
-    let is_long = |part: &str| part.chars().count() > 3 || part.chars().all(|c| c >= '\u{900}');
-    let has = |part: &&str| words.iter().any(|word| word == part || (is_long(part) && word.contains(*part)));
-    let has_any = |parts: &&[&str]| parts.iter().any(has);
-    let class = CLASSES.iter().find(|(_, parts)| has_any(parts)).map(|(class, _)| *class);
-    let is_initial = |initial: &str| class.is_some() && words.contains(&initial);
-    let face = FACES.iter().find(|(_, parts)| has_any(parts)).map(|(face, _)| *face);
-    let face = face.or(if is_initial("f") {
+    let words = words(name);
+    read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), false)
+}
+
+/// What the words of a name say together; an initial says front or back where the kind of piece is said or known.
+#[must_use]
+pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
+    let words = || words.iter().take_while(|word| !DETAILS.contains(word));
+    let said = words().filter_map(|word| word_of(word)).fold(Named::default(), Named::and);
+    let is_known = is_kind_known || said.class.is_some();
+    let is_initial = |initial: &str| is_known && words().any(|word| *word == initial);
+    let face = said.face.or(if is_initial("f") {
         Some(Face::Front)
     } else if is_initial("b") {
         Some(Face::Back)
     } else {
         None
     });
-    let is_hand = |part: &&str| words.contains(part) || (part.chars().all(|c| c >= '\u{900}') && has(part));
-    let hand = HANDS.iter().find(|(_, parts)| parts.iter().any(is_hand)).map(|(hand, _)| *hand);
-    Named { class, face, hand }
+    Named { face, ..said }
 }
 
-/// Parts of words that name a gore of a skirt.
-const GORES: [&str; 4] = ["gore", "bahn", "nesga", "клин"];
-/// Parts of words that name any part of a garment.
-const PANELS: [&str; 2] = ["panel", "paneel"];
-
-/// Whether a name is that of a gore: one part of a skirt among several alike.
+/// What a word says: one of the trade's, or a compound of such; `None` for any other.
 #[must_use]
-pub fn is_gore(name: &str) -> bool {
-    let lower = name.to_lowercase();
-    GORES.iter().any(|part| lower.contains(part))
+pub fn word_of(word: &str) -> Option<Named> {
+    let ends: Vec<usize> = word.char_indices().map(|(at, _)| at).chain([word.len()]).collect();
+    // The fewest words of the trade that make up the beginning, with what they say.
+    let mut made: Vec<Option<(usize, Named)>> = vec![None; ends.len()];
+    made[0] = Some((0, Named::default()));
+    for from in 0..ends.len() - 1 {
+        let Some((count, said)) = made[from] else { continue };
+        for to in from + 1..ends.len() {
+            let is_whole = from == 0 && to + 1 == ends.len();
+            let Some(named) = listed(&word[ends[from]..ends[to]], to + 1 == ends.len(), is_whole) else { continue };
+            let found = (count + 1, said.and(named));
+            // An `s` behind a word makes it several, or joins it to the next.
+            let joined = (word[ends[to]..].starts_with('s')).then_some(to + 1);
+            for to in [Some(to), joined].into_iter().flatten() {
+                if made[to].is_none_or(|(fewest, _)| count + 1 < fewest) {
+                    made[to] = Some(found);
+                }
+            }
+        }
+    }
+    made[ends.len() - 1].map(|(_, named)| named)
 }
 
-/// Whether a name says no more than that it is a part.
-#[must_use]
-pub fn is_panel(name: &str) -> bool {
-    let lower = name.to_lowercase();
-    PANELS.iter().any(|part| lower.contains(part))
+/// What a word of the trade says; one of few letters is none in a compound, and a stem has its ending where the compound ends.
+fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
+    let is_sign = word.chars().all(|c| c >= SIGNS);
+    let letters = word.chars().count();
+    if !is_whole && !is_sign && letters < LEAST_IN_COMPOUND {
+        return None;
+    }
+    let ends = [word.len()].into_iter().chain(word.char_indices().map(|(at, _)| at).rev().take(LONGEST_ENDING));
+    let stem = ends.filter(|_| is_last).find_map(|at| STEMS.get(&word[..at]).copied());
+    let (whole, stem) = (WORDS.get(word).copied(), stem);
+    whole.map(|named| named.and(stem.unwrap_or_default())).or(stem)
 }
 
-/// Whether the name of a sleeve says that it is the piece below the arm of a sleeve in two.
-#[must_use]
-pub fn is_under_sleeve(name: &str) -> bool {
-    let lower = name.to_lowercase();
-    UNDER.iter().any(|part| lower.contains(part))
-}
+/// Every word with what it says.
+static WORDS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(false));
+/// The same of stems.
+static STEMS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(true));
 
+fn lexicon(of_stems: bool) -> BTreeMap<&'static str, Named> {
+    let plain = Named::default();
+    let classes = CLASSES.iter().map(|(class, words)| (Named { class: Some(*class), ..plain }, *words));
+    let faces = FACES.iter().map(|(face, words)| (Named { face: Some(*face), ..plain }, *words));
+    let hands = HANDS.iter().map(|(hand, words)| (Named { hand: Some(*hand), ..plain }, *words));
+    let parts = PARTS.iter().map(|(part, words)| (Named { part: Some(*part), ..plain }, *words));
+    let mut all: BTreeMap<&str, Named> = BTreeMap::new();
+    for (named, words) in classes.chain(faces).chain(hands).chain(parts).chain([(plain, PLAIN)]) {
+        for word in words {
+            if word.ends_with('-') == of_stems {
+                let said = all.entry(word.trim_end_matches('-')).or_default();
+                *said = said.and(named);
+            }
+        }
+    }
+    all
+}
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,7 +183,7 @@ mod tests {
     #[test]
     fn names_of_many_languages_are_read() {
         let check = |name: &str, class: Option<Class>, face: Option<Face>, hand: Option<Hand>| {
-            assert_eq!(read(name), Named { class, face, hand }, "{name}");
+            assert_eq!(Named { part: None, ..read(name) }, Named { class, face, hand, part: None }, "{name}");
         };
         use Class::{Cuff, Leg, Other, Skirt, Sleeve, Waistband, Yoke};
         use Face::{Back, Front};
@@ -127,7 +228,7 @@ mod tests {
         check("?????", None, None, None);
         check("DETAIL", None, None, None);
         for (name, expect) in [("UNDERSLEEVE", true), ("Unterärmel", true), ("TOPSLEEVE", false), ("Sleeve", false)] {
-            assert_eq!(is_under_sleeve(name), expect, "{name}");
+            assert_eq!(read(name).part == Some(Part::Under), expect, "{name}");
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Fronts and backs that are cut lengthwise by princess seams: a part in the middle and one at either side.
 
 use super::align::{Alignment, LEAST_FIT, upright};
+use super::names::Named;
 use super::shape::Shape;
 use super::templates::Template;
-use super::{Class, Face, Label, names};
+use super::{Class, Face, Label};
 use crate::piece::Piece;
 
 /// A part of a front or back.
@@ -32,14 +33,10 @@ const UNLIKE: f64 = 0.08;
 /// What part each piece is, and `None` for a piece that is no part.
 ///
 /// Nothing is a part where a face has one piece, or where two pieces fit a whole front or back, or half of one, better.
-pub fn panels(pieces: &[Piece]) -> Vec<Option<Panel>> {
+pub fn panels(pieces: &[Piece], named: &[Named]) -> Vec<Option<Panel>> {
     let mut found = vec![None; pieces.len()];
     for face in Face::BOTH {
-        let is_of = |piece: &Piece| {
-            let named = names::read(piece.words());
-            named.class.is_none() && named.face == Some(face)
-        };
-        let of_face = (0..pieces.len()).filter(|&k| is_of(&pieces[k]));
+        let of_face = (0..pieces.len()).filter(|&k| named[k].class.is_none() && named[k].face == Some(face));
         let outlines: Vec<(usize, Shape)> = of_face.filter_map(|k| Some((k, Shape::of(&pieces[k])?))).collect();
         let pairs = outlines.iter().flat_map(|one| outlines.iter().map(move |other| [one, other]));
         let pairs = pairs.filter(|[one, other]| one.0 != other.0);

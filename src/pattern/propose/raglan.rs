@@ -1,18 +1,18 @@
 //! Raglan: sleeves that go up to the neck, and a trunk without shoulders.
 
+use super::Class;
 use super::align::{LEAST_FIT, upright};
+use super::names::Named;
 use super::shape::Shape;
 use super::templates::Template;
-use super::{Class, names};
 use crate::piece::Piece;
 
 /// Whether the sleeves may go up to the neck, the likelier first: fronts, backs and sleeves fit raglan templates better, all in
 /// all, than plain ones. Only plain ones where no sleeve fits a raglan one.
-pub fn ways(pieces: &[Piece]) -> &'static [bool] {
+pub fn ways(pieces: &[Piece], named: &[Named]) -> &'static [bool] {
     let mut gain = 0.0;
     let mut has_sleeve = false;
-    for piece in pieces {
-        let named = names::read(piece.words());
+    for (piece, named) in pieces.iter().zip(named) {
         let class = match (named.class, named.face) {
             (Some(Class::Sleeve), None) => Class::Sleeve,
             (None, Some(_)) => Class::Body,

@@ -3,16 +3,17 @@
 use super::align::{Alignment, LEAST_FIT, upright};
 use super::ask::Asker;
 use super::gore::{self, Cut};
+use super::names::{Named, Part};
 use super::panels::{self, Panel};
+use super::raglan;
 use super::shape::Shape;
 use super::templates::Template;
 use super::worn::reference;
 use super::{Class, Face, Hand, Label, ring};
-use super::{names, raglan};
 use crate::piece::Piece;
 
 /// Least fit of an outline that nothing else tells of.
-const LEAST_UNNAMED_FIT: f64 = 0.6;
+pub const LEAST_UNNAMED_FIT: f64 = 0.6;
 /// Kinds that have templates, in the order in which equal fits count.
 const CLASSES: [Class; 8] = [
     Class::Body,
@@ -29,14 +30,19 @@ const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, in units of the piece's longer side.
 const LEAST_DIFFERENCE: f64 = 0.01;
 
+/// Difference of waists that tells the front of a skirt from its back, m: an ease that nobody sews in by chance.
+const CLEAR_WAIST_M: f64 = 10e-3;
+/// The same where only one of the two is called front or back, m: the precision that outlines are drawn with.
+const ANY_WAIST_M: f64 = 0.1e-3;
+
 /// Area of a piece over that of the largest below which a nameless one is a detail: the sleeve of a T-shirt has a fifth, half of a child's
 /// one a tenth.
-const DETAIL_SHARE: f64 = 0.08;
+pub const DETAIL_SHARE: f64 = 0.08;
 
 /// Difference of the two inseams of a leg in one piece, share of the longer.
 const SAME_INSEAM: f64 = 0.03;
 /// How much better the outline must fit another kind of piece before a name is doubted.
-const CONTRADICTED: f64 = 0.25;
+pub const CONTRADICTED: f64 = 0.25;
 /// Confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
 const DOUBTED: f64 = 0.5;
 /// Difference of fit below which two kinds of piece are not told apart for sure.
@@ -65,6 +71,8 @@ pub struct Recognised {
     pub is_pair: bool,
     /// How it is cut as a gore of a skirt; `None` where it is no gore.
     pub gore: Option<Cut>,
+    /// Which part of its kind it is called.
+    pub part: Option<Part>,
 }
 
 /// What the other pieces of a file say of a piece.
@@ -96,12 +104,13 @@ pub struct Reading {
 impl Reading {
     /// The ways to read some pieces, the likeliest first. Bands and skirts are rectangles, and so is anything: without a name
     /// they are tried where sleeves leave something over.
-    pub fn ways(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool) -> Vec<Self> {
+    pub fn ways(pieces: &[Piece], named: &[Named]) -> Vec<Self> {
         let kinds: [&[Class]; 2] =
             [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
-        let is_nameless = |piece: &Piece| names::read(piece.words()) == names::Named::default() && !is_detail(piece);
-        let kinds = if pieces.iter().any(is_nameless) { &kinds[..] } else { &kinds[..1] };
-        let raglan = raglan::ways(pieces).iter();
+        let details = details(pieces, named);
+        let has_nameless = (0..pieces.len()).any(|k| named[k].is_nameless() && !details[k]);
+        let kinds = if has_nameless { &kinds[..] } else { &kinds[..1] };
+        let raglan = raglan::ways(pieces, named).iter();
         raglan.flat_map(|&is_raglan| kinds.iter().map(move |&nameless| Self { nameless, is_raglan })).collect()
     }
 }
@@ -115,44 +124,43 @@ struct Among {
     pair: Option<Class>,
 }
 
-/// Whether a drape does without a piece: its name or its material says so (a lining), or it has no name and is small.
-pub fn is_detail(piece: &Piece, largest_m2: f64) -> bool {
-    let named = names::read(piece.words());
-    let is_material = |(key, value): &(String, String)| {
-        key.eq_ignore_ascii_case("material") && names::read(value).class == Some(Class::Other)
+/// Which pieces a drape does without: those that are called details, and those without a name that are small.
+pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
+    let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
+    let is_detail = |(piece, named): (&Piece, &Named)| {
+        named.class == Some(Class::Other) || (named.is_nameless() && piece.area_m2() < DETAIL_SHARE * largest_m2)
     };
-    named.class == Some(Class::Other)
-        || piece.texts.iter().any(is_material)
-        || (named == names::Named::default() && piece.area_m2() < DETAIL_SHARE * largest_m2)
+    pieces.iter().zip(named).map(is_detail).collect()
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
 pub fn recognise(
     pieces: &[Piece],
-    is_detail: impl Fn(&Piece) -> bool,
+    named: &[Named],
     Reading { nameless, is_raglan }: Reading,
     asker: &mut Asker<'_>,
 ) -> Vec<Recognised> {
     let mut found: Vec<Recognised> = Vec::new();
-    let is_called = |piece: &Piece, class: Class| names::read(piece.words()).class == Some(class);
+    let is_called = |named: &Named, class: Class| named.class == Some(class);
     let [has_sleeve, has_yoke] =
-        [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
-    let (gores, panels) = (gore::gores(pieces), panels::panels(pieces));
-    let pair = class_of_pair(pieces, has_sleeve, is_raglan);
-    let is_leg_face = |piece: &Piece| is_called(piece, Class::Leg) && names::read(piece.words()).face.is_some();
-    let has_lone_leg = !pieces.iter().any(is_leg_face);
+        [Class::Sleeve, Class::Yoke].map(|class| named.iter().any(|named| is_called(named, class)));
+    let (gores, panels) = (gore::gores(pieces, named), panels::panels(pieces, named));
+    let pair = class_of_pair(pieces, named, has_sleeve, is_raglan);
+    let is_leg_face = |named: &Named| is_called(named, Class::Leg) && named.face.is_some();
+    let has_lone_leg = !named.iter().any(is_leg_face);
+    let details = details(pieces, named);
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
         let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan, has_lone_leg, nameless };
         for (index, piece) in pieces.iter().enumerate() {
-            if is_called(piece, Class::Yoke) == are_yokes && !is_detail(piece) {
-                let pair = pair.filter(|_| is_nameless_face(piece));
+            let named = named[index];
+            if is_called(&named, Class::Yoke) == are_yokes && !details[index] {
+                let pair = pair.filter(|_| is_nameless_face(named));
                 let among = Among { gore: gores[index], panel: panels[index], pair };
-                let named = names::read(piece.words());
                 let name = &reference(pieces, index);
                 found.extend(match recognise_one((index, name), piece, named, around, among, asker) {
                     Ok(recognised) => Some(recognised),
-                    Err(doubt) => ask_kind((index, name), piece, &doubt, around, among, asker),
+                    Err(doubt) => ask_kind((index, name), (piece, named), &doubt, around, among, asker),
                 });
             }
         }
@@ -162,8 +170,11 @@ pub fn recognise(
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
     }
+    for class in [Class::Body, Class::Leg] {
+        doubt_faces(class, pieces, named, &mut found, asker);
+    }
     tell_yoke_faces(&mut found);
-    tell_skirt_faces(&mut found);
+    tell_skirt_faces(pieces, named, &mut found, asker);
     let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
     for one in &mut found {
         // A single piece may go all round, as gores do.
@@ -181,18 +192,18 @@ pub fn recognise(
 }
 
 /// Whether a name says front or back, and nothing else.
-fn is_nameless_face(piece: &Piece) -> bool {
-    let named = names::read(piece.words());
+fn is_nameless_face(named: Named) -> bool {
     named.class.is_none() && named.face.is_some()
 }
 
 /// The kind of one front and one back whose names say no more: they are of one garment, so what fits both best.
-fn class_of_pair(pieces: &[Piece], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
-    let pair: Vec<&Piece> = pieces.iter().filter(|piece| is_nameless_face(piece)).collect();
+fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
+    let pair: Vec<usize> = (0..pieces.len()).filter(|&k| is_nameless_face(named[k])).collect();
     let [one, other] = pair[..] else { return None };
-    if names::read(one.words()).face == names::read(other.words()).face {
+    if named[one].face == named[other].face {
         return None;
     }
+    let [one, other] = [&pieces[one], &pieces[other]];
     let fit = |piece: &Piece, class: Class| {
         let is_one = |template: &Template| {
             let is_trunk =
@@ -226,14 +237,14 @@ const OFFERED: usize = 3;
 /// What a person says that a piece is which neither its name nor its outline tells; left out while nobody answers.
 fn ask_kind(
     (index, name): (usize, &str),
-    piece: &Piece,
+    (piece, named): (&Piece, Named),
     doubt: &str,
     around: Around,
     among: Among,
     asker: &mut Asker<'_>,
 ) -> Option<Recognised> {
     let as_kind = |(class, face): (Class, Option<Face>)| {
-        let named = names::Named { class: Some(class), face, ..names::read(piece.words()) };
+        let named = Named { class: Some(class), face, ..named };
         let read = recognise_one((index, name), piece, named, around, among, &mut asker.aside()).ok()?;
         let face = face.map_or_else(String::new, |face| format!("{face} of the "));
         Some((format!("{face}{}", class.as_str()), read))
@@ -256,7 +267,7 @@ fn ask_kind(
 fn recognise_one(
     (index, name): (usize, &str),
     piece: &Piece,
-    named: names::Named,
+    named: Named,
     around: Around,
     Among { gore, panel, pair }: Among,
     asker: &mut Asker<'_>,
@@ -304,6 +315,7 @@ fn recognise_one(
             rival: None,
             is_pair: false,
             gore,
+            part: named.part,
         });
     }
     // Front and back of a leg in one are called neither.
@@ -337,7 +349,7 @@ fn recognise_one(
             let (says, looks) = (alignment.template.class.as_str(), other.template.class.as_str());
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
             if asker.ask(text, [says, looks].map(|class| format!("a {class}")), Some(0)) == Some(1) {
-                let named = names::Named { class: Some(other.template.class), ..named };
+                let named = Named { class: Some(other.template.class), ..named };
                 return recognise_one((index, name), piece, named, around, Among { gore, panel, pair }, asker);
             }
             confidence *= DOUBTED;
@@ -354,6 +366,7 @@ fn recognise_one(
         rival,
         is_pair: false,
         gore,
+        part: named.part,
     })
 }
 
@@ -432,8 +445,48 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
     }
 }
 
-/// Tells the front of a skirt from its back, where nothing else does, by the waists of what they hang from.
-fn tell_skirt_faces(found: &mut [Recognised]) {
+/// Doubts front and back of two pieces of a kind that look like the other, of which a name calls one so. Where only one has a name for it
+/// the outlines hold, else the names.
+fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
+    let of_class: Vec<usize> =
+        (0..found.len()).filter(|&i| found[i].class == class && !is_whole_leg(&found[i])).collect();
+    let Some([front, back]) = front_and_back(found, &of_class) else { return };
+    if let (Some(a), Some(b)) = (frontness(&found[front]), frontness(&found[back]))
+        && b - a >= LEAST_DIFFERENCE
+    {
+        ask_faces([front, back], pieces, named, found, asker);
+    }
+}
+
+/// The front and the back of two pieces; `None` of more or fewer.
+fn front_and_back(found: &[Recognised], two: &[usize]) -> Option<[usize; 2]> {
+    let &[one, other] = two else { return None };
+    match [one, other].map(|i| found[i].face) {
+        [Some(Face::Front), Some(Face::Back)] => Some([one, other]),
+        [Some(Face::Back), Some(Face::Front)] => Some([other, one]),
+        _ => None,
+    }
+}
+
+/// Asks whether a front and a back are the other way round, if a name says what they are; then they are.
+fn ask_faces(pair: [usize; 2], pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
+    let called: Vec<usize> = pair.into_iter().filter(|&i| named[found[i].piece].face.is_some()).collect();
+    let Some(&asked) = called.first() else { return };
+    let Some(says) = found[asked].face else { return };
+    let looks = says.other();
+    let name = reference(pieces, found[asked].piece);
+    let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
+    let stands = usize::from(called.len() == 1);
+    if asker.ask(text, [says, looks].map(|face| format!("a {face}")), Some(stands)) == Some(1) {
+        for index in pair {
+            found[index].face = found[index].face.map(Face::other);
+            found[index].confidence *= COMPARED;
+        }
+    }
+}
+
+/// Tells the front of a skirt from its back by the waists of what they hang from, where nothing else does.
+fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let of = |face: Face| {
         let is_it = |one: &&Recognised| one.class == Class::Body && one.face == Some(face);
         Some(length_m(found.iter().find(is_it)?, Label::Hem))
@@ -441,16 +494,41 @@ fn tell_skirt_faces(found: &mut [Recognised]) {
     let skirts: Vec<usize> =
         (0..found.len()).filter(|&i| found[i].class == Class::Skirt && found[i].gore.is_none()).collect();
     let &[one, other] = skirts.as_slice() else { return };
-    let (Some(front), Some(back)) = (of(Face::Front), of(Face::Back)) else { return };
-    if found[one].face.is_some() || found[other].face.is_some() {
-        return;
-    }
+    let waists = of(Face::Front).zip(of(Face::Back));
     let waist = |i: usize| length_m(&found[i], Label::Waist);
-    let apart = |a: usize, b: usize| (waist(a) - front).abs() + (waist(b) - back).abs();
-    let order = if apart(other, one) < apart(one, other) { [other, one] } else { [one, other] };
-    for (index, face) in order.into_iter().zip(Face::BOTH) {
-        found[index].face = Some(face);
-        found[index].confidence *= COMPARED;
+    let apart = |a: usize, b: usize| waists.map(|(front, back)| (waist(a) - front).abs() + (waist(b) - back).abs());
+    let [straight, turned] = [apart(one, other), apart(other, one)];
+    match [one, other].map(|i| found[i].face) {
+        [None, None] => {
+            let (Some(straight), Some(turned)) = (straight, turned) else { return };
+            let order = if turned < straight { [other, one] } else { [one, other] };
+            for (index, face) in order.into_iter().zip(Face::BOTH) {
+                found[index].face = Some(face);
+                found[index].confidence *= COMPARED;
+            }
+            return;
+        }
+        [Some(face), None] => found[other].face = Some(face.other()),
+        [None, Some(face)] => found[one].face = Some(face.other()),
+        _ => {}
+    }
+    let Some([front, back]) = front_and_back(found, &skirts) else { return };
+    let (as_named, otherwise) = if front == one { (straight, turned) } else { (turned, straight) };
+    let are_called = skirts.iter().all(|&i| named[found[i].piece].face.is_some());
+    let least = if are_called { CLEAR_WAIST_M } else { ANY_WAIST_M };
+    let Some((as_named, otherwise)) = as_named.zip(otherwise) else { return };
+    if as_named > otherwise + least {
+        ask_faces([front, back], pieces, named, found, asker);
+    } else if !are_called && as_named > otherwise - least {
+        // One name alone tells both apart.
+        let Some(&called) = [front, back].iter().find(|&&i| named[found[i].piece].face.is_some()) else { return };
+        let text = format!("is piece `{}` a front or a back?", reference(pieces, found[called].piece));
+        let says = usize::from(found[called].face == Some(Face::Back));
+        if asker.ask(text, ["a front", "a back"], Some(says)).is_some_and(|choice| choice != says) {
+            for index in [front, back] {
+                found[index].face = found[index].face.map(Face::other);
+            }
+        }
     }
 }
 

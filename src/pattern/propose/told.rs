@@ -1,9 +1,10 @@
-//! What a file says of its pieces beside their names: categories and other texts, and the letters that a style number ends in.
+//! What a file says of its pieces: by their names, and beside them by categories and other texts.
 //!
-//! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`. What all names have in common tells nothing of any piece.
-//! What is left is a word, or one of the trade's abbreviations.
+//! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`, and those of `PALAZZO` `PALAZZO FRONT`, `PALAZZO BACK`. What all
+//! names have in common tells nothing of any piece. What is left is a word, or one of the trade's abbreviations.
 
-use super::{Class, Face, names};
+use super::names::{self, Named};
+use super::{Class, Face, Hand};
 use crate::piece::Piece;
 
 /// Keys of texts that say what a piece is, in lower case.
@@ -30,60 +31,177 @@ const ABBREVIATIONS: [(&str, &[&str]); 12] = [
 /// Letters that a word of several runs into its style's name with (`RUNNERBK`), longest first.
 const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
 
-/// Pieces with what the file says of each.
-pub fn told(pieces: &[Piece]) -> Vec<Piece> {
-    let common = common_start(pieces);
-    let rest = |piece: &Piece| piece.name.get(common..).unwrap_or_default().to_owned();
-    let is_kind = |name: &str| names::read(name).class.is_some();
-    let tells_kind = |rest: &str| is_kind(rest) || written_out(rest).is_some_and(|words| is_kind(&words));
-    // A word that all names begin with, as a style called by its waistband has it, tells nothing where the rest of a name does.
-    let is_of_style = pieces.first().is_some_and(|piece| is_kind(piece.name.get(..common).unwrap_or_default()))
-        && pieces.iter().any(|piece| tells_kind(&rest(piece)));
-    let said = |piece: &Piece| -> String {
-        let texts = |keys: &'static [&str]| {
-            let of_keys = piece.texts.iter().filter(move |(key, _)| keys.contains(&key.to_lowercase().as_str()));
-            of_keys.map(|(_, value)| value.as_str())
-        };
-        let tells = |text: &&str| {
-            let named = names::read(text);
-            named.class.is_some() || named.face.is_some()
-        };
-        let is_plain = |text: &&str| tells(text) && names::read(text).class != Some(Class::Other);
-        let own = texts(&KEYS).find(tells).or_else(|| texts(&REMARKS).find(is_plain));
-        // A name that says the kind says it best; a category may be that of a library.
-        match own {
-            _ if is_of_style && is_kind(&rest(piece)) => rest(piece),
-            _ if !is_of_style && is_kind(&piece.name) => piece.name.clone(),
-            // The same text beside fronts and backs was copied: the letters of the name go before it.
-            Some(text) if is_copied(pieces, text, &|other| face_of(&rest(other))) => {
-                written_out(&rest(piece)).unwrap_or_else(|| completed(text, &piece.name))
-            }
-            Some(text) => completed(text, &piece.name),
-            None if !is_of_style && tells(&piece.name.as_str()) => piece.name.clone(),
-            None => written_out(&rest(piece)).unwrap_or_else(|| piece.name.clone()),
-        }
-    };
-    pieces.iter().map(|piece| Piece { told: said(piece), ..piece.clone() }).collect()
+/// What is said of a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Told {
+    /// What its own name and texts say.
+    pub own: Named,
+    /// What the words say that all pieces of the file have in common: of the style, if of anything.
+    pub shared: Named,
 }
 
-/// Front or back, as what is left of a name says.
-fn face_of(rest: &str) -> Option<Face> {
-    names::read(&written_out(rest).unwrap_or_else(|| rest.to_owned())).face
+impl Told {
+    /// What is said of it all in all.
+    pub fn all(self) -> Named {
+        let (own, shared) = (self.own, self.shared);
+        Named {
+            class: own.class.or(shared.class),
+            face: own.face.or(shared.face),
+            hand: own.hand.or(shared.hand),
+            part: own.part.or(shared.part),
+        }
+    }
+}
+
+/// What a file says of each of its pieces.
+pub fn told(pieces: &[Piece]) -> Vec<Told> {
+    let (words, of_style) = words_of(pieces);
+    let (own, common) = parted(&words);
+    let common_text = |text: &str| pieces.len() > 1 && pieces.iter().all(|piece| has_text(piece, text));
+    let common_texts = pieces.first().into_iter().flat_map(|piece| texts(piece, &KEYS));
+    let common_texts = common_texts.filter(|text| common_text(text)).map(names::read);
+    let shared = common_texts.fold(read(&common, false), |said, text| if said.is_nameless() { text } else { said });
+    let is_kind_known = shared.class.is_some();
+    let start = common_start(pieces);
+    let rest = |piece: &Piece| written_out(piece.name.get(start..).unwrap_or_default());
+    let by_name: Vec<Named> = own.iter().map(|words| read(words, is_kind_known)).collect();
+    let face = |k: usize| by_name[k].face.or_else(|| rest(&pieces[k])?.face);
+    let own_of = |(k, piece): (usize, &Piece)| -> Named {
+        let named = by_name[k];
+        // A name that says the kind says it best; a category may be that of a library.
+        if named.class.is_some() {
+            return lined(pieces, piece, named);
+        }
+        let tells = |text: &&str| {
+            let said = names::read(text);
+            !common_text(text) && (said.class.is_some() || said.face.is_some())
+        };
+        let is_plain = |text: &&str| tells(text) && names::read(text).class != Some(Class::Other);
+        let text = texts(piece, &KEYS).find(tells).or_else(|| texts(piece, &REMARKS).find(is_plain));
+        let over = |first: Named| Named {
+            class: first.class,
+            face: first.face.or(named.face),
+            hand: first.hand.or(named.hand),
+            part: named.part.or(first.part),
+        };
+        let said = match text {
+            // The same text beside fronts and backs was copied: the letters of the name go before it.
+            Some(text) if is_copied(pieces, text, &face) => over(rest(piece).unwrap_or_else(|| names::read(text))),
+            Some(text) => over(names::read(text)),
+            None if named.face.is_some() => named,
+            None => rest(piece).map_or(named, over),
+        };
+        lined(pieces, piece, said)
+    };
+    let own: Vec<Named> = pieces.iter().enumerate().map(own_of).collect();
+    let shared_by = |style: &Vec<String>| shared_of(shared.and(read(style, false)), &own);
+    own.iter().zip(&of_style).map(|(&own, style)| Told { own, shared: shared_by(style) }).collect()
+}
+
+/// What of the words that all pieces share may hold for one of them. Where names say more than their number, it is a kind of garment with
+/// nothing but its bands: a skirt has no sleeves, and a shirt with short sleeves has other pieces too.
+fn shared_of(shared: Named, own: &[Named]) -> Named {
+    let is_garment = matches!(shared.class, Some(Class::Leg | Class::Skirt));
+    let goes_with = |own: &Named| match own.class {
+        None => true,
+        Some(Class::Yoke | Class::Waistband | Class::Other) => is_garment,
+        class => is_garment && class == shared.class,
+    };
+    let class = shared.class.filter(|_| own.iter().all(goes_with));
+    if own.iter().any(|own| own.class.is_some() || own.face.is_some()) {
+        Named { class: class.filter(|&class| class != Class::Other), face: None, hand: None, part: shared.part }
+    } else {
+        shared
+    }
+}
+
+/// What is said of a piece, as a lining where its material says so and that of others does not.
+fn lined(pieces: &[Piece], piece: &Piece, said: Named) -> Named {
+    let is_lining = |piece: &Piece| {
+        let materials = piece.texts.iter().filter(|(key, _)| key.eq_ignore_ascii_case("material"));
+        materials.map(|(_, value)| names::read(value)).any(|said| said.class == Some(Class::Other))
+    };
+    let is_one = is_lining(piece) && (pieces.len() == 1 || !pieces.iter().all(is_lining));
+    if is_one { Named { class: Some(Class::Other), ..said } } else { said }
+}
+
+fn texts<'p>(piece: &'p Piece, keys: &'static [&str]) -> impl Iterator<Item = &'p str> {
+    let of_keys = piece.texts.iter().filter(move |(key, _)| keys.contains(&key.to_lowercase().as_str()));
+    of_keys.map(|(_, value)| value.as_str())
+}
+
+fn has_text(piece: &Piece, text: &str) -> bool {
+    piece.texts.iter().any(|(_, value)| value == text)
 }
 
 /// Whether pieces whose names say front and back have the same text, which says one of them.
-fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(&Piece) -> Option<Face>) -> bool {
-    let has = |piece: &&Piece| piece.texts.iter().any(|(_, value)| value == text);
-    let says = |wanted: Face| pieces.iter().filter(has).any(|piece| face(piece) == Some(wanted));
+fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(usize) -> Option<Face>) -> bool {
+    let says = |wanted: Face| (0..pieces.len()).any(|k| has_text(&pieces[k], text) && face(k) == Some(wanted));
     names::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
 }
 
-/// A text, with front or back and the side of the wearer where only the name gives them.
-fn completed(text: &str, name: &str) -> String {
-    let (said, named) = (names::read(text), names::read(name));
-    let face = named.face.filter(|_| said.face.is_none()).map(|face| face.to_string());
-    let hand = named.hand.filter(|_| said.hand.is_none()).map(|hand| hand.to_string());
-    [Some(text.to_owned()), face, hand].into_iter().flatten().collect::<Vec<_>>().join(" ")
+fn read(words: &[String], is_kind_known: bool) -> Named {
+    names::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
+}
+
+/// The words of every name, without the name of the style and of the size as the file has them, and which of those say a kind.
+fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
+    let names: Vec<Vec<String>> = pieces.iter().map(|piece| names::words(&piece.name)).collect();
+    let names: Vec<Vec<String>> = names.iter().map(|words| loosened(words, &names)).collect();
+    let hands: Vec<Hand> = names.iter().flatten().filter_map(|word| names::word_of(word)?.hand).collect();
+    let is_pair = Hand::BOTH.into_iter().all(|hand| hands.contains(&hand));
+    let without = |(piece, mut words): (&Piece, Vec<String>)| {
+        let mut of_style: Vec<String> = Vec::new();
+        for text in &piece.garment {
+            let said = names::words(text);
+            let at = words.windows(said.len().max(1)).position(|found| found == said);
+            // Right and left are no sizes.
+            let is_hand =
+                is_pair && said.iter().any(|word| names::word_of(word).is_some_and(|said| said.hand.is_some()));
+            if let Some(at) = at.filter(|_| !said.is_empty() && said.len() < words.len() && !is_hand) {
+                let is_kind = |word: &String| names::word_of(word).is_some_and(|said| said.class.is_some());
+                of_style.extend(words.drain(at..at + said.len()).filter(is_kind));
+            }
+        }
+        (words, of_style)
+    };
+    pieces.iter().zip(names).map(without).unzip()
+}
+
+/// Words cut where the name of a style runs into one of the trade's: where what stands before that is a word of another piece's name, or
+/// runs into another of the trade's there (`TEAGANFRONT` beside `TEAGANBACK`).
+fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
+    let is_of_trade = |part: &str| names::word_of(part).is_some();
+    let is_style = |part: &str, word: &String| {
+        let others = names.iter().flatten().filter(|other| *other != word);
+        others.filter_map(|other| other.strip_prefix(part)).any(|rest| rest.is_empty() || is_of_trade(rest))
+    };
+    let cut = |word: &String| -> Option<[String; 2]> {
+        let mut places = word.char_indices().skip(1).map(|(at, _)| word.split_at(at)).filter(|_| !is_of_trade(word));
+        let (style, rest) = places.find(|(style, rest)| is_of_trade(rest) && is_style(style, word))?;
+        Some([style, rest].map(str::to_owned))
+    };
+    words.iter().flat_map(|word| cut(word).map_or_else(|| vec![word.clone()], Vec::from)).collect()
+}
+
+/// The words of each name that not all of them have, and those that all have.
+fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
+    let mut own = names.to_vec();
+    let mut common: Vec<String> = Vec::new();
+    if names.len() > 1 {
+        for word in &names[0] {
+            if own.iter().all(|words| words.contains(word)) {
+                for words in &mut own {
+                    // Of a word that comes twice the first is the style's.
+                    if let Some(at) = words.iter().position(|other| other == word) {
+                        words.remove(at);
+                    }
+                }
+                common.push(word.clone());
+            }
+        }
+    }
+    (own, common)
 }
 
 /// Bytes that all names begin with.
@@ -97,47 +215,81 @@ fn common_start(pieces: &[Piece]) -> usize {
     names.map(shared).min().unwrap_or(0)
 }
 
-/// What is left of a name with its abbreviations written out; `None` where it has none.
-fn written_out(rest: &str) -> Option<String> {
-    let lower = rest.to_lowercase();
-    let words = || lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+/// What the abbreviations in what is left of a name say; `None` where it has none.
+fn written_out(rest: &str) -> Option<Named> {
+    let words = names::words(rest);
     let whole = |word: &str| ABBREVIATIONS.iter().find(|(_, short)| short.contains(&word)).map(|(long, _)| *long);
     let ending = |word: &str| {
         ENDINGS.iter().find(|(_, endings)| endings.iter().any(|ending| word.ends_with(ending))).map(|(long, _)| *long)
     };
-    let exact: Vec<&str> = words().filter_map(whole).collect();
-    let found: Vec<&str> = if exact.is_empty() { words().filter_map(ending).take(1).collect() } else { exact };
-    (!found.is_empty()).then(|| found.join(" "))
+    let exact: Vec<&str> = words.iter().filter_map(|word| whole(word)).collect();
+    let found = if exact.is_empty() { words.iter().filter_map(|word| ending(word)).take(1).collect() } else { exact };
+    (!found.is_empty()).then(|| names::read_words(&found, false))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn all(pieces: &[Piece]) -> Vec<Named> {
+        told(pieces).into_iter().map(Told::all).collect()
+    }
+
+    fn called(name: &str) -> Piece {
+        Piece { name: name.to_owned(), ..Piece::default() }
+    }
+
     #[test]
-    fn letters_after_a_style_number_say_what_a_piece_is() {
+    fn what_is_left_of_a_name_says_what_a_piece_is() {
         let check = |names: &[&str], expect: &[&str]| {
-            let pieces: Vec<Piece> =
-                names.iter().map(|name| Piece { name: (*name).to_owned(), ..Piece::default() }).collect();
-            let found: Vec<String> = told(&pieces).into_iter().map(|piece| piece.told).collect();
-            assert_eq!(found, expect);
+            let pieces: Vec<Piece> = names.iter().map(|name| called(name)).collect();
+            assert_eq!(all(&pieces), expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
         check(&["AB12XFR", "AB12XBK", "AB12XSL"], &["front", "back", "sleeve"]);
-        check(&["Z-1 FRT", "Z-1 BCK V2", "Z-1 WB"], &["front", "back", "Z-1 WB"]);
+        check(&["Z-1 FRT", "Z-1 BCK V2", "Z-1 WB"], &["front", "back", "waistband"]);
         check(&["SLEEK RUN FR", "SLEEK RUNNERBK"], &["front", "back"]);
-        check(&["VORDERTEIL", "RUECKENTEIL"], &["VORDERTEIL", "RUECKENTEIL"]);
-        check(&["X9-1", "X9-2"], &["X9-1", "X9-2"]);
-        check(&["LEGGING WB WB", "LEGGING WB LL"], &["WB", "leg"]);
-        check(&["SLEEVE F", "SLEEVE B"], &["SLEEVE F", "SLEEVE B"]);
-        check(&["FRONT"], &["FRONT"]);
+        check(&["VORDERTEIL", "RUECKENTEIL"], &["front", "back"]);
+        check(&["X9-1", "X9-2"], &["", ""]);
+        check(&["LEGGING WB WB", "LEGGING WB LL"], &["waistband", "leg"]);
+        check(&["SLEEVE F", "SLEEVE B"], &["sleeve front", "sleeve back"]);
+        check(&["FRONT"], &["front"]);
+        // The style's name before, behind, run into the word, and like a word of the trade.
+        check(&["PALAZZO FRONT", "PALAZZO BACK"], &["front", "back"]);
+        check(&["FRONT FROCK 38", "BACK FROCK 38"], &["front", "back"]);
+        check(&["TEAGANFRONT", "TEAGANBACK", "TEAGAN POCKET"], &["front", "back", "pocket"]);
+        check(&["BACK BACK", "BACK FRONT"], &["back", "front"]);
+        check(&["SHORT SLEEVE FRONT", "SHORT SLEEVE COLLAR"], &["front", "collar"]);
+        check(&["SKIRT FRONT", "SKIRT BACK"], &["skirt front", "skirt back"]);
+        check(&["FRONT_L", "BACK_L", "SLEEVE_L"], &["front", "back", "sleeve"]);
+        check(&["\u{590f}\u{5b63}\u{524d}\u{7247}", "\u{590f}\u{5b63}\u{540e}\u{7247}"], &["front", "back"]);
+    }
+
+    #[test]
+    fn the_name_of_the_style_and_the_size_are_no_name_of_a_piece() {
+        let check = |names: &[&str], garment: &[&str], expect: &[&str]| {
+            let garment: Vec<String> = garment.iter().map(|text| (*text).to_owned()).collect();
+            let pieces: Vec<Piece> =
+                names.iter().map(|name| Piece { garment: garment.clone(), ..called(name) }).collect();
+            let own: Vec<Named> = told(&pieces).into_iter().map(|told| told.own).collect();
+            assert_eq!(own, expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
+        };
+        check(&["ROCK AND ROLL FRONT", "COLLAR"], &["Rock and Roll"], &["front", "collar"]);
+        check(&["FRONT L", "COLLAR"], &["L"], &["front", "collar"]);
+        check(&["FRONT L", "FRONT R", "COLLAR"], &["L"], &["front left", "front right", "collar"]);
+        check(&["FRONT", "BACK"], &["FRONT"], &["front", "back"]);
+        let skirt = ["SKIRT FRONT", "SKIRT BACK", "BAND"];
+        check(&skirt, &["Skirt"], &["front", "back", ""]);
+        let of_style = |name: &&str| Piece { garment: vec!["Skirt".to_owned()], ..called(name) };
+        let all = all(&skirt.iter().map(of_style).collect::<Vec<_>>());
+        let classes: Vec<Option<Class>> = all.iter().map(|named| named.class).collect();
+        assert_eq!(classes, [Some(Class::Skirt), Some(Class::Skirt), None], "what is called a skirt is one");
     }
 
     #[test]
     fn a_category_says_what_a_name_does_not() {
         let check = |name: &str, category: &str, expect: &str| {
             let texts = vec![("Category".to_owned(), category.to_owned())];
-            let piece = Piece { name: name.to_owned(), texts, ..Piece::default() };
-            assert_eq!(told(&[piece])[0].told, expect);
+            assert_eq!(all(&[Piece { texts, ..called(name) }]), [names::read(expect)], "{name}");
         };
         check("A1_LEFT", "SLEEVE SHORT", "SLEEVE SHORT left");
         check("BACK 2", "SLEEVE", "SLEEVE back");
@@ -147,28 +299,33 @@ mod tests {
 
     #[test]
     fn a_category_that_was_copied_goes_behind_the_names() {
-        let piece = |name: &str| Piece {
-            name: name.to_owned(),
-            texts: vec![("CATEGORY".to_owned(), "FRONT".to_owned())],
-            ..Piece::default()
+        let piece = |name: &str| Piece { texts: vec![("CATEGORY".to_owned(), "FRONT".to_owned())], ..called(name) };
+        let check = |names: &[&str], expect: &[&str]| {
+            let pieces: Vec<Piece> = names.iter().map(|name| piece(name)).collect();
+            assert_eq!(all(&pieces), expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
-        let check = |names: [&str; 2], expect: [&str; 2]| {
-            let found: Vec<String> = told(&names.map(piece)).into_iter().map(|piece| piece.told).collect();
-            assert_eq!(found, expect);
-        };
-        check(["AB12_FR", "AB12_BK"], ["front", "back"]);
-        check(["AB12_1", "AB12_2"], ["FRONT", "FRONT"]);
+        check(&["AB12_FR", "AB12_BK"], &["front", "back"]);
+        check(&["AB12_1", "AB12_2"], &["front", "front"]);
     }
 
     #[test]
     fn how_to_cut_a_piece_makes_no_lining_of_it() {
         let text = |key: &str, value: &str| (key.to_owned(), value.to_owned());
         let texts = vec![text("Annotation", "CUT 2 FABRIC, CUT 2 LINING"), text("Category", "FRONT")];
-        let piece = Piece { name: "A1".to_owned(), texts, ..Piece::default() };
-        assert_eq!(told(&[piece])[0].told, "FRONT");
-        let piece =
-            |remark: &str| Piece { name: "A1".to_owned(), texts: vec![text("Annotation", remark)], ..Piece::default() };
-        assert_eq!(told(&[piece("SLEEVE X2")])[0].told, "SLEEVE X2");
-        assert_eq!(told(&[piece("cut 1 lining")])[0].told, "A1");
+        let with = |texts: Vec<(String, String)>| all(&[Piece { texts, ..called("A1") }])[0];
+        assert_eq!(with(texts), names::read("FRONT"));
+        assert_eq!(with(vec![text("Annotation", "SLEEVE X2")]), names::read("SLEEVE"));
+        assert_eq!(with(vec![text("Annotation", "cut 1 lining")]), Named::default());
+    }
+
+    #[test]
+    fn a_material_that_all_pieces_have_makes_no_linings() {
+        let piece = |name: &str, material: &str| Piece {
+            texts: vec![("Material".to_owned(), material.to_owned())],
+            ..called(name)
+        };
+        let classes = |pieces: &[Piece]| all(pieces).iter().map(|named| named.class).collect::<Vec<_>>();
+        assert_eq!(classes(&[piece("FRONT", "Loop terry"), piece("BACK", "Loop terry")]), [None, None]);
+        assert_eq!(classes(&[piece("FRONT", "Twill"), piece("BACK", "Lining")]), [None, Some(Class::Other)]);
     }
 }

@@ -1,6 +1,7 @@
 //! What of a proposal can be draped with nobody to ask: pieces that are not sewn for sure are left out, and what is left must
 //! be closed on the body.
 
+use super::worn::Worn;
 use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
 
 /// Least confidence of a seam that is sewn with nobody to ask.
@@ -103,90 +104,94 @@ impl Proposal {
             missing.push("no seams were found".to_owned());
             return missing;
         }
-        let needed = self.needed();
-        let not_sewn = needed.iter().filter(|kind| !self.seams.iter().any(|seam| seam.kind == **kind));
-        missing.extend(not_sewn.map(|kind| format!("the seam {kind} was not found")));
-        missing.extend(self.apart());
+        missing.extend(lacking(&self.worn, &self.seams));
         missing
     }
+}
 
-    /// Seams without which what is worn is not closed.
-    fn needed(&self) -> Vec<SeamKind> {
-        let has = |class: Class| self.worn.iter().any(|one| one.class == class);
-        let has_edge = |label: Label| self.worn.iter().any(|one| one.has(label));
-        let has_shoulder = has_edge(Label::Shoulder);
-        // Nothing else joins front and back of a raglan at the top.
-        let is_raglan = !has_shoulder && has(Class::Body) && has_edge(Label::Neck);
-        let skirts_round = self.worn.iter().filter(|one| one.class == Class::Skirt && one.face.is_none()).count();
-        let mut needed = Vec::new();
-        for hand in Hand::BOTH {
-            if has(Class::Body) {
-                needed.push(SeamKind::Side(hand));
-                if is_raglan {
-                    needed.extend(Face::BOTH.map(|face| SeamKind::Raglan(face, hand)));
-                }
-                if has_shoulder {
-                    needed.push(SeamKind::Shoulder(hand));
-                }
-            }
-            if has(Class::Leg) {
-                needed.push(SeamKind::Inseam(hand));
-            }
-            if has_edge(Label::Outseam) {
-                needed.push(SeamKind::Outseam(hand));
-            }
-            if has(Class::Skirt) && skirts_round == 0 {
-                needed.push(SeamKind::SkirtSide(hand));
-            }
-        }
-        match skirts_round {
-            0 => {}
-            1 => needed.push(SeamKind::SkirtRound),
-            gores => needed.extend((1..=gores).map(SeamKind::Gore)),
-        }
-        needed.extend(Face::BOTH.into_iter().flat_map(|face| self.needed_of(face)));
-        needed
-    }
+/// What keeps pieces from being closed on the body: seams that were not found, and a piece that nothing is sewn to.
+pub fn lacking(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
+    let needed = needed(worn);
+    let not_sewn = needed.iter().filter(|kind| !seams.iter().any(|seam| seam.kind == **kind));
+    not_sewn.map(|kind| format!("the seam {kind} was not found")).chain(apart(worn, seams)).collect()
+}
 
-    /// The same, of one face alone.
-    fn needed_of(&self, face: Face) -> Vec<SeamKind> {
-        let of = |class: Class| self.worn.iter().filter(move |one| one.class == class && one.face == Some(face));
-        let mut needed = Vec::new();
-        if of(Class::Body).any(|one| one.has(Label::Top)) {
-            needed.push(SeamKind::Yoke(face));
+/// Seams without which what is worn is not closed.
+fn needed(worn: &[Worn]) -> Vec<SeamKind> {
+    let has = |class: Class| worn.iter().any(|one| one.class == class);
+    let has_edge = |label: Label| worn.iter().any(|one| one.has(label));
+    let has_shoulder = has_edge(Label::Shoulder);
+    // Nothing else joins front and back of a raglan at the top.
+    let is_raglan = !has_shoulder && has(Class::Body) && has_edge(Label::Neck);
+    let skirts_round = worn.iter().filter(|one| one.class == Class::Skirt && one.face.is_none()).count();
+    let mut needed = Vec::new();
+    for hand in Hand::BOTH {
+        if has(Class::Body) {
+            needed.push(SeamKind::Side(hand));
+            if is_raglan {
+                needed.extend(Face::BOTH.map(|face| SeamKind::Raglan(face, hand)));
+            }
+            if has_shoulder {
+                needed.push(SeamKind::Shoulder(hand));
+            }
         }
-        if of(Class::Leg).count() > 0 || self.worn.iter().any(|one| one.class == Class::Leg && one.is_whole) {
-            needed.push(SeamKind::Crotch(face));
+        if has(Class::Leg) {
+            needed.push(SeamKind::Inseam(hand));
         }
-        if of(Class::SidePanel).count() > 0 {
-            needed.extend(Hand::BOTH.map(|hand| SeamKind::Princess(face, hand)));
+        if has_edge(Label::Outseam) {
+            needed.push(SeamKind::Outseam(hand));
         }
-        if of(Class::Body).count() > 1 {
-            needed.push(SeamKind::Centre(face));
+        if has(Class::Skirt) && skirts_round == 0 {
+            needed.push(SeamKind::SkirtSide(hand));
         }
-        if of(Class::Skirt).count() > 1 {
-            needed.push(SeamKind::SkirtCentre(face));
-        }
-        needed
     }
+    match skirts_round {
+        0 => {}
+        1 => needed.push(SeamKind::SkirtRound),
+        gores => needed.extend((1..=gores).map(SeamKind::Gore)),
+    }
+    needed.extend(Face::BOTH.into_iter().flat_map(|face| needed_of(worn, face)));
+    needed
+}
 
-    /// A piece that no seam, over however many others, joins to the first.
-    fn apart(&self) -> Option<String> {
-        let mut joined: Vec<&str> = self.worn.first().map(|one| one.id.as_str()).into_iter().collect();
-        let mut at = 0;
-        while let Some(&id) = joined.get(at) {
-            for seam in self.seams.iter().filter(|seam| touches(seam, id)) {
-                for other in ids(seam) {
-                    if !joined.contains(&other) {
-                        joined.push(other);
-                    }
+/// The same, of one face alone.
+fn needed_of(worn: &[Worn], face: Face) -> Vec<SeamKind> {
+    let of = |class: Class| worn.iter().filter(move |one| one.class == class && one.face == Some(face));
+    let mut needed = Vec::new();
+    if of(Class::Body).any(|one| one.has(Label::Top)) {
+        needed.push(SeamKind::Yoke(face));
+    }
+    if of(Class::Leg).count() > 0 || worn.iter().any(|one| one.class == Class::Leg && one.is_whole) {
+        needed.push(SeamKind::Crotch(face));
+    }
+    if of(Class::SidePanel).count() > 0 {
+        needed.extend(Hand::BOTH.map(|hand| SeamKind::Princess(face, hand)));
+    }
+    if of(Class::Body).count() > 1 {
+        needed.push(SeamKind::Centre(face));
+    }
+    if of(Class::Skirt).count() > 1 {
+        needed.push(SeamKind::SkirtCentre(face));
+    }
+    needed
+}
+
+/// A piece that no seam, over however many others, joins to the first.
+fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
+    let mut joined: Vec<&str> = worn.first().map(|one| one.id.as_str()).into_iter().collect();
+    let mut at = 0;
+    while let Some(&id) = joined.get(at) {
+        for seam in seams.iter().filter(|seam| touches(seam, id)) {
+            for other in ids(seam) {
+                if !joined.contains(&other) {
+                    joined.push(other);
                 }
             }
-            at += 1;
         }
-        let apart = &self.worn.iter().find(|one| !joined.contains(&one.id.as_str()))?.id;
-        Some(format!("no seam joins {apart} to {}", joined.first()?))
+        at += 1;
     }
+    let apart = &worn.iter().find(|one| !joined.contains(&one.id.as_str()))?.id;
+    Some(format!("no seam joins {apart} to {}", joined.first()?))
 }
 
 /// Whether a seam is sewn with nobody to ask. Two halves that are each other's mirror image are closed in the middle, be that a

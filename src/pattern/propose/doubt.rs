@@ -1,0 +1,230 @@
+//! Names that outlines and seams contradict: what a name says stands as long as the garment is not sewn better without it.
+//!
+//! A word may be of the trade by chance: a T-shirt called `ROCK` is no German skirt. So where a piece looks like another kind than it is
+//! called, the garment is sewn both ways, and the surer one is taken. What a piece's own name says is asked about then; what all names of
+//! the file have in common is the style's, and is passed over.
+
+use super::align::upright;
+use super::ask::Asker;
+use super::names::Named;
+use super::recognise::{CONTRADICTED, DETAIL_SHARE, LEAST_UNNAMED_FIT, Reading};
+use super::shape::Shape;
+use super::templates::Template;
+use super::told::Told;
+use super::{Class, Face, Hand, ProposedSeam, Sewn, best_sewn};
+use crate::piece::Piece;
+
+/// Kinds that have a shape of their own, and so can contradict a name; bands and skirts are rectangles, as anything is.
+const SHAPED: [Class; 3] = [Class::Body, Class::Leg, Class::Sleeve];
+/// Gain in the sum of confidences, less one for each seam that lacks, for which what names say is set aside: half a seam. Without their
+/// names pieces are less sure anyway.
+const LEAST_GAIN: f64 = 0.5;
+/// Loss in the sum of confidences for which what a name says is not doubted any more.
+const NO_LOSS: f64 = 0.05;
+/// How much better the outline fits another kind than all names of the file say before that is doubted; less than of a piece's own name.
+const SHARED_MARGIN: f64 = 0.1;
+/// Least confidence of the seams of a piece that is what it is called.
+const WELL_SEWN: f64 = 0.5;
+
+/// What a name says that may not hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Says {
+    /// The kind of piece, though it looks like this one.
+    Class(Class),
+    /// Front or back, though it looks like a sleeve or no piece is called the other.
+    Face,
+    /// Side of the wearer, though no piece is called the other.
+    Hand,
+}
+
+/// What may not hold of the names of some pieces, all of them or none: of one by its own name, of several by what all names say.
+#[derive(Clone, Debug, PartialEq)]
+struct Claim {
+    pieces: Vec<usize>,
+    says: Says,
+    is_own: bool,
+}
+
+/// What pieces are called, without what does not hold, and the way to read them.
+pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<Named>, Reading) {
+    let all: Vec<Named> = told.iter().map(|told| told.all()).collect();
+    let as_called = best_sewn(pieces, &all, asker);
+    let claims = doubtful(pieces, told, &all, &well_sewn(pieces, &as_called));
+    if claims.is_empty() {
+        return (all, as_called.reading);
+    }
+    let mut aside = aside(pieces, &all, &claims, &as_called, asker);
+    for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
+        let piece = claim.pieces[0];
+        let (text, choices) = question(&pieces[piece].name, all[piece], claim.says);
+        *is_aside = asker.ask(text, choices, Some(1)) == Some(1);
+    }
+    let named = without(&all, &claims, &aside);
+    let reading = best_sewn(pieces, &named, asker).reading;
+    (named, reading)
+}
+
+/// What is asked of a claim that is set aside: what the name says, and what holds else.
+fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
+    match says {
+        Says::Class(looks) => {
+            let says = named.class.map_or("part", Class::as_str);
+            let looks = looks.as_str();
+            let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
+            (text, [says, looks].map(|class| format!("a {class}")))
+        }
+        Says::Face => {
+            let face = named.face.unwrap_or(Face::Front);
+            let text =
+                format!("piece `{name}`: its name says a {face}, and what is sewn to it something else; which is it?");
+            (text, [format!("a {face}"), "what its outline says".to_owned()])
+        }
+        Says::Hand => {
+            let hand = named.hand.unwrap_or(Hand::Right);
+            let text = format!(
+                "piece `{name}`: its name says the {hand} side, and no piece is the {}; which is it?",
+                hand.other()
+            );
+            (text, [format!("of the {hand} side alone"), "of both sides".to_owned()])
+        }
+    }
+}
+
+/// What names say without the claims that are set aside.
+fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
+    let mut named = all.to_vec();
+    for (claim, _) in claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside) {
+        for &piece in &claim.pieces {
+            match claim.says {
+                Says::Class(_) => named[piece].class = None,
+                Says::Face => named[piece].face = None,
+                Says::Hand => named[piece].hand = None,
+            }
+        }
+    }
+    named
+}
+
+/// Which claims are set aside: those without which the seams are surer.
+fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, asker: &Asker<'_>) -> Vec<bool> {
+    // A piece whose name is set aside is sewn to others then, and as what its name does not say.
+    let is_vain = |sewn: &Sewn, claim: &Claim| {
+        let is_otherwise = |&piece: &usize| {
+            let class = sewn.worn.iter().find(|one| one.piece == piece).map(|one| one.class);
+            let is_other = !matches!(claim.says, Says::Class(_)) || class != all[piece].class;
+            is_other && seams_of(sewn, piece).iter().any(|(_, of)| of.iter().any(|other| *other != piece))
+        };
+        !claim.pieces.iter().any(is_otherwise)
+    };
+    let of = |aside: &[bool]| {
+        let sewn = best_sewn(pieces, &without(all, claims, aside), asker);
+        let mut set = claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside);
+        if set.any(|(claim, _)| is_vain(&sewn, claim)) { f64::NEG_INFINITY } else { sewn.worth() }
+    };
+    let mut aside = vec![false; claims.len()];
+    let mut best = as_called.worth();
+    let is_detail = |claim: &Claim| all[claim.pieces[0]].class == Some(Class::Other);
+    let worn: Vec<bool> = claims.iter().map(|claim| !is_detail(claim)).collect();
+    for trial in [worn, vec![true; claims.len()]] {
+        let found = of(&trial);
+        if found > best + LEAST_GAIN {
+            (aside, best) = (trial, found);
+        }
+    }
+    // What is set aside needlessly stands again, and what is doubted alone may go.
+    for k in 0..claims.len() {
+        aside[k] = !aside[k];
+        let changed = of(&aside);
+        if changed > best + if aside[k] { LEAST_GAIN } else { -NO_LOSS } {
+            best = changed;
+        } else {
+            aside[k] = !aside[k];
+        }
+    }
+    aside
+}
+
+/// Claims that outlines, seams or the other names contradict.
+fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) -> Vec<Claim> {
+    let worn: Vec<&Named> = all.iter().filter(|named| named.class != Some(Class::Other)).collect();
+    let faces: Vec<Face> = worn.iter().filter_map(|named| named.face).collect();
+    let is_one_face = faces.len() > 1 && faces.iter().all(|face| *face == faces[0]);
+    let is_alone = |hand: Hand| worn.iter().all(|named| named.hand != Some(hand.other()));
+    // Of several for one place one is worn.
+    let is_spare = |k: usize| {
+        let is_rival = |other: usize| (all[other].class, all[other].face) == (all[k].class, all[k].face);
+        (0..all.len()).any(|other| well_sewn[other] && is_rival(other))
+    };
+    let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
+    let mut claims: Vec<Claim> = Vec::new();
+    let mut doubt = |piece: usize, says: Says| {
+        let is_own = |told: &Told| match says {
+            Says::Class(_) => told.own.class.is_some(),
+            Says::Face => told.own.face.is_some(),
+            Says::Hand => told.own.hand.is_some(),
+        };
+        let is_same =
+            |claim: &Claim| !claim.is_own && std::mem::discriminant(&claim.says) == std::mem::discriminant(&says);
+        if is_own(&told[piece]) {
+            claims.push(Claim { pieces: vec![piece], says, is_own: true });
+        } else if !claims.iter().any(is_same) {
+            let pieces = (0..told.len()).filter(|&other| !is_own(&told[other])).collect();
+            claims.push(Claim { pieces, says, is_own: false });
+        }
+    };
+    for (k, named) in all.iter().enumerate() {
+        let Some(shape) = Shape::of(&pieces[k]).filter(|_| !named.is_nameless()) else { continue };
+        let kinds: Vec<Class> = SHAPED.into_iter().filter(|&class| named.class != Some(class)).collect();
+        let (looks, fit) = best_of(&shape, &kinds);
+        let is_like_another = fit >= LEAST_UNNAMED_FIT;
+        let gain = named.class.map_or(0.0, |class| fit - best_of(&shape, &[class]).1);
+        let is_doubtful = match named.class {
+            _ if !is_like_another => false,
+            None => false,
+            Some(Class::Other) => pieces[k].area_m2() >= DETAIL_SHARE * largest_m2,
+            Some(_) if told[k].own.class.is_none() && gain > SHARED_MARGIN => true,
+            Some(_) => gain > CONTRADICTED || !is_spare(k),
+        };
+        if is_doubtful {
+            doubt(k, Says::Class(looks));
+        }
+        let is_sleeve = named.class.is_none() && is_like_another && looks == Class::Sleeve;
+        if named.face.is_some() && named.class != Some(Class::Other) && (is_one_face || is_sleeve) {
+            doubt(k, Says::Face);
+        }
+        if named.class != Some(Class::Other) && named.hand.is_some_and(is_alone) {
+            doubt(k, Says::Hand);
+        }
+    }
+    claims
+}
+
+/// Which pieces are sewn to others, all for sure.
+fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
+    let is_well_sewn = |piece: usize| {
+        let own = seams_of(sewn, piece);
+        own.iter().all(|(seam, _)| seam.confidence >= WELL_SEWN)
+            && own.iter().any(|(_, of)| of.iter().any(|other| *other != piece))
+    };
+    (0..pieces.len()).map(is_well_sewn).collect()
+}
+
+/// Seams of a piece, with the pieces that each joins.
+fn seams_of(sewn: &Sewn, piece: usize) -> Vec<(&ProposedSeam, Vec<usize>)> {
+    let drawn = |edge: &String| {
+        let id = edge.split_once('.').map(|(id, _)| id);
+        sewn.worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
+    };
+    let of = |seam: &ProposedSeam| seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect();
+    sewn.seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of): &(_, Vec<usize>)| of.contains(&piece)).collect()
+}
+
+/// The kind of some whose templates fit best, and how well.
+fn best_of(shape: &Shape, classes: &[Class]) -> (Class, f64) {
+    let fit = |class: Class| {
+        let is_one = |template: &Template| template.class == class && !template.is_panel();
+        upright(shape, is_one).map_or(f64::NEG_INFINITY, |found| found.score)
+    };
+    let fits = classes.iter().map(|&class| (class, fit(class)));
+    fits.reduce(|best, found| if found.1 > best.1 { found } else { best }).unwrap_or((Class::Other, f64::NEG_INFINITY))
+}
