@@ -200,7 +200,8 @@ def sheets():
     told, csv = answer(*asked), pandas.read_csv(FOLDER / "pom.csv")
     cells = list(openpyxl.load_workbook(FOLDER / "pom.xlsx").active.iter_rows(values_only=True))
     same("pom: columns", list(cells[0]), list(csv.columns))
-    same("pom: sizes", [name.removesuffix("_mm") for name in cells[0][1:-2]], told["sizes"])
+    sizes = [name.removesuffix("_mm") for name in cells[0][1:-1] if not name.endswith("_step_mm")]
+    same("pom: sizes", sizes, told["sizes"])
     same("pom: XLSX as CSV", [list(row) for row in cells[1:]], csv.values.tolist())
     for point in told["points"]:
         cell = csv.set_index("point").at[point["point"], f"{point['size']}_mm"]
