@@ -50,7 +50,7 @@ fn is_device(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or_default().to_lowercase();
     let is_numbered =
         |word: &&str| stem.strip_prefix(*word).is_some_and(|number| matches!(number.as_bytes(), [b'1'..=b'9']));
-    DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(|word| is_numbered(&word))
+    DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(is_numbered)
 }
 
 /// Parts of file names in one folder, no two of them equal where capitals do not count.
