@@ -13,6 +13,10 @@ use geom::units::mm;
 const GREATEST_RATIO: f64 = 3.0;
 /// Step that counts beside where nothing grows, m: as much as the sides of a seam may differ.
 const LEAST_STEP_M: f64 = 1e-3;
+/// Sizes from which on a step is judged by those beside it alone: of two steps either may be the odd one.
+const MANY_SIZES: usize = 4;
+/// Share of its step that an edge passes on to the next where the corner between them slips.
+const PASSED_ON: f64 = 0.5;
 
 /// A length that leaps from one size to the next.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +51,8 @@ impl Leap {
     }
 }
 
-/// Leaps of the points of measure and edges of a style from size to size, smallest first, the greatest ratio first.
+/// Leaps of the points of measure and edges of a style from size to size, smallest first, the greatest ratio first. Of three sizes they
+/// are those of edges between which a corner slips: what one gains the next loses.
 #[must_use]
 pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
     let mut lengths: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
@@ -64,8 +69,24 @@ pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
         }
     }
     let mut found: Vec<Leap> = lengths.iter().flat_map(|(name, lengths_m)| leaps_of(name, lengths_m)).collect();
+    if sizes.len() < MANY_SIZES {
+        found.retain(|leap| slips(sizes, leap));
+    }
     found.sort_by(|a, b| b.ratio.total_cmp(&a.ratio).then_with(|| (&a.length, a.sizes).cmp(&(&b.length, b.sizes))));
     found
+}
+
+/// Whether an edge gains what one beside it loses.
+fn slips(sizes: &[&Style], leap: &Leap) -> bool {
+    let Some((id, edge)) = leap.length.split_once('.') else { return false };
+    let edges = leap.sizes.map(|size| sizes[size].pieces.iter().find(|piece| piece.id == id).map(|piece| &piece.edges));
+    let [Some(before), Some(after)] = edges else { return false };
+    let Some(k) = before.iter().position(|one| one.name.as_deref() == Some(edge)) else { return false };
+    let step_m = |k: usize| after[k].line.length() - before[k].line.length();
+    let count = before.len();
+    let beside = [(k + 1) % count, (k + count - 1) % count];
+    after.len() == count
+        && beside.into_iter().any(|other| -step_m(other) * step_m(k).signum() > PASSED_ON * step_m(k).abs())
 }
 
 /// Leaps of one length, m.
@@ -93,6 +114,7 @@ fn leaps_of(name: &str, lengths_m: &[Option<f64>]) -> Vec<Leap> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draft::Model;
 
     #[test]
     fn a_step_much_larger_than_those_beside_it_is_a_leap() {
@@ -109,5 +131,40 @@ mod tests {
         check(&[300.0, 302.0, 302.0, 302.0, 300.0], &[]);
         check(&[500.0, 490.0, 480.0], &[]);
         check(&[500.0, 700.0], &[]);
+    }
+
+    #[test]
+    fn a_corner_that_slips_in_one_of_three_sizes_is_found_and_a_grade_is_not() {
+        let drafts = Model::Trousers.drafts();
+        let styles = |slipped: Option<usize>| -> Vec<Style> {
+            let style = |(number, pieces): (usize, &[crate::Piece])| {
+                let mut style = Style::read(pieces, Model::Trousers.seams(), "trousers").expect("our own");
+                if slipped == Some(number) {
+                    let piece = style.pieces.iter_mut().find(|piece| piece.id == "leg_front_left").expect("a leg");
+                    slip(piece);
+                }
+                style
+            };
+            drafts.iter().map(|draft| &draft.pieces[..]).enumerate().map(style).collect()
+        };
+        let found = |styles: &[Style]| leaps(&styles.iter().collect::<Vec<_>>());
+        assert_eq!(found(&styles(None)), []);
+        let slipped = found(&styles(Some(2)));
+        assert!(slipped.iter().any(|leap| leap.length.starts_with("leg_front_left.")), "{slipped:?}");
+        assert!(slipped.iter().all(|leap| leap.sizes == [1, 2]), "{slipped:?}");
+    }
+
+    /// Moves the corner between the first two edges of a piece by 40 mm along the second.
+    fn slip(piece: &mut crate::style::StylePiece) {
+        let second = piece.edges[1].line.clone();
+        let at = second.at(0.04);
+        let is_passed = |k: &usize| second.arcs()[*k] < 0.04;
+        let point = |k: usize| second.points()[k];
+        let (passed, left): (Vec<usize>, Vec<usize>) = (0..second.points().len()).partition(is_passed);
+        let mut first = piece.edges[0].line.points().to_vec();
+        first.extend(passed.into_iter().skip(1).map(point).chain([at]));
+        let left = [at].into_iter().chain(left.into_iter().map(point)).collect();
+        piece.edges[0].line = geom::polyline::Polyline::new(first).expect("a line");
+        piece.edges[1].line = geom::polyline::Polyline::new(left).expect("a line");
     }
 }
