@@ -206,7 +206,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     if files.size.is_none() {
         let checks = seams::check_sizes(&files.file, files.seams.as_deref(), files.unit.map(Unit::from))?;
         if checks.len() > 1 {
-            return show_sizes(context, &checks, SizeCheck::is_faulty);
+            return show_sizes(context, &checks);
         }
     }
     let checked = style(files).and_then(|style| Ok((patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
@@ -239,7 +239,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         garment.rest.len(),
         quality.min_angle_deg
     ));
-    Ok(if findings.iter().any(|finding| finding.kind.is_problem()) { End::CheckFailed } else { End::Done })
+    Ok(if findings.is_empty() { End::Done } else { End::CheckFailed })
 }
 
 fn told(finding: &Finding) -> String {
@@ -252,11 +252,11 @@ fn check_study(context: &Context, path: &Path) -> Outcome {
         // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
         context.workspace()?;
     }
-    show_sizes(context, &seams::check_study(path, &context.db)?, SizeCheck::is_bad)
+    show_sizes(context, &seams::check_study(path, &context.db)?)
 }
 
-/// One row for each size; `is_bad` says which make the whole fail.
-fn show_sizes(context: &Context, checks: &[SizeCheck], is_bad: fn(&SizeCheck) -> bool) -> Outcome {
+/// One row for each size; what is found in any makes the whole fail.
+fn show_sizes(context: &Context, checks: &[SizeCheck]) -> Outcome {
     if context.json {
         output::json(&checks)?;
     } else {
@@ -268,7 +268,7 @@ fn show_sizes(context: &Context, checks: &[SizeCheck], is_bad: fn(&SizeCheck) ->
             output::note(&format!("{} {}: {line}", check.garment, check.size));
         }
     }
-    Ok(if checks.iter().any(is_bad) { End::CheckFailed } else { End::Done })
+    Ok(if checks.iter().any(SizeCheck::is_bad) { End::CheckFailed } else { End::Done })
 }
 
 fn sizes(checks: &[SizeCheck]) -> Table {

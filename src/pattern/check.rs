@@ -46,6 +46,8 @@ pub enum FindingKind {
     Loop,
     /// A style without a girth at chest or hip, so that its fit cannot be told.
     FitLevel,
+    /// A length that leaves the progression of its sizes.
+    Leap,
 }
 
 impl FindingKind {
@@ -59,13 +61,14 @@ impl FindingKind {
             Self::Direction => "direction",
             Self::Loop => "loop",
             Self::FitLevel => "fit level",
+            Self::Leap => "leap",
         }
     }
 
-    /// Whether something is wrong; a gather is only shown, and only a study needs a girth for the fit.
+    /// Whether an edit of the seam file can settle it.
     #[must_use]
-    pub fn is_problem(self) -> bool {
-        !matches!(self, Self::Gathered | Self::FitLevel)
+    pub fn is_of_seams(self) -> bool {
+        !matches!(self, Self::Gathered | Self::FitLevel | Self::Leap)
     }
 }
 

@@ -19,6 +19,7 @@ pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod pom;
+pub mod progression;
 pub mod propose;
 pub mod scale;
 pub mod seam_edit;

@@ -1,5 +1,7 @@
 //! Pattern pieces as drawn: what a DXF block says, in metres, before anything is sewn.
 
+use std::sync::Arc;
+
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 
@@ -68,6 +70,8 @@ pub struct Piece {
     pub drill_holes: Vec<V2>,
     /// Closed sew line inside the cut line.
     pub sew_line: Option<Vec<V2>>,
+    /// The piece in every size of its file, from the smallest; empty where the file holds one size.
+    pub nest: Arc<[Self]>,
 }
 
 impl Piece {

@@ -1,5 +1,7 @@
 //! From the entities of one block to a piece.
 
+use std::sync::Arc;
+
 use std::collections::BTreeMap;
 
 use dxf::Block;
@@ -328,6 +330,7 @@ impl Drawn {
             block: block.to_owned(),
             name: take(&mut texts, "piece name").unwrap_or_else(|| block.to_owned()),
             garment: Vec::new(),
+            nest: Arc::default(),
             size: take(&mut texts, "size"),
             quantity: take(&mut texts, "quantity"),
             texts,

@@ -31,6 +31,7 @@ pub use self::units::{Unit, UnitSource};
 pub(crate) use self::write::D6673;
 pub use self::write::{Standard, write, write_pieces};
 use super::piece::Piece;
+use super::style::named::without;
 use super::{scale, size_order};
 
 /// Name given to the outline of a file that has no blocks.
@@ -187,14 +188,20 @@ impl PatternFile {
                 accepted: "pieces with one closed outline of straight sides that does not cross itself".to_owned(),
             });
         }
-        let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(wanted);
         let said = self.texts.iter().filter(|(key, _)| is_of_garment(key)).map(|(_, value)| value);
         let garment: Vec<&String> = said.collect();
         let to_sew = |piece: &Piece| {
             let whole = piece.unfolded().unwrap_or_else(|| piece.clone());
             Piece { garment: garment.iter().copied().chain(&piece.size).cloned().collect(), ..whole }
         };
-        let pieces: Vec<Piece> = self.pieces.iter().filter(is_of).map(to_sew).collect();
+        let whole = |size: &str| -> Vec<Piece> {
+            let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(size);
+            self.pieces.iter().filter(is_of).map(to_sew).collect()
+        };
+        let mut pieces = whole(wanted);
+        if sizes.len() > 1 {
+            join_sizes(&mut pieces, &sizes.iter().map(|size| whole(size)).collect::<Vec<_>>());
+        }
         if pieces.is_empty() {
             return Err(DxfError::new(
                 &self.file,
@@ -204,6 +211,18 @@ impl PatternFile {
             ));
         }
         Ok(pieces)
+    }
+}
+
+/// Gives each piece of one size what it is in every size.
+fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
+    let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
+    let names: Vec<Vec<String>> = pieces.iter().map(bare).collect();
+    for k in 0..pieces.len() {
+        // Of pieces of one name each stands for that of its number.
+        let number = names[..k].iter().filter(|name| **name == names[k]).count();
+        let of = |size: &Vec<Piece>| size.iter().filter(|piece| bare(piece) == names[k]).nth(number).cloned();
+        pieces[k].nest = sizes.iter().filter_map(of).collect();
     }
 }
 

@@ -4,6 +4,8 @@
 //! Lengths are millimetres, angles degrees counter-clockwise from `+x`, places `[x, y]`. What follows from the rest
 //! (`corners`, `edges`) is written for the reader and not read back.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::dxf::{CodePage, PatternFile, Unit, UnitSource};
@@ -234,6 +236,7 @@ impl PieceFeatures {
             block: self.information.block,
             name: self.information.name,
             garment: Vec::new(),
+            nest: Arc::default(),
             size: self.information.size,
             quantity: self.information.quantity,
             texts,

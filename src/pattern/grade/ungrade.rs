@@ -10,7 +10,7 @@ use super::{GradeError, GradeTable};
 use crate::dxf::PatternFile;
 use crate::piece::{GradePoint, Piece};
 use crate::style::corners::corner_vertices;
-use crate::style::correspond::{corresponding, shares};
+use crate::style::follow::in_sizes;
 use geom::V2;
 use geom::polyline::Polyline;
 
@@ -163,13 +163,8 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
     let own = corner_vertices(&pieces[sample]);
     // A line without corners begins where the sample size does.
     let own = if own.is_empty() { vec![0] } else { own };
-    let places = shares(&pieces[sample].outline, &own);
-    let corners = pieces.iter().enumerate().map(|(k, piece)| match (k == sample, alike(piece, &places)) {
-        (true, _) => Ok(own.clone()),
-        (false, Some(corners)) => Ok(corners),
-        (false, None) => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
-    });
-    let corners = corners.collect::<Result<Vec<_>, String>>()?;
+    let corners = in_sizes(&pieces, sample, &own)
+        .map_err(|(size, _)| format!("another outline in size {:?}", pieces[size].size))?;
     let mut rings = vec![Vec::new(); all.len()];
     for k in 0..own.len() {
         let stretch = |(piece, corners): (&Piece, &Vec<usize>)| -> Vec<V2> {
@@ -184,20 +179,6 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
         }
     }
     Ok(rings)
-}
-
-/// The corners of a size that has as many as the sample size, in their order: however far a size moves one, it stays that corner. They begin
-/// where they lie nearest to the shares of the sample size.
-fn alike(piece: &Piece, places: &[[f64; 2]]) -> Option<Vec<usize>> {
-    let corners = corner_vertices(piece);
-    let found = shares(&piece.outline, &corners);
-    let n = corners.len();
-    let off = |start: &usize| -> f64 {
-        let squares = |k: usize| (V2::from(found[(start + k) % n]) - V2::from(places[k])).norm_squared();
-        (0..n).map(squares).sum()
-    };
-    let start = (0..n).filter(|_| n == places.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
-    Some((0..n).map(|k| corners[(start + k) % n]).collect())
 }
 
 /// Open lines of all sizes with a vertex at every share of their length at which one of them has one.

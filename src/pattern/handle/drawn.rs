@@ -1,13 +1,15 @@
 //! Pieces as drawn, changed by handles: so that a changed style can be written, and its seam file holds as before.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::HALVINGS;
 use super::field::Field;
 use super::{Handle, HandleError};
 use crate::piece::Piece;
 use crate::seams::{SeamFile, StyleError};
-use crate::style::correspond::{corresponding, shares};
+use crate::style::correspond::shares;
+use crate::style::follow::corners_of;
 use crate::style::named::called;
 use crate::style::{Style, StylePiece};
 use geom::V2;
@@ -69,9 +71,8 @@ pub fn redrawn(
     let mut corners = BTreeMap::new();
     for (name, entry) in entries.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
         let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
-        let (Some(by), Ok(vertices)) = (redrawn.get(&drawn), corresponding(&pieces[drawn], &entry.corners_at)) else {
-            continue;
-        };
+        let vertices = corners_of(&pieces[drawn], entries.size.as_deref(), &entry.corners_at);
+        let (Some(by), Ok(vertices)) = (redrawn.get(&drawn), vertices) else { continue };
         let (before, after) = (pieces[drawn].seam_outline(), changed[drawn].seam_outline());
         let nearest = |place: V2| {
             let away = |k: &usize| (after[*k] - place).norm_squared();
@@ -171,7 +172,7 @@ impl Carrier<'_> {
     }
 
     fn piece(&self, drawn: &Piece) -> Piece {
-        let mut piece = drawn.clone();
+        let mut piece = Piece { nest: Arc::default(), ..drawn.clone() };
         piece.outline = self.line(&drawn.outline, true);
         piece.sew_line = drawn.sew_line.as_ref().map(|line| self.line(line, true));
         for line in piece.internal_lines.iter_mut().chain(&mut piece.cut_outs) {

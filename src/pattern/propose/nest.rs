@@ -1,42 +1,69 @@
 //! A proposal made on one size held to the others: the corners are found on each, and the ease of each is written down.
 
+use std::collections::BTreeMap;
+
 use super::{Proposal, ProposedSeam, Question};
 use crate::piece::Piece;
+use crate::progression::{Leap, leaps};
+use crate::seam_edit::Sizes;
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, RATIO_DOUBT, SAME_EASE, StyleError};
+use crate::size_order;
 use crate::style::{Seam, Style};
 use geom::units::mm;
 
+/// Difference of the sides up to which a seam is a plain one, mm: an eighth of an inch, the usual sewing tolerance.
+const PLAIN_MM: f64 = 3.0;
+
+/// A size as the proposal sews it.
+struct Sewn<'a> {
+    size: &'a str,
+    style: Style,
+}
+
 impl Proposal {
-    /// Says on which size it was made, and holds it to others. What does not hold there is a question.
-    pub fn hold_for(&mut self, made_on: &str, others: &[(String, Vec<Piece>)]) {
-        self.size = Some(made_on.to_owned());
-        let (mut sides_mm, mut failed) = (vec![Vec::new(); self.seams.len()], Vec::new());
-        for (size, pieces) in others {
+    /// Says on which size it was made, and holds it to the others. What does not hold there is a question.
+    pub fn hold_for(&mut self, sizes: &Sizes<'_>) {
+        self.size = Some(sizes.name.to_owned());
+        let own = std::iter::once((sizes.name, sizes.pieces));
+        let mut all: Vec<_> =
+            own.chain(sizes.others.iter().map(|(size, pieces)| (size.as_str(), &pieces[..]))).collect();
+        size_order::sort(&mut all, |(size, _)| size);
+        let (mut sewn, mut failed) = (Vec::new(), Vec::new());
+        for (size, pieces) in all {
             match self.on(pieces) {
-                Ok(style) => {
-                    for (sides_mm, seam) in sides_mm.iter_mut().zip(&style.seams) {
-                        sides_mm.push((size.as_str(), lengths_mm(&style, seam)));
-                    }
-                }
-                Err(error) => failed.push((size.as_str(), error)),
+                Ok(style) => sewn.push(Sewn { size, style }),
+                Err(error) => failed.push((size, error)),
             }
         }
         if let Some((_, error)) = failed.first() {
             let sizes: Vec<&str> = failed.iter().map(|(size, _)| *size).collect();
             self.tell(format!("it does not hold for size {}: {error}", sizes.join(", ")));
         }
-        let doubts: Vec<String> =
-            self.seams.iter().zip(&sides_mm).filter_map(|(seam, sides_mm)| doubt(seam, made_on, sides_mm)).collect();
-        doubts.into_iter().for_each(|doubt| self.tell(doubt));
-        for (seam, sides_mm) in self.seams.iter_mut().zip(sides_mm) {
-            let Ease::Same(own) = seam.entry.ease_mm else { continue };
+        let Some(made_on) = sewn.iter().position(|one| one.size == sizes.name) else { return };
+        for number in 0..self.seams.len() {
+            if let Some(doubt) = self.ease_in(number, &sewn, made_on) {
+                self.tell(doubt);
+            }
+        }
+        doubted_leaps(&sewn).into_iter().for_each(|doubt| self.tell(doubt));
+    }
+
+    /// Writes down the ease of a seam in every size where its sides are to each other as in the size beside. The others are asked about.
+    fn ease_in(&mut self, number: usize, sewn: &[Sewn<'_>], made_on: usize) -> Option<String> {
+        let seam = &mut self.seams[number];
+        let sides_mm: Vec<[f64; 2]> = sewn.iter().map(|one| lengths_mm(&one.style, &one.style.seams[number])).collect();
+        let doubted = doubted_sizes(&sides_mm, made_on);
+        if let Ease::Same(own_mm) = seam.entry.ease_mm {
             let tolerance_mm = SAME_EASE * DEFAULT_LENGTH_TOLERANCE_MM;
-            if sides_mm.iter().any(|(_, [a_mm, b_mm])| (a_mm - b_mm - own).abs() > tolerance_mm) {
-                let all = sides_mm.into_iter().chain([(made_on, [seam.a_mm, seam.b_mm])]);
-                let eases = all.map(|(size, [a_mm, b_mm])| (size.to_owned(), ((a_mm - b_mm) * 10.0).round() / 10.0));
+            let is_other = |[a_mm, b_mm]: &[f64; 2]| (a_mm - b_mm - own_mm).abs() > tolerance_mm;
+            if sides_mm.iter().any(is_other) {
+                let sure = sewn.iter().zip(&sides_mm).zip(&doubted).filter(|(_, is_doubted)| !**is_doubted);
+                let ease_mm = |[a_mm, b_mm]: [f64; 2]| ((a_mm - b_mm) * 10.0).round() / 10.0;
+                let eases = sure.map(|((one, sides_mm), _)| (one.size.to_owned(), ease_mm(*sides_mm)));
                 seam.entry.ease_mm = Ease::BySize(eases.collect());
             }
         }
+        doubt(seam, sewn, &sides_mm, &doubted)
     }
 
     /// Adds what has no choices.
@@ -53,22 +80,85 @@ impl Proposal {
     }
 }
 
-/// A question where the sides of a seam are to each other in some sizes as they are not in the one it was made on.
-fn doubt(seam: &ProposedSeam, made_on: &str, sides_mm: &[(&str, [f64; 2])]) -> Option<String> {
-    let differs = |(_, [a_mm, b_mm]): &&(&str, [f64; 2])| (a_mm / b_mm / seam.ratio() - 1.0).abs() > RATIO_DOUBT;
-    let others: Vec<_> = sides_mm.iter().filter(differs).collect();
-    let (size, [a_mm, b_mm]) = others.first()?;
-    let sizes: Vec<&str> = others.iter().map(|(size, _)| *size).collect();
+/// In which sizes the sides of a seam are to each other otherwise than in the next size towards the one that the seam was proposed on, or
+/// than in the last in which they were sound. A plain seam is one in every size.
+fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
+    let ratio = |size: usize| sides_mm[size][0] / sides_mm[size][1];
+    let ease_mm = |size: usize| (sides_mm[size][0] - sides_mm[size][1]).abs();
+    let is_plain = ease_mm(made_on) <= PLAIN_MM;
+    let mut doubted = vec![false; sides_mm.len()];
+    let mut go = |way: &mut dyn Iterator<Item = usize>| {
+        let mut sound = ratio(made_on);
+        for size in way {
+            let is_other =
+                if is_plain { ease_mm(size) > PLAIN_MM } else { (ratio(size) / sound - 1.0).abs() > RATIO_DOUBT };
+            doubted[size] = is_other;
+            if !is_other {
+                sound = ratio(size);
+            }
+        }
+    };
+    go(&mut (made_on + 1..sides_mm.len()));
+    go(&mut (0..made_on).rev());
+    doubted
+}
+
+/// A question where a seam is doubted in some sizes.
+fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted: &[bool]) -> Option<String> {
+    let first = doubted.iter().position(|is_doubted| *is_doubted)?;
+    let of = sewn.iter().zip(doubted).filter(|(_, is_doubted)| **is_doubted).map(|(one, _)| one.size);
+    let sizes: Vec<&str> = of.collect();
+    let [a_mm, b_mm] = sides_mm[first];
     Some(format!(
-        "{}: {:.0} to {:.0} mm in {made_on}, {a_mm:.0} to {b_mm:.0} mm in {size}: is it the same seam in size {}?",
+        "{}: {:.0} to {:.0} mm as proposed, {a_mm:.0} to {b_mm:.0} mm in {}: is it the same seam in size {}? No ease is written there",
         seam.kind,
         seam.a_mm,
         seam.b_mm,
+        sewn[first].size,
         sizes.join(", ")
     ))
+}
+
+/// A question for every two sizes between which lengths leap.
+fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
+    let sizes: Vec<String> = sewn.iter().map(|one| one.size.to_owned()).collect();
+    let styles: Vec<&Style> = sewn.iter().map(|one| &one.style).collect();
+    let mut by_sizes: BTreeMap<[usize; 2], Vec<Leap>> = BTreeMap::new();
+    leaps(&styles).into_iter().for_each(|leap| by_sizes.entry(leap.sizes).or_default().push(leap));
+    let told = |([before, after], leaps): (&[usize; 2], &Vec<Leap>)| {
+        let each: Vec<String> = leaps.iter().map(Leap::told).collect();
+        format!(
+            "from size {} to {} lengths leap: {}; are its corners where they should be?",
+            sizes[*before],
+            sizes[*after],
+            each.join(", ")
+        )
+    };
+    by_sizes.iter().map(told).collect()
 }
 
 /// Lengths of the sides of a seam, mm.
 fn lengths_mm(style: &Style, seam: &Seam) -> [f64; 2] {
     [&seam.a, &seam.b].map(|chain| chain.iter().map(|&edge| mm(style.edge(edge).line.length())).sum())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::doubted_sizes;
+
+    #[test]
+    fn a_seam_is_doubted_where_its_sides_part_and_as_long_as_they_stay_so() {
+        let check = |sides_mm: &[[f64; 2]], made_on: usize, expect: &[bool]| {
+            assert_eq!(doubted_sizes(sides_mm, made_on), expect, "{sides_mm:?}");
+        };
+        check(
+            &[[100.0, 100.0], [110.0, 110.0], [120.0, 150.0], [130.0, 160.0], [140.0, 140.0]],
+            0,
+            &[false, false, true, true, false],
+        );
+        check(&[[100.0, 140.0], [119.0, 110.0], [129.0, 120.0]], 2, &[true, false, false]);
+        // An ease that grows with the sizes, and one that a plain seam gets.
+        check(&[[505.0, 490.0], [536.0, 517.0], [567.0, 544.0]], 0, &[false, false, false]);
+        check(&[[290.0, 290.0], [291.0, 289.0], [292.0, 288.0]], 0, &[false, false, true]);
+    }
 }

@@ -9,7 +9,7 @@ use crate::piece::Piece;
 use geom::V2;
 
 /// Distance that a corner is worth, over the size of the piece: a vertex that does not turn is taken where no corner is nearer by this.
-const CORNER_WORTH: f64 = 0.03;
+pub(super) const CORNER_WORTH: f64 = 0.03;
 /// Distance from which on a corner stands for none of the seam file's, over the size of the piece.
 const TOO_FAR: f64 = 0.15;
 /// Rounds of scaling and matching; the first scales by the extents of the outline.
@@ -17,50 +17,74 @@ const ROUNDS: usize = 3;
 /// Vertices that are tried for the first corner.
 const STARTS: usize = 8;
 
+/// A corner that has no like on an outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lost {
+    /// Number of the corner.
+    pub corner: usize,
+    /// Distance of the nearest vertex that it may have, m.
+    pub away_m: f64,
+}
+
 /// Places of vertices of an outline as shares of its width and its height, to 0.01 mm of a piece of a metre.
 pub(crate) fn shares(outline: &[V2], vertices: &[usize]) -> Vec<[f64; 2]> {
+    let rounded = |share: f64| (share * 1e5).round() / 1e5;
+    places(outline, vertices).into_iter().map(|place| [place.x, place.y].map(rounded)).collect()
+}
+
+/// Places of vertices of an outline as shares of its width and its height.
+pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     let [low, high] = extent(outline);
-    let share = |axis: usize, at: f64| {
+    let share = |at: V2, axis: usize| {
         let width = high[axis] - low[axis];
-        if width > 0.0 { ((at - low[axis]) / width * 1e5).round() / 1e5 } else { 0.0 }
+        if width > 0.0 { (at[axis] - low[axis]) / width } else { 0.0 }
     };
-    vertices.iter().map(|&vertex| [0, 1].map(|axis| share(axis, outline[vertex][axis]))).collect()
+    vertices.iter().map(|&vertex| V2::new(share(outline[vertex], 0), share(outline[vertex], 1))).collect()
 }
 
 /// Vertices of the outline that correspond to corners of another size, in their order: counter-clockwise as drawn. `shares`
 /// are their places there, as [`shares`] gives them.
 ///
 /// # Errors
-/// The number of the corner that has no like, and how far away the nearest is, m.
-pub(crate) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, (usize, f64)> {
-    let outline = piece.seam_outline();
+/// [`Lost`] where a corner has no like.
+pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
+    let mut worth = vec![CORNER_WORTH * CORNER_WORTH; piece.seam_outline().len()];
+    corner_vertices(piece).iter().for_each(|&corner| worth[corner] = 0.0);
+    let places: Vec<V2> = shares.iter().map(|&share| V2::from(share)).collect();
+    matched(piece.seam_outline(), &places, |_, vertex| worth[vertex])
+}
+
+/// Vertices of an outline, in their order, for corners that lie at shares of its width and height. `unlike` says how little a
+/// vertex is like a corner, as the square of a distance over the size of the piece.
+///
+/// # Errors
+/// [`Lost`] where a corner has no like.
+pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usize) -> f64) -> Result<Vec<usize>, Lost> {
     let [low, high] = extent(outline);
     let size = (high - low).norm();
-    if shares.len() > outline.len() || size == 0.0 {
-        return Err((outline.len(), size));
+    if places.len() > outline.len() || size == 0.0 {
+        return Err(Lost { corner: outline.len(), away_m: size });
     }
-    let places: Vec<V2> = shares.iter().map(|&share| V2::from(share)).collect();
-    let mut worth = vec![CORNER_WORTH * CORNER_WORTH; outline.len()];
-    corner_vertices(piece).iter().for_each(|&corner| worth[corner] = 0.0);
     let mut scaling = Scaling { scale: high - low, shift: low };
     let mut found = Vec::new();
     for _ in 0..ROUNDS {
         let expected: Vec<V2> = places.iter().map(|&place| scaling.of(place)).collect();
-        let cost =
-            |k: usize, vertex: usize| (expected[k] - outline[vertex]).norm_squared() / (size * size) + worth[vertex];
+        let cost = |k: usize, vertex: usize| {
+            (expected[k] - outline[vertex]).norm_squared() / (size * size) + unlike(k, vertex)
+        };
         found = in_order(places.len(), outline.len(), cost);
-        scaling = Scaling::fitted(&places, found.iter().map(|&vertex| outline[vertex]));
+        scaling = Scaling::fitted(places, found.iter().map(|&vertex| outline[vertex]));
     }
-    let away = |k: usize| (scaling.of(places[k]) - outline[found[k]]).norm();
-    let furthest = (0..places.len()).max_by(|&i, &j| away(i).total_cmp(&away(j)));
-    match furthest.filter(|&k| away(k) > TOO_FAR * size) {
-        Some(k) => Err((k, away(k))),
+    let away_m = |k: usize| (scaling.of(places[k]) - outline[found[k]]).norm();
+    let furthest = (0..places.len()).max_by(|&i, &j| away_m(i).total_cmp(&away_m(j)));
+    match furthest.filter(|&k| away_m(k) > TOO_FAR * size) {
+        Some(corner) => Err(Lost { corner, away_m: away_m(corner) }),
         None => Ok(found),
     }
 }
 
 /// The least and greatest coordinates of points.
-fn extent(points: &[V2]) -> [V2; 2] {
+pub(super) fn extent(points: &[V2]) -> [V2; 2] {
     let both = points.iter().map(|p| [*p, *p]).reduce(|[low, high], [p, _]| [low.inf(&p), high.sup(&p)]);
     both.unwrap_or_default()
 }

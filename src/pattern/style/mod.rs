@@ -2,6 +2,7 @@
 
 pub(super) mod corners;
 pub(super) mod correspond;
+pub(super) mod follow;
 pub(super) mod named;
 pub(super) mod openings;
 mod pieces;

@@ -31,7 +31,7 @@ pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec
 }
 
 /// The words of a name without those that are the size.
-fn without(name: &str, size: &str) -> Vec<String> {
+pub(crate) fn without(name: &str, size: &str) -> Vec<String> {
     let (mut left, size) = (words(name), words(size));
     while let Some(at) = left.windows(size.len().max(1)).position(|some| *some == size[..]) {
         left.drain(at..at + size.len());

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
-use super::correspond::corresponding;
+use super::corners::{cut_edge, mirror_edge, mirrored};
+use super::correspond::Lost;
+use super::follow::corners_of;
 use super::named::called;
 use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
@@ -172,10 +173,7 @@ impl Reader<'_> {
 
     /// Outline vertices of the corners that the edges of an entry count.
     fn corners(&self, place: &str, entry: &PieceEntry, drawn: &Piece) -> Result<Vec<usize>, StyleError> {
-        if entry.corners_at.is_empty() {
-            return Ok(corner_vertices(drawn));
-        }
-        corresponding(drawn, &entry.corners_at).map_err(|(corner, away_m)| {
+        corners_of(drawn, self.entries.size.as_deref(), &entry.corners_at).map_err(|Lost { corner, away_m }| {
             let found = format!(
                 "no corner {corner} of corners_at in block `{}`: the nearest is {:.0} mm away",
                 drawn.block,

@@ -4,12 +4,14 @@ use std::path::Path;
 
 use crate::catalogue;
 use crate::error::{Result, StudyError};
-use crate::patterns::{self, Nest, Unit};
+use crate::patterns::{self, Nest, Style, Unit};
 use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Study};
 use crate::store::{self, Access};
 use geom::units::{from_mm, mm};
-use pattern::check::{self, Finding, FindingKind};
+use pattern::check::{self, Finding};
+use pattern::progression::leaps;
 use pattern::seams::SeamFile;
+use pattern::size_order;
 
 /// Edge length of the mesh that a check makes, mm.
 pub const CHECK_EDGE_MM: f64 = 15.0;
@@ -40,16 +42,10 @@ pub struct SizeCheck {
 }
 
 impl SizeCheck {
-    /// Whether something is wrong with how it is sewn.
-    #[must_use]
-    pub fn is_faulty(&self) -> bool {
-        self.error.is_some() || self.findings.iter().any(|finding| finding.kind.is_problem())
-    }
-
-    /// Whether something is wrong with it in a study, which needs a girth for the fit.
+    /// Whether anything was found.
     #[must_use]
     pub fn is_bad(&self) -> bool {
-        self.is_faulty() || self.findings.iter().any(|finding| finding.kind == FindingKind::FitLevel)
+        self.error.is_some() || !self.findings.is_empty()
     }
 }
 
@@ -64,7 +60,7 @@ pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     let of = |garment: &GarmentEntry| {
         let unit = garment.unit.as_deref().and_then(patterns::unit_of);
         let sewn = Sewn { garment: garment.name.clone(), seams: garment.seams.clone(), unit };
-        garment.sizes.iter().map(|size| check_size(&sewn, size)).collect::<Vec<_>>()
+        sewn.check(&garment.sizes)
     };
     Ok(study.garments.iter().flat_map(of).collect())
 }
@@ -82,7 +78,8 @@ pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> 
     };
     let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let sewn = Sewn { garment, seams, unit };
-    Ok(sizes.into_iter().map(|name| check_size(&sewn, &SizeFile { name, pattern: source.clone() })).collect())
+    let sizes: Vec<SizeFile> = sizes.into_iter().map(|name| SizeFile { name, pattern: source.clone() }).collect();
+    Ok(sewn.check(&sizes))
 }
 
 /// A garment whose sizes are checked.
@@ -92,35 +89,55 @@ struct Sewn {
     unit: Option<Unit>,
 }
 
-fn check_size(sewn: &Sewn, size: &SizeFile) -> SizeCheck {
-    let mut row = SizeCheck {
-        garment: sewn.garment.clone(),
-        size: size.name.clone(),
-        pieces: 0,
-        seams: 0,
-        measurements: 0,
-        fit_mm: Vec::new(),
-        vertices: 0,
-        min_angle_deg: 0.0,
-        findings: Vec::new(),
-        error: None,
-    };
-    row.error = fill(&mut row, sewn, size).err().map(|error| error.to_string());
-    row
-}
-
-fn fill(row: &mut SizeCheck, sewn: &Sewn, size: &SizeFile) -> Result<()> {
-    let style = patterns::read_style(&size.pattern, sewn.seams.as_ref(), Some(&size.name), sewn.unit)?;
-    (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
-    let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
-    row.fit_mm = style.fit_levels.iter().map(level).collect();
-    if let Some(seams) = &sewn.seams {
-        row.findings = of_files(&size.pattern, seams, Some(&size.name), sewn.unit)?;
+impl Sewn {
+    /// A row for each size, and what is told of lengths that leap from one to the next.
+    fn check(&self, sizes: &[SizeFile]) -> Vec<SizeCheck> {
+        let (mut rows, mut styles) = (Vec::new(), Vec::new());
+        for (number, size) in sizes.iter().enumerate() {
+            let mut row = self.row(size);
+            match self.fill(&mut row, size) {
+                Ok(style) => styles.push((number, size.name.as_str(), style)),
+                Err(error) => row.error = Some(error.to_string()),
+            }
+            rows.push(row);
+        }
+        size_order::sort(&mut styles, |(_, size, _)| size);
+        let names: Vec<String> = styles.iter().map(|(_, size, _)| (*size).to_owned()).collect();
+        for leap in leaps(&styles.iter().map(|(.., style)| style).collect::<Vec<_>>()) {
+            let row: &mut SizeCheck = &mut rows[styles[leap.sizes[1]].0];
+            row.findings.push(leap.finding(&names));
+        }
+        rows
     }
-    let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
-    (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
-    row.findings.extend(check::of_garment(&style, &mesh));
-    Ok(())
+
+    fn row(&self, size: &SizeFile) -> SizeCheck {
+        SizeCheck {
+            garment: self.garment.clone(),
+            size: size.name.clone(),
+            pieces: 0,
+            seams: 0,
+            measurements: 0,
+            fit_mm: Vec::new(),
+            vertices: 0,
+            min_angle_deg: 0.0,
+            findings: Vec::new(),
+            error: None,
+        }
+    }
+
+    fn fill(&self, row: &mut SizeCheck, size: &SizeFile) -> Result<Style> {
+        let style = patterns::read_style(&size.pattern, self.seams.as_ref(), Some(&size.name), self.unit)?;
+        (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
+        let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
+        row.fit_mm = style.fit_levels.iter().map(level).collect();
+        if let Some(seams) = &self.seams {
+            row.findings = of_files(&size.pattern, seams, Some(&size.name), self.unit)?;
+        }
+        let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
+        (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
+        row.findings.extend(check::of_garment(&style, &mesh));
+        Ok(style)
+    }
 }
 
 /// Findings of a pattern file and its seam file.
@@ -134,7 +151,7 @@ pub(crate) fn of_files(
         return Ok(Vec::new());
     }
     let pieces = patterns::pieces(pattern, size, unit)?;
-    let style = patterns::Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    let style = Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
     let entries = SeamFile::parse(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
     Ok(check::findings(&pieces, &entries, &style))
 }

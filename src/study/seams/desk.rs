@@ -11,6 +11,7 @@ use geom::V2;
 use geom::polyline::segment_distance;
 use geom::units::mm;
 use pattern::propose::{self, Proposal};
+use pattern::seam_edit::Sizes;
 use pattern::style::{EdgeRef, Style, StylePiece};
 use pattern::{Piece, Role, arrange};
 
@@ -209,12 +210,17 @@ pub(crate) fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Propos
     proposal.allowance_m = how.allowance_m;
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
     proposal.notes.push(nest.sewn_along());
-    hold_for(&mut proposal, size, nest.others(size));
+    hold_for(&mut proposal, size, &pieces, nest.others(size));
     Ok((proposal, pieces))
 }
 
 /// Holds a proposal to the sizes that it was not made on.
-pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, others: Vec<(String, Result<Vec<Piece>>)>) {
+pub(crate) fn hold_for(
+    proposal: &mut Proposal,
+    made_on: &str,
+    pieces: &[Piece],
+    others: Vec<(String, Result<Vec<Piece>>)>,
+) {
     let mut sound = Vec::new();
     for (size, pieces) in others {
         match pieces {
@@ -223,7 +229,7 @@ pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, others: Vec<(Stri
         }
     }
     if !sound.is_empty() {
-        proposal.hold_for(made_on, &sound);
+        proposal.hold_for(&Sizes { name: made_on, pieces, others: &sound });
     }
 }
 

@@ -12,6 +12,7 @@ use crate::rows::{Table, Value};
 use geom::units::mm;
 use pattern::Style;
 use pattern::pom::Point;
+use pattern::progression::{Leap, leaps};
 
 /// A point of measure of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -67,9 +68,20 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
         (true, None) => vec![String::new()],
         (false, None) => Nest::read(&source, how.unit)?.sizes().into_iter().map(str::to_owned).collect(),
     };
-    let read = |size: &String| patterns::read_style(&source, seams.as_ref(), Some(size), how.unit);
-    let styles = sizes.iter().map(read).collect::<Result<Vec<Style>>>()?;
-    let found = Specification { notes, ..Specification::of(garment, sizes, &styles) };
+    let (mut read, mut styles) = (Vec::new(), Vec::new());
+    for size in &sizes {
+        match patterns::read_style(&source, seams.as_ref(), Some(size), how.unit) {
+            Ok(style) => {
+                read.push(size.clone());
+                styles.push(style);
+            }
+            // A size that cannot be sewn is left out aloud, unless it is all there is.
+            Err(error) if size == &sizes[sizes.len() - 1] && styles.is_empty() => return Err(error),
+            Err(error) => notes.push(format!("size {size} is left out: {error}")),
+        }
+    }
+    let mut found = Specification::of(garment, read, &styles);
+    found.notes.splice(0..0, notes);
     if found.points.is_empty() {
         let message =
             format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
@@ -105,7 +117,12 @@ impl Specification {
     pub(crate) fn of(garment: String, sizes: Vec<String>, styles: &[Style]) -> Self {
         let points = points(&sizes, styles);
         let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
-        Self { garment, sizes, points, notes: Vec::new(), drawing }
+        let told = |leap: Leap| {
+            let [before, after] = leap.sizes.map(|size| &sizes[size]);
+            format!("doubtful from size {before} to {after}: {}", leap.told())
+        };
+        let notes = leaps(&styles.iter().collect::<Vec<_>>()).into_iter().map(told).collect();
+        Self { garment, sizes, points, notes, drawing }
     }
 
     /// The sheet: a row a point, a column a size, mm, and a column a step from the size before.

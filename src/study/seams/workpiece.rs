@@ -109,7 +109,7 @@ impl Workpiece {
                 finding.kind == FindingKind::FreeEdge && unsewn.iter().any(of)
             };
             let is_open =
-                |finding: &&Finding| finding.kind.is_problem() && !is_left_out(finding) && !is_of_unsewn(finding);
+                |finding: &&Finding| finding.kind.is_of_seams() && !is_left_out(finding) && !is_of_unsewn(finding);
             undecided.extend(found.iter().filter(is_open).map(|finding| Undecided::found(&desk, finding)));
         }
         let length =
@@ -226,7 +226,7 @@ impl Workpiece {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
             return Err(StudyError::stage("pattern")(message));
         }
-        hold_for(&mut proposal, &self.size, others);
+        hold_for(&mut proposal, &self.size, &pieces, others);
         let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
         let text = proposal.toml(style);
         Style::read(&pieces, text.as_bytes(), &name).map_err(StudyError::stage("pattern"))?;

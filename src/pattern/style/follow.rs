@@ -1,0 +1,195 @@
+//! Corners followed over the sizes of a nest, from the size that a seam file was made on to the next, and so on.
+//!
+//! From one size to the next an outline changes little. Most programs grade the vertices of an outline one by one: then all
+//! sizes have the same vertices in the same order, and a corner is the vertex of its number. Where curves are drawn anew in
+//! each size, a corner is the vertex that lies and turns as it does, and that has its grade rule.
+
+use super::corners::corner_vertices;
+use super::correspond::{CORNER_WORTH, Lost, corresponding, extent, matched, places};
+use crate::piece::Piece;
+use geom::V2;
+
+/// Length of the sides along which an outline heads at a vertex, over the size of the piece.
+const HEADING_REACH: f64 = 0.02;
+/// Distance over the size of the piece that a side which heads otherwise by a radian is worth: a fork is told from the curve
+/// beside it, whose sides differ from its own by a right angle, over a distance of a twelfth of the leg.
+const RADIAN_WORTH: f64 = 0.05;
+/// Greatest change of a heading at a corner from size to size where vertices are graded one by one, radians.
+const SAME_HEADING: f64 = 0.35;
+/// Distance within which a grade point lies on a vertex, m.
+const ON_VERTEX_M: f64 = 0.5e-3;
+
+/// Outline vertices of the corners that the edges of a seam file count: `places` as its `corners_at` has them, or those that the
+/// piece shows. They are found on the size `made_on`, where the nest of the piece has it, and followed from there.
+///
+/// # Errors
+/// [`Lost`] where a corner has no like.
+pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
+    let found = |piece: &Piece| match places {
+        [] => Ok(corner_vertices(piece)),
+        places => corresponding(piece, places),
+    };
+    let is = |size: Option<&str>| {
+        let size = size?;
+        piece.nest.iter().position(|one| one.size.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(size)))
+    };
+    let (Some(first), Some(last)) = (is(made_on), is(piece.size.as_deref())) else { return found(piece) };
+    let low = first.min(last);
+    let nest = &piece.nest[low..=first.max(last)];
+    let mut corners = in_sizes(nest, first - low, &found(&piece.nest[first])?).map_err(|(_, lost)| lost)?;
+    Ok(corners.swap_remove(last - low))
+}
+
+/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size `sample`.
+///
+/// # Errors
+/// The size in which a corner has no like, by its place, and [`Lost`].
+pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Result<Vec<Vec<usize>>, (usize, Lost)> {
+    let mut found = vec![corners.to_vec(); sizes.len()];
+    for size in sample + 1..sizes.len() {
+        found[size] = followed(&sizes[size - 1], &found[size - 1], &sizes[size]).map_err(|lost| (size, lost))?;
+    }
+    for size in (0..sample).rev() {
+        found[size] = followed(&sizes[size + 1], &found[size + 1], &sizes[size]).map_err(|lost| (size, lost))?;
+    }
+    Ok(found)
+}
+
+/// Vertices of a piece that correspond to corners of it in the size before.
+fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, Lost> {
+    let (before, after) = (headings(from.seam_outline()), headings(to.seam_outline()));
+    let unlike = |corner: usize, vertex: usize| -> [f64; 2] {
+        [0, 1].map(|side| (after[vertex][side] - before[corner][side]).sin_cos()).map(|(sin, cos)| sin.atan2(cos))
+    };
+    if let Some(turn) = by_number(from, to) {
+        let vertices: Vec<usize> = corners.iter().map(|corner| (corner + turn) % after.len()).collect();
+        let is_alike =
+            |(&corner, &vertex): (&usize, &usize)| unlike(corner, vertex).iter().all(|by| by.abs() < SAME_HEADING);
+        if corners.iter().zip(&vertices).all(is_alike) {
+            return Ok(vertices);
+        }
+    }
+    let (rules, turns) = ([rules(from), rules(to)], [turning(from), turning(to)]);
+    let cost = |k: usize, vertex: usize| {
+        let corner = corners[k];
+        let heading: f64 = unlike(corner, vertex).iter().map(|by| (RADIAN_WORTH * by).powi(2)).sum();
+        let is_other_rule = rules[0][corner].zip(rules[1][vertex]).is_some_and(|(one, other)| one != other);
+        let is_blunt = turns[0][corner] && !turns[1][vertex];
+        heading + CORNER_WORTH.powi(2) * (f64::from(is_other_rule) + f64::from(is_blunt))
+    };
+    matched(to.seam_outline(), &places(from.seam_outline(), corners), cost)
+}
+
+/// By how many vertices the numbers of an outline differ from those of the size before; `None` where it has more or fewer.
+fn by_number(from: &Piece, to: &Piece) -> Option<usize> {
+    let (from, to) = (from.seam_outline(), to.seam_outline());
+    let count = to.len();
+    (from.len() == count).then_some(())?;
+    let [low, high] = extent(to);
+    let all: Vec<usize> = (0..count).collect();
+    let scaled: Vec<V2> =
+        places(from, &all).into_iter().map(|place| low + place.component_mul(&(high - low))).collect();
+    let apart = |turn: usize| -> f64 { (0..count).map(|k| (scaled[k] - to[(k + turn) % count]).norm_squared()).sum() };
+    (0..count).min_by(|one, other| apart(*one).total_cmp(&apart(*other)))
+}
+
+/// How an outline heads before and after each vertex, radians.
+fn headings(outline: &[V2]) -> Vec<[f64; 2]> {
+    let count = outline.len();
+    let [low, high] = extent(outline);
+    let reach_m = HEADING_REACH * (high - low).norm();
+    // The first vertex that far along the outline in one direction.
+    let far = |from: usize, step: usize| {
+        let (mut at, mut way_m) = (from, 0.0);
+        while way_m < reach_m && (at + step) % count != from {
+            let next = (at + step) % count;
+            way_m += (outline[next] - outline[at]).norm();
+            at = next;
+        }
+        outline[at]
+    };
+    let of = |vertex: usize| {
+        let [back, on] = [outline[vertex] - far(vertex, count - 1), far(vertex, 1) - outline[vertex]];
+        [back, on].map(|along| along.y.atan2(along.x))
+    };
+    (0..count).map(of).collect()
+}
+
+/// Which vertices turn.
+fn turning(piece: &Piece) -> Vec<bool> {
+    let mut turns = vec![false; piece.seam_outline().len()];
+    corner_vertices(piece).into_iter().for_each(|vertex| turns[vertex] = true);
+    turns
+}
+
+/// The grade rule of each vertex that has one.
+fn rules(piece: &Piece) -> Vec<Option<u32>> {
+    let of = |vertex: &V2| {
+        let is_on = |point: &&crate::piece::GradePoint| !point.is_inner && (point.at - vertex).norm() < ON_VERTEX_M;
+        piece.grade_points.iter().find(is_on).map(|point| point.rule)
+    };
+    piece.seam_outline().iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draft::Model;
+    use crate::style::correspond::shares;
+    use std::sync::Arc;
+
+    /// Sizes of this number between which each vertex moves as from the first draft to the last.
+    const SIZES: usize = 28;
+
+    /// A drafted piece in many sizes; `kept` says which vertices a size has.
+    fn nest(pieces: [&Piece; 2], kept: impl Fn(usize, usize) -> bool) -> Vec<Piece> {
+        let size = |number: usize| {
+            let share = 2.0 * number as f64 / SIZES as f64 - 0.5;
+            let between = |(a, b): (&V2, &V2)| a.lerp(b, share);
+            let all: Vec<V2> = pieces[0].outline.iter().zip(&pieces[1].outline).map(between).collect();
+            let is_corner = |vertex: &usize| pieces[0].turn_points.contains(&pieces[0].outline[*vertex]);
+            let outline: Vec<usize> =
+                (0..all.len()).filter(|vertex| is_corner(vertex) || kept(number, *vertex)).collect();
+            Piece {
+                name: pieces[0].name.clone(),
+                size: Some(number.to_string()),
+                turn_points: outline.iter().filter(|vertex| is_corner(vertex)).map(|&vertex| all[vertex]).collect(),
+                outline: outline.into_iter().map(|vertex| all[vertex]).collect(),
+                ..Piece::default()
+            }
+        };
+        (0..SIZES).map(size).collect()
+    }
+
+    #[test]
+    fn corners_are_followed_through_sizes_far_apart() {
+        let check = |kept: fn(usize, usize) -> bool, is_marked: bool| {
+            for model in Model::ALL {
+                let drafts = model.drafts();
+                let (first, last) = (&drafts[0], &drafts[drafts.len() - 1]);
+                for (one, other) in
+                    first.pieces.iter().zip(&last.pieces).filter(|(a, b)| a.outline.len() == b.outline.len())
+                {
+                    let marked = nest([one, other], kept);
+                    let expect: Vec<Vec<V2>> = marked.iter().map(|piece| piece.turn_points.clone()).collect();
+                    let plain = |piece: &Piece| Piece { turn_points: Vec::new(), ..piece.clone() };
+                    let sizes: Vec<Piece> = if is_marked { marked.clone() } else { marked.iter().map(plain).collect() };
+                    let made_on = 5;
+                    let places = shares(&marked[made_on].outline, &corner_vertices(&marked[made_on]));
+                    for (piece, expect) in sizes.iter().zip(&expect) {
+                        let piece = Piece { nest: Arc::from(sizes.clone()), ..piece.clone() };
+                        let found = corners_of(&piece, Some("5"), &places)
+                            .unwrap_or_else(|lost| panic!("{model:?} {} {:?}: {lost:?}", piece.name, piece.size));
+                        let found: Vec<V2> = found.into_iter().map(|vertex| piece.outline[vertex]).collect();
+                        assert_eq!(&found, expect, "{model:?} {} {:?}", piece.name, piece.size);
+                    }
+                }
+            }
+        };
+        check(|_, _| true, true);
+        check(|_, _| true, false);
+        // Curves that each size draws by other points.
+        check(|size, vertex| (vertex + size) % 3 != 0, true);
+        check(|size, vertex| (vertex + size) % 3 != 0, false);
+    }
+}
