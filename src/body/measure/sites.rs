@@ -104,7 +104,7 @@ const USUAL_CROTCH: f64 = 0.481;
 const LEAST_CROTCH: f64 = 0.25;
 
 /// Where the floor was of an upright body without feet, by its trunk.
-fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
+pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     let height = high.z - low.z;
     let middle = trunk_middle(mesh, low.z, height).x;
     let crotch = crotch(mesh, low.z + LEAST_CROTCH * height, low.z + 0.56 * height, middle)?;

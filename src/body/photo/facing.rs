@@ -23,7 +23,9 @@ pub(super) fn to_the_right(mask: Mask, sex: Sex) -> (Mask, Option<String>) {
     let told = by_toes(&mask, rows) + by_trunk(&mask, rows, sex);
     match told.signum() {
         1 => (mask, None),
-        -1 => (mask.mirrored(), Some("the side picture faces its left, as toes and trunk tell: it was turned".to_owned())),
+        -1 => {
+            (mask.mirrored(), Some("the side picture faces its left, as toes and trunk tell: it was turned".to_owned()))
+        }
         _ => {
             let note = "toes and trunk do not tell which way the side picture faces: it is taken to face its right";
             (mask, Some(note.to_owned()))
@@ -47,12 +49,17 @@ fn middle(mask: &Mask, rows: (usize, usize), heights: [f64; 2]) -> Option<f64> {
 
 /// As [`by_toes`], by belly, buttocks and the bend of the back.
 fn by_trunk(mask: &Mask, rows: (usize, usize), sex: Sex) -> i32 {
-    let widest = |i: usize| mask.runs(row(rows, LOWEST + STEP * i as f64)).into_iter().max_by_key(|(start, end)| end - start);
-    let seen: Vec<f64> = (0..SIDES).filter_map(widest).map(|(start, end)| (start + end) as f64 / 2.0).collect();
-    if seen.len() < SIDES {
-        return 0;
-    }
-    sign(correlation(&seen, &trunk::usual_middles(sex)), ALIKE)
+    let widest = |height: f64| mask.runs(row(rows, height)).into_iter().max_by_key(|(start, end)| end - start);
+    by_middles(|height| widest(height).map(|(start, end)| (start + end) as f64 / 2.0), sex)
+}
+
+/// 1 where the middle of a trunk, half way from its back to its front at heights over stature, runs as that of people, -1 where it runs the
+/// other way, 0 where neither is seen.
+pub(crate) fn by_middles(middle: impl Fn(f64) -> Option<f64>, sex: Sex) -> i32 {
+    let usual = trunk::usual_middles(sex);
+    let both = (0..SIDES).filter_map(|i| Some((middle(LOWEST + STEP * i as f64)?, usual[i])));
+    let (seen, usual): (Vec<f64>, Vec<f64>) = both.unzip();
+    if 2 * seen.len() < SIDES { 0 } else { sign(correlation(&seen, &usual), ALIKE) }
 }
 
 fn row(rows: (usize, usize), height: f64) -> usize {

@@ -109,8 +109,8 @@ fn read_girths(front: &[u8], side: &[u8], sex: Sex, stature_m: f64) -> ([f64; 4]
     (std::array::from_fn(|i| found.levels[i].girth_m * 1e3), turned)
 }
 
-fn check_mirrored(front: &[u8], side: &image::DynamicImage, sex: Sex, stature_m: f64) {
-    let png = |picture: image::DynamicImage| {
+fn check_mirrored(front: &[u8], side: &DynamicImage, sex: Sex, stature_m: f64) {
+    let png = |picture: DynamicImage| {
         let mut bytes = Cursor::new(Vec::new());
         picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture in memory");
         bytes.into_inner()

@@ -3,11 +3,12 @@
 mod features;
 
 use crate::files::import::import;
-use crate::measure::{lengths, sites};
+use crate::measure::{lengths, sites, tape};
+use crate::photo::facing;
 use crate::repair;
 use crate::repair::feet::Feet;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
-use geom::V3;
+use geom::{TriMesh, V3};
 
 /// A trunk farther before or behind the origin than this is moved over it, metres.
 const OFF_AXIS: f64 = 0.04;
@@ -37,6 +38,9 @@ pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Re
     let middle = sites::trunk_middle(&imported.mesh, low.z, high.z - low.z);
     let forward = if middle.y.abs() > OFF_AXIS { middle.y } else { 0.0 };
     imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle.x, forward, low.z));
+    if !feet.stand() {
+        imported.notes.extend(face_front(&mut imported.mesh, sex));
+    }
     let (sites, told) = sites::find_sites(&imported.mesh, sex, feet)?;
     if sex.is_none() {
         let name = if told == Sex::Male { "man" } else { "woman" };
@@ -46,6 +50,26 @@ pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Re
     lengths::add_limbs(&imported.mesh, &sites, told, &mut girths);
     girths.keep_known(feet);
     Ok(Scan { imported, sex: told, girths, feet })
+}
+
+/// Turns a body without feet to the front, by its trunk; what is said of it.
+fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
+    let (low, high) = mesh.bounds()?;
+    let floor = sites::usual_floor(mesh, [low, high])?;
+    let middle = |height: f64| {
+        let outline = tape::trunk_outline(mesh, floor + height * (high.z - floor), 0.0)?;
+        let (front, back) = tape::depth_range(&outline);
+        Some((front + back) / 2.0)
+    };
+    let sexes = [Sex::Male, Sex::Female].into_iter().filter(|of| sex.is_none_or(|sex| sex == *of));
+    match sexes.map(|sex| facing::by_middles(middle, sex)).sum::<i32>().signum() {
+        1 => None,
+        -1 => {
+            mesh.positions.iter_mut().for_each(|p| *p = V3::new(-p.x, -p.y, p.z));
+            Some("turned by 180 degrees: belly and buttocks pointed backwards".to_owned())
+        }
+        _ => Some("which way it faces is not told without feet: it is taken as it is".to_owned()),
+    }
 }
 
 impl Scan {
