@@ -93,7 +93,7 @@ pub enum BodyError {
     /// A scan that does not stand on its feet.
     #[error(
         "a foot is missing, and a body that wears garments stands on both; accepted: a scan with its feet, or the girths that are read on \
-         this one, given as measurements with a stature"
+         this one, given as measurements with the stature (--stature-mm)"
     )]
     Feet,
     /// More than one body.

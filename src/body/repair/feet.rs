@@ -48,11 +48,13 @@ impl Feet {
         let note = match (self.right, self.left) {
             (true, true) => return None,
             (false, false) => {
-                "the feet are missing, so that the floor is not known: heights, and what is placed by a share of the stature (waist, upper \
-                 arm, knee, calf, ankle), are left out"
+                "the feet are missing, so that the floor is not known: the volume, heights, and what is placed by a share of the stature \
+                 (waist, upper arm, knee, calf, ankle) are left out"
             }
-            (false, true) => "the right foot is missing: the girths of that leg below the knee are left out",
-            (true, false) => "the left foot is missing: the floor is where the right one stands",
+            (false, true) => {
+                "the right foot is missing: the volume, and the girths of that leg below the knee are left out"
+            }
+            (true, false) => "the left foot is missing: the volume is left out",
         };
         Some(note.to_owned())
     }
