@@ -2,8 +2,7 @@
 //!
 //! Read by hand: the crate `gltf` panics on an index that is out of range.
 
-use super::import::merge_equal_vertices;
-use super::{MOST_TRIANGLES, file_error, too_many};
+use super::{MOST_TRIANGLES, file_error, merge_equal_vertices, too_many};
 use crate::BodyError;
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion};
