@@ -90,6 +90,12 @@ pub enum BodyError {
         /// What is open.
         problem: String,
     },
+    /// A scan that does not stand on its feet.
+    #[error(
+        "a foot is missing, and a body that wears garments stands on both; accepted: a scan with its feet, or the girths that are read on \
+         this one, given as measurements with the stature (--stature-mm)"
+    )]
+    Feet,
     /// More than one body.
     #[error(
         "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"

@@ -16,6 +16,7 @@ pub fn beside(files: &BesideFiles) -> Beside<'_> {
         size: files.size.as_deref(),
         unit: files.unit.map(Unit::from),
         rules: files.rul.as_deref(),
+        rule_unit: files.rul_unit.map(Unit::from),
         info: files.info.as_deref(),
     }
 }
@@ -23,7 +24,9 @@ pub fn beside(files: &BesideFiles) -> Beside<'_> {
 /// Writes the features of a pattern's pieces, or prints them.
 pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Option<&Path>) -> Outcome {
     output.map(|output| output::kind(output, &[("json", ())])).transpose()?;
-    let json = pattern_files::features(path, &beside(files))? + "\n";
+    let (json, notes) = pattern_files::features(path, &beside(files))?;
+    notes.iter().for_each(|note| context.say(note));
+    let json = json + "\n";
     match output {
         Some(output) => write(context, output, json.into_bytes())?,
         None => output::text(&json)?,
@@ -100,14 +103,13 @@ pub fn convert(
     Written { seams, standard, with_rul }: &Written<'_>,
     output: &Path,
 ) -> Outcome {
-    let bytes = match output::kind(output, &PATTERNS)? {
+    let (bytes, notes) = match output::kind(output, &PATTERNS)? {
         PatternFormat::Dxf if *with_rul => {
             let table = output.with_extension("rul");
             let name = table.file_stem().unwrap_or_default().to_string_lossy();
             let graded = pattern_files::convert_to_graded(path, &beside(files), *standard, &name)?;
-            graded.notes.iter().for_each(|note| context.say(note));
             write(context, &table, graded.rules.into_bytes())?;
-            graded.dxf
+            (graded.dxf, graded.notes)
         }
         PatternFormat::Dxf => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,
         PatternFormat::Json if *with_rul => {
@@ -115,9 +117,11 @@ pub fn convert(
             return Err(CliError::Usage(found));
         }
         PatternFormat::Json => {
-            (pattern_files::convert_to_garmentcode(path, *seams, &beside(files))? + "\n").into_bytes()
+            let (json, notes) = pattern_files::convert_to_garmentcode(path, *seams, &beside(files))?;
+            ((json + "\n").into_bytes(), notes)
         }
     };
+    notes.iter().for_each(|note| context.say(note));
     write(context, output, bytes)?;
     Ok(End::Done)
 }

@@ -69,12 +69,22 @@ pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) 
     body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
 }
 
+/// Reads and measures the scan of somebody who stands on both feet.
+///
+/// # Errors
+/// As [`read_scan`], and where a foot is missing.
+pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
+    let read = read_scan(scan, unit, sex)?;
+    read.check_feet().map_err(of_scan(scan))?;
+    Ok(read)
+}
+
 /// Everything that is measured on a scan.
 ///
 /// # Errors
 /// When a part of the body is not found.
 pub fn measured(scan: &Scan) -> Result<Measured> {
-    body::lengths(&scan.imported.mesh, Some(scan.sex), scan.girths.clone()).map_err(StudyError::stage("body"))
+    scan.measured().map_err(StudyError::stage("body"))
 }
 
 /// A scan as a body that wears garments.

@@ -5,6 +5,7 @@ use crate::repair::clean::principal_axes;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3, hull};
 use nalgebra::{Rotation2, UnitQuaternion};
+use std::borrow::Cow;
 
 /// A body whose long axis leans less than this from an axis of its file stands along that axis, radians.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
@@ -14,6 +15,9 @@ const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 /// heels).
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// Legs that end farther apart than this over stature are not of one length.
+const UNEVEN: f64 = 0.02;
 
 /// Height of the soles above the lowest point, over stature.
 const SOLE_ZONE: f64 = 0.025;
@@ -63,7 +67,7 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
 
 /// Rights a body that already faces front or back: its long axis must not lean sideways, its soles must lie level.
 pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<String>) {
-    let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return };
+    let Some((_, [long, ..])) = principal_axes(mesh, &on_both_sides(mesh)) else { return };
     let long = if long.z < 0.0 { -long } else { long };
     let sideways = long.x.atan2(long.z);
     let about_y = UnitQuaternion::from_axis_angle(&V3::y_axis(), -sideways);
@@ -77,6 +81,22 @@ pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<S
         turn_all(mesh, |p| turn * p);
         notes.push(format!("righted by {:.1} degrees: it leant", turn.angle().to_degrees()));
     }
+}
+
+/// The triangles of a mesh, without those of one leg below the end of the other: a leg that ends early would make a body lean.
+fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
+    let Some((low, high)) = mesh.bounds() else { return Cow::Borrowed(&mesh.triangles) };
+    let middle = (low.x + high.x) / 2.0;
+    let end = |side: f64| {
+        let leg = mesh.positions.iter().filter(|p| side * (p.x - middle) > 0.0);
+        leg.map(|p| p.z).fold(f64::INFINITY, f64::min)
+    };
+    let upper = end(1.0).max(end(-1.0));
+    if upper - low.z < UNEVEN * (high.z - low.z) {
+        return Cow::Borrowed(&mesh.triangles);
+    }
+    let is_above = |triangle: &&[usize; 3]| triangle.iter().all(|&i| mesh.positions[i].z > upper);
+    Cow::Owned(mesh.triangles.iter().filter(is_above).copied().collect())
 }
 
 /// Slope of the soles from back to front, radians: that of the edge on which the feet rest under their middle.

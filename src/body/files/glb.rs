@@ -2,7 +2,7 @@
 //!
 //! Read by hand: the crate `gltf` panics on an index that is out of range.
 
-use super::{MOST_TRIANGLES, file_error, too_many};
+use super::{MOST_TRIANGLES, file_error, merge_equal_vertices, too_many};
 use crate::BodyError;
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion};
@@ -86,7 +86,7 @@ struct View {
     byte_stride: Option<usize>,
 }
 
-/// Reads the mesh of a file.
+/// Reads the mesh of a file. Vertices are stored once for each chart of a texture: those of equal position are joined.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let (json, data) = chunks(bytes).ok_or_else(|| refused("its chunks are cut off"))?;
     let document: Document = serde_json::from_slice(json).map_err(|error| refused(&error.to_string()))?;
@@ -116,7 +116,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         }
         open.extend(node.children.iter().map(|&child| (child, place, depth + 1)));
     }
-    Ok(mesh)
+    Ok(merge_equal_vertices(&mesh))
 }
 
 fn refused(problem: &str) -> BodyError {

@@ -2,12 +2,11 @@
 //!
 //! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
 
-use super::{MOST_TRIANGLES, align, file_error, glb, stl, too_many};
+use super::{MOST_TRIANGLES, align, file_error, glb, merge_equal_vertices, stl, too_many};
 use crate::BodyError;
 use crate::repair::clean;
 use geom::units::mm;
 use geom::{TriMesh, V3};
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Cursor;
 
@@ -197,24 +196,6 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         mesh.triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
     }
     Ok(merge_equal_vertices(&mesh))
-}
-
-/// The same mesh with vertices of equal position made one, and triangles that lost a side dropped.
-pub(super) fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
-    let mut first_with: BTreeMap<[u64; 3], usize> = BTreeMap::new();
-    let mut merged = TriMesh::default();
-    let mut renamed = Vec::with_capacity(mesh.positions.len());
-    for position in &mesh.positions {
-        let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());
-        let index = *first_with.entry(key).or_insert(merged.positions.len());
-        if index == merged.positions.len() {
-            merged.positions.push(*position);
-        }
-        renamed.push(index);
-    }
-    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(|corner| renamed[corner]));
-    merged.triangles = triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect();
-    merged
 }
 
 /// Brings a raw mesh into the world frame.

@@ -33,7 +33,10 @@ fn every_format_and_unit_gives_the_same_body() {
 
 /// The block as a GLB with y up, hung from a node that scales it.
 fn glb() -> Vec<u8> {
-    let mesh = block();
+    glb_of(&block())
+}
+
+fn glb_of(mesh: &TriMesh) -> Vec<u8> {
     let mut data: Vec<u8> = Vec::new();
     for p in &mesh.positions {
         [p.x, p.z, -p.y].into_iter().for_each(|c| data.extend((c as f32 / 2.0).to_le_bytes()));
@@ -45,11 +48,11 @@ fn glb() -> Vec<u8> {
         "nodes": [{ "scale": [2.0, 2.0, 2.0], "children": [1] }, { "mesh": 0 }],
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
         "accessors": [
-            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, -1], "max": [1, 1, 1] },
-            { "bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR" }
+            { "bufferView": 0, "componentType": 5126, "count": mesh.positions.len(), "type": "VEC3", "min": [0, 0, -1], "max": [1, 1, 1] },
+            { "bufferView": 1, "componentType": 5123, "count": 3 * mesh.triangles.len(), "type": "SCALAR" }
         ],
         "bufferViews": [
-            { "buffer": 0, "byteLength": places }, { "buffer": 0, "byteOffset": places, "byteLength": 24 }
+            { "buffer": 0, "byteLength": places }, { "buffer": 0, "byteOffset": places, "byteLength": 6 * mesh.triangles.len() }
         ],
         "buffers": [{ "byteLength": data.len() }]
     });
@@ -67,6 +70,17 @@ fn a_glb_is_read_where_its_nodes_put_it() {
     assert_eq!((imported.unit, imported.mesh.triangles.len()), (LengthUnit::Metre, 4));
     assert!((imported.mesh.volume() - block().volume()).abs() < 1e-6);
     assert!(imported.notes.iter().any(|note| note.contains("y up")), "{:?}", imported.notes);
+}
+
+#[test]
+fn vertices_of_two_charts_are_joined() {
+    // Every triangle has corners of its own, as along the border of charts.
+    let whole = block();
+    let positions: Vec<V3> = whole.triangles.iter().flatten().map(|&i| whole.positions[i]).collect();
+    let charts = TriMesh { triangles: (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(), positions };
+    let joined = import(&glb_of(&charts), None).expect("a good file").mesh;
+    assert_eq!((joined.positions.len(), joined.triangles.len()), (4, 4));
+    assert!((joined.volume() - whole.volume()).abs() < 1e-6);
 }
 
 #[test]

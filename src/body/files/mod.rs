@@ -6,6 +6,8 @@ pub mod import;
 mod stl;
 
 use crate::BodyError;
+use geom::TriMesh;
+use std::collections::BTreeMap;
 
 /// Most triangles of a mesh: more tell nothing of a body that a tape could read.
 const MOST_TRIANGLES: usize = 1_000_000;
@@ -17,4 +19,22 @@ fn too_many(count: usize) -> BodyError {
 
 fn file_error(format: &'static str, place: &str, problem: &str) -> BodyError {
     BodyError::File { format, place: place.to_owned(), problem: problem.to_owned() }
+}
+
+/// The same mesh with vertices of equal position made one, and triangles that lost a side dropped.
+fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
+    let mut first_with: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    let mut merged = TriMesh::default();
+    let mut renamed = Vec::with_capacity(mesh.positions.len());
+    for position in &mesh.positions {
+        let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());
+        let index = *first_with.entry(key).or_insert(merged.positions.len());
+        if index == merged.positions.len() {
+            merged.positions.push(*position);
+        }
+        renamed.push(index);
+    }
+    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(|corner| renamed[corner]));
+    merged.triangles = triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect();
+    merged
 }

@@ -1,8 +1,7 @@
 //! STL, ASCII and binary, by our own reader: the crate `stl_io` names no line, drops every solid but the first, and rounds ASCII
 //! numbers to single precision.
 
-use super::file_error;
-use super::import::merge_equal_vertices;
+use super::{file_error, merge_equal_vertices};
 use crate::BodyError;
 use geom::{TriMesh, V3};
 

@@ -1,6 +1,7 @@
 //! What a tape reads on a body.
 
 use crate::people::dimension::{COUNT, Dimension};
+use crate::repair::feet::Feet;
 use crate::{Measurements, Sex};
 use geom::units::{from_mm, mm};
 use serde::de::Error as _;
@@ -42,6 +43,13 @@ const LEVELS: [(Dimension, &str); 9] = [
     (Dimension::Inseam, "crotch_level_mm"),
 ];
 
+/// What is read of the right leg between knee and foot.
+const LOWER_LEG: [Dimension; 3] = [Dimension::KneeGirth, Dimension::CalfGirth, Dimension::AnkleGirth];
+
+/// Stature and inseam, and what is read at a share of the stature.
+const PLACED_BY_STATURE: [Dimension; 4] =
+    [Dimension::Stature, Dimension::Inseam, Dimension::WaistGirth, Dimension::UpperArmGirth];
+
 /// Key of the volume.
 const VOLUME: &str = "volume_l";
 
@@ -55,6 +63,7 @@ pub struct Girths {
     values: [Option<f64>; COUNT],
     /// Heights above the floor, millimetres.
     levels: [Option<f64>; COUNT],
+    /// Not a number where feet are missing.
     volume_l: f64,
 }
 
@@ -72,6 +81,22 @@ impl Girths {
     /// Notes the height above the floor at which a dimension is read, m.
     pub(super) fn set_level(&mut self, dimension: Dimension, height: impl Into<Option<f64>>) {
         self.levels[dimension as usize] = height.into().map(mm);
+    }
+
+    /// Leaves out what a body without these feet does not tell: its volume; of the right leg what lies below the knee; and where the floor
+    /// is not known, heights and what is placed by a share of the stature.
+    pub(crate) fn keep_known(&mut self, feet: Feet) {
+        if feet == Feet::BOTH {
+            return;
+        }
+        self.volume_l = f64::NAN;
+        if !feet.right {
+            LOWER_LEG.into_iter().for_each(|dimension| self.set(dimension, None));
+        }
+        if !feet.stand() {
+            PLACED_BY_STATURE.into_iter().for_each(|dimension| self.set(dimension, None));
+            self.levels = [None; COUNT];
+        }
     }
 
     /// The same girths on a body moved down by some metres; stature and inseam are those of the body standing upright.
@@ -101,7 +126,7 @@ impl Girths {
     pub(super) fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let values = READ.map(|dimension| (dimension.key(), self.values[dimension as usize]));
         let levels = LEVELS.map(|(dimension, key)| (key, self.levels[dimension as usize]));
-        values.into_iter().chain([(VOLUME, Some(self.volume_l))]).chain(levels)
+        values.into_iter().chain([(VOLUME, Some(self.volume_l).filter(|litres| litres.is_finite()))]).chain(levels)
     }
 
     /// The measurements of a subject with these girths, as a study holds them: all that a subject may have, to the tenth of a

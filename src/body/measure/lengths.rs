@@ -7,16 +7,18 @@ use super::sites::{self, Sites};
 use super::slices::{Slices, steps};
 use super::tailor::{self, Marks, Taken};
 use super::tape;
+use crate::repair::feet::Feet;
 use crate::{BodyError, Dimension, Girths, Sex};
 use geom::section::{Plane, section};
 use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
+use std::collections::BTreeSet;
 
 /// What `body measure` says beyond [`Girths`], metres; absent where the body does not show it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lengths {
     /// Height of the back neck point.
-    pub cervicale_height_m: f64,
+    pub cervicale_height_m: Option<f64>,
     /// From the back neck point down the centre back to the waist level.
     pub back_waist_length_m: Option<f64>,
     /// From the front neck point down the centre front to the waist level.
@@ -49,7 +51,7 @@ impl Measured {
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let lengths = &self.lengths;
         let lengths = [
-            ("cervicale_height_mm", Some(lengths.cervicale_height_m)),
+            ("cervicale_height_mm", lengths.cervicale_height_m),
             ("back_waist_length_mm", lengths.back_waist_length_m),
             ("front_waist_length_mm", lengths.front_waist_length_m),
             ("total_crotch_length_mm", lengths.total_crotch_length_m),
@@ -60,6 +62,23 @@ impl Measured {
         let lengths = lengths.into_iter().map(|(key, length)| (key, length.map(mm)));
         let tailor = self.tailor.iter().map(|taken| (taken.key, taken.written));
         self.girths.entries().chain(lengths).chain(tailor)
+    }
+
+    /// Leaves out what a body without these feet does not tell.
+    fn keep_known(&mut self, feet: Feet) {
+        self.girths.keep_known(feet);
+        if !feet.right {
+            self.lengths.calf_level_m = None;
+            self.lengths.knee_level_m = None;
+        }
+        if !feet.stand() {
+            self.lengths = Lengths { elbow_girth_m: self.lengths.elbow_girth_m, ..Lengths::default() };
+            for taken in self.tailor.iter_mut().filter(|taken| FROM_THE_FLOOR.contains(&taken.key)) {
+                (taken.written, taken.path) = (None, Vec::new());
+            }
+        }
+        let known: BTreeSet<&str> = self.entries().filter_map(|(key, value)| value.map(|_| key)).collect();
+        self.confidence.retain(|of| known.contains(of.key));
     }
 }
 
@@ -85,14 +104,30 @@ const ANKLE: [f64; 2] = [0.10, 0.30];
 ///
 /// # Errors
 /// Those of [`crate::measure()`].
-pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<Measured, BodyError> {
-    let (sites, sex) = sites::find_sites(mesh, sex)?;
-    let median = median_section(mesh, &sites);
-    let front_neck = neck_base::front_neck(mesh, &sites);
-    let marks = Marks::of_mesh(mesh, &sites, sex);
-    let limbs = read_limbs(mesh, &sites, &marks, &mut girths);
+pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, girths: Girths) -> Result<Measured, BodyError> {
+    let (sites, sex) = sites::find_sites(mesh, sex, Feet::BOTH)?;
+    Ok(at_sites(mesh, &sites, sex, girths))
+}
+
+/// What a tailor takes from the floor or from the waist, which lies at a share of the stature.
+const FROM_THE_FLOOR: [&str; 4] =
+    ["bust_point_height_mm", "scye_to_waist_mm", "nape_to_waist_over_bust_mm", "body_rise_mm"];
+
+/// Measures a scan with these feet.
+pub(crate) fn of_scan(mesh: &TriMesh, sex: Sex, feet: Feet, girths: Girths) -> Result<Measured, BodyError> {
+    let (sites, sex) = sites::find_sites(mesh, Some(sex), feet)?;
+    let mut measured = at_sites(mesh, &sites, sex, girths);
+    measured.keep_known(feet);
+    Ok(measured)
+}
+
+fn at_sites(mesh: &TriMesh, sites: &Sites, sex: Sex, mut girths: Girths) -> Measured {
+    let median = median_section(mesh, sites);
+    let front_neck = neck_base::front_neck(mesh, sites);
+    let marks = Marks::of_mesh(mesh, sites, sex);
+    let limbs = read_limbs(mesh, sites, &marks, &mut girths);
     let lengths = Lengths {
-        cervicale_height_m: sites.back_neck.z - sites.floor,
+        cervicale_height_m: Some(sites.back_neck.z - sites.floor),
         back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
         front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
         total_crotch_length_m: crotch_length(&median, sites.waist),
@@ -100,9 +135,9 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<M
         knee_level_m: Some(limbs.knee - sites.floor),
         elbow_girth_m: limbs.elbow_girth,
     };
-    let confidence = confidence::of(mesh, &sites, &marks);
+    let confidence = confidence::of(mesh, sites, &marks);
     let tailor = tailor::take(mesh, &marks);
-    Ok(Measured { girths, lengths, tailor, confidence })
+    Measured { girths, lengths, tailor, confidence }
 }
 
 /// Adds what the tape reads on the limbs of a mesh to its girths.

@@ -4,6 +4,7 @@ use super::landmarks::crotch;
 use super::shoulder::Frame;
 use super::slices::{Sliced, Slices, steps};
 use super::tape::{self, Neck};
+use crate::repair::feet::Feet;
 use crate::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
@@ -11,7 +12,7 @@ use geom::{TriMesh, V2, V3};
 /// Where on a mesh the tape is laid, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sites {
-    /// Height of the floor and of the crown.
+    /// Height of the floor and of the crown; without feet the floor lies where bodies of such a trunk have it.
     pub floor: f64,
     pub crown: f64,
     /// Sideways place of the median plane.
@@ -54,7 +55,7 @@ const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 /// # Errors
 /// [`BodyError::MissingPart`] names the part that was not found where a standing body has it.
 pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
-    let (sites, _) = find_sites(mesh, sex)?;
+    let (sites, _) = find_sites(mesh, sex, Feet::BOTH)?;
     girths_at(mesh, &sites)
 }
 
@@ -96,9 +97,26 @@ fn missing(part: &'static str, z: f64) -> BodyError {
     BodyError::MissingPart { part, height_m: z }
 }
 
+/// Mean height of the crotch over stature, of the model bodies of [`crate::shape::atlas`].
+const USUAL_CROTCH: f64 = 0.481;
+
+/// Least height of the crotch over that of a body without feet: legs that end below the knee.
+const LEAST_CROTCH: f64 = 0.25;
+
+/// Where the floor was of an upright body without feet, by its trunk.
+pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
+    let height = high.z - low.z;
+    let middle = trunk_middle(mesh, low.z, height).x;
+    let crotch = crotch(mesh, low.z + LEAST_CROTCH * height, low.z + 0.56 * height, middle)?;
+    Some(high.z - (high.z - crotch) / (1.0 - USUAL_CROTCH))
+}
+
 /// Finds the places to measure on the mesh itself, and the sex where it is not given.
-pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex), BodyError> {
-    let (low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
+pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result<(Sites, Sex), BodyError> {
+    let (mut low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
+    if !feet.stand() {
+        low.z = usual_floor(mesh, [low, high]).ok_or_else(|| missing("crotch", 0.4 * high.z))?;
+    }
     let stature = high.z - low.z;
     let middle = trunk_middle(mesh, low.z, stature).x;
     let at = |share: f64| low.z + share * stature;

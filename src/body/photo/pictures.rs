@@ -1,5 +1,6 @@
 //! Bodies from a front and a side picture: silhouettes, their camera, widths and depths at the girth levels, girths.
 
+use super::facing;
 use super::outline::{Outlines, View};
 use super::segment;
 use super::silhouette::Mask;
@@ -83,8 +84,9 @@ pub fn from_pictures(
     stature_m: f64,
 ) -> Result<Pictured, BodyError> {
     let front = View::new("front", person("front", front)?, camera)?;
-    let side = View::new("side", person("side", side)?, camera)?;
-    let mut notes = Vec::new();
+    let (side, turned) = facing::to_the_right(person("side", side)?, sex);
+    let side = View::new("side", side, camera)?;
+    let mut notes: Vec<String> = turned.into_iter().collect();
     if camera.is_none() {
         notes.push("no camera given: taken as seen from far away, which reads a near person too large".to_owned());
     }

@@ -101,6 +101,65 @@ fn silhouettes_of_built_bodies_give_their_girths() {
     }
 }
 
+/// The girths of the levels, mm, and whether it is said that the side picture was turned.
+fn read_girths(front: &[u8], side: &[u8], sex: Sex, stature_m: f64) -> ([f64; 4], bool) {
+    let found = from_pictures(front, side, None, sex, stature_m).expect("a person");
+    assert!(!found.notes.iter().any(|note| note.contains("do not tell")), "{:?}", found.notes);
+    let turned = found.notes.iter().any(|note| note.contains("faces its left"));
+    (std::array::from_fn(|i| found.levels[i].girth_m * 1e3), turned)
+}
+
+fn check_mirrored(front: &[u8], side: &DynamicImage, sex: Sex, stature_m: f64) {
+    let png = |picture: DynamicImage| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture in memory");
+        bytes.into_inner()
+    };
+    let (straight, turned) = read_girths(front, &png(side.clone()), sex, stature_m);
+    assert!(!turned, "{sex:?} of {stature_m} m faces right");
+    let (mirrored, turned) = read_girths(front, &png(side.fliph()), sex, stature_m);
+    assert!(turned, "{sex:?} of {stature_m} m faces left");
+    let off = straight.iter().zip(mirrored).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off < 1.0, "{sex:?} of {stature_m} m: {straight:.1?}, mirrored {mirrored:.1?}");
+}
+
+#[test]
+fn a_side_picture_that_faces_left_is_turned_and_gives_the_same_girths() {
+    let women = [(1.52, 46.0), (1.60, 85.0), (1.68, 62.0), (1.80, 70.0)].map(|(h, w)| (Sex::Female, h, w));
+    let men = [(1.62, 62.0), (1.70, 110.0), (1.78, 76.0), (1.96, 90.0)].map(|(h, w)| (Sex::Male, h, w));
+    for (sex, stature_m, weight_kg) in women.into_iter().chain(men) {
+        let body = crate::build(&measured(sex, stature_m, weight_kg)).expect("an ordinary body");
+        for taken in [Taken::Orthographic(700.0), Taken::Perspective(1900.0, 3.0)] {
+            let [front, side] = silhouettes(&body.mesh, taken, [1100, 1700]);
+            check_mirrored(&png(&front), &side.into(), sex, stature_m);
+        }
+    }
+}
+
+#[test]
+fn photographs_that_face_left_give_the_same_girths() {
+    let Some(folder) = reference() else {
+        eprintln!("skipped: no reference bodies beside the project");
+        return;
+    };
+    let people = [1.6735, 1.7552, 1.8612, 1.5870, 1.6400, 1.6744].into_iter().zip(1..);
+    for (stature_m, i) in people {
+        let sex = if i < 4 { Sex::Male } else { Sex::Female };
+        let read = |name: &str| std::fs::read(folder.join(format!("photos/s0{i}_{name}.jpg"))).expect("a picture");
+        let side = image::load_from_memory(&read("side")).expect("a picture");
+        check_mirrored(&read("front"), &side, sex, stature_m);
+    }
+}
+
+#[test]
+fn a_side_picture_without_direction_is_said_to_have_none() {
+    // A block with a round head: it has neither toes nor a back.
+    let mut mask = Mask::new(300, 1000, vec![false; 300_000]);
+    (100..900).flat_map(|y| (100..200).map(move |x| y * 300 + x)).for_each(|i| mask.bits[i] = true);
+    let (same, said) = facing::to_the_right(mask.clone(), Sex::Male);
+    assert!(same == mask && said.is_some_and(|said| said.contains("do not tell")));
+}
+
 fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
     Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg)
 }

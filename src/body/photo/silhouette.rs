@@ -32,6 +32,12 @@ impl Mask {
         Some((row(first), row(last)))
     }
 
+    /// Seen in a mirror.
+    pub fn mirrored(&self) -> Self {
+        let bits = self.bits.chunks(self.width.max(1)).flat_map(|row| row.iter().rev().copied()).collect();
+        Self { bits, ..*self }
+    }
+
     /// Number of person pixels.
     pub fn area(&self) -> usize {
         self.bits.iter().filter(|bit| **bit).count()

@@ -116,12 +116,22 @@ struct BothSexes {
 static LEARNED: LazyLock<BothSexes> =
     LazyLock::new(|| serde_json::from_str(include_str!("trunk.json")).expect("the file beside this one"));
 
-/// Neck, chest, waist and hip of a trunk.
-pub(super) fn read(seen: &Seen) -> [Read; 4] {
-    let learned = match seen.sex {
+fn learned(sex: Sex) -> &'static Learned {
+    match sex {
         Sex::Male => &LEARNED.male,
         Sex::Female => &LEARNED.female,
-    };
+    }
+}
+
+/// Half way from back to front of the mean trunk of a sex, at the heights of its outline.
+pub(super) fn usual_middles(sex: Sex) -> [f64; SIDES] {
+    let mean = &learned(sex).mean;
+    std::array::from_fn(|i| (mean[1 + WIDTHS + i] + mean[1 + WIDTHS + SIDES + i]) / 2.0)
+}
+
+/// Neck, chest, waist and hip of a trunk.
+pub(super) fn read(seen: &Seen) -> [Read; 4] {
+    let learned = learned(seen.sex);
     let trunk = learned.fit(seen);
     seen.sections.map(|section| learned.girth(seen, &section, &trunk))
 }
@@ -248,7 +258,7 @@ mod tests {
 
     /// What pictures from far away show of the mean trunk of a sex, seen at a stature.
     fn mean(sex: Sex, stature_m: f64) -> Seen {
-        let learned = if sex == Sex::Male { &LEARNED.male } else { &LEARNED.female };
+        let learned = learned(sex);
         let at = |i: usize| learned.mean[1 + i] * stature_m;
         let section = |level, height: f64, width: f64| Section {
             level,

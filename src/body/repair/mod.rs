@@ -1,9 +1,11 @@
 //! Repairing a scan: noise is smoothed away and holes are closed, so that a tape can be laid round it.
 
 pub mod clean;
+pub mod feet;
 mod manifold;
 
 use crate::BodyError;
+use feet::Feet;
 use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
@@ -27,11 +29,11 @@ const MENDED: usize = 3;
 /// Vertices of a patch that are still faired together; larger patches stay flat.
 const LARGEST_PATCH: usize = 900;
 
-/// Makes one surface of a mesh, smooths it where it is rough and closes its holes; says what was done.
+/// Makes one surface of a mesh, smooths it where it is rough and closes its holes; says what was done, and returns the feet that it has.
 ///
 /// # Errors
 /// [`BodyError::Open`] for a hole too long to be closed.
-pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<(), BodyError> {
+pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet, BodyError> {
     let dropped = manifold::make_manifold(mesh);
     if dropped > 0 {
         notes.push(format!("{dropped} doubled, branching or twisted triangles were left out"));
@@ -41,6 +43,8 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<(), 
         smooth(mesh);
         notes.push(format!("smoothed: its surface is rough by {:.2} mm", rough * 1e3));
     }
+    let feet = Feet::of(mesh, &rims(mesh));
+    notes.extend(feet.note());
     let mut holes = close_holes(mesh);
     for _ in 0..MENDED {
         if mesh.is_closed_manifold() {
@@ -58,7 +62,7 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<(), 
     if longest >= LONGEST_HOLE {
         return Err(BodyError::Open { problem: format!("a hole is {longest:.2} m round (half a body?)") });
     }
-    Ok(())
+    Ok(feet)
 }
 
 /// Length of a rim, metres.

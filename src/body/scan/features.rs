@@ -7,6 +7,7 @@ use crate::measure::sites::{self, Sites};
 use crate::measure::{landmarks, lengths, neck_base};
 use crate::model::control::{ControlMesh, Layer};
 use crate::model::control_cut::{Cuts, control_mesh};
+use crate::repair::feet::Feet;
 use crate::shape::atlas::Atlas;
 use crate::{Body, BodyError, Landmarks, Sex};
 use geom::section::Plane;
@@ -18,7 +19,7 @@ use geom::{TriMesh, V3};
 /// [`BodyError::MissingPart`] names the part that was not found: a body to be dressed needs arms apart from the trunk and legs
 /// apart from each other.
 pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
-    let (sites, _) = sites::find_sites(&mesh, Some(sex))?;
+    let (sites, _) = sites::find_sites(&mesh, Some(sex), Feet::BOTH)?;
     let mut girths = sites::girths_at(&mesh, &sites)?;
     lengths::add_limbs(&mesh, &sites, sex, &mut girths);
     let right = Half::find(&mesh, &sites, sites.shoulder[0])?;

@@ -3,10 +3,12 @@
 mod features;
 
 use crate::files::import::import;
-use crate::measure::{lengths, sites};
+use crate::measure::{lengths, sites, tape};
+use crate::photo::facing;
 use crate::repair;
-use crate::{Body, BodyError, Girths, Imported, LengthUnit, Sex};
-use geom::V3;
+use crate::repair::feet::Feet;
+use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
+use geom::{TriMesh, V3};
 
 /// A trunk farther before or behind the origin than this is moved over it, metres.
 const OFF_AXIS: f64 = 0.04;
@@ -20,6 +22,8 @@ pub struct Scan {
     pub sex: Sex,
     /// What the tape reads on it.
     pub girths: Girths,
+    /// The feet that it has.
+    feet: Feet,
 }
 
 /// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation; the unit is given or told from the height, the
@@ -29,27 +33,69 @@ pub struct Scan {
 /// Those of [`import`], and [`BodyError::MissingPart`] where a part of the body is not found.
 pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
     let mut imported = import(bytes, unit)?;
-    repair::repair(&mut imported.mesh, &mut imported.notes)?;
+    let feet = repair::repair(&mut imported.mesh, &mut imported.notes)?;
     let (low, high) = imported.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
     let middle = sites::trunk_middle(&imported.mesh, low.z, high.z - low.z);
     let forward = if middle.y.abs() > OFF_AXIS { middle.y } else { 0.0 };
     imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle.x, forward, low.z));
-    let (sites, told) = sites::find_sites(&imported.mesh, sex)?;
+    if !feet.stand() {
+        imported.notes.extend(face_front(&mut imported.mesh, sex));
+    }
+    let (sites, told) = sites::find_sites(&imported.mesh, sex, feet)?;
     if sex.is_none() {
         let name = if told == Sex::Male { "man" } else { "woman" };
         imported.notes.push(format!("measured as a {name}, by neck, hip and waist girth: the sex was not given"));
     }
     let mut girths = sites::girths_at(&imported.mesh, &sites)?;
     lengths::add_limbs(&imported.mesh, &sites, told, &mut girths);
-    Ok(Scan { imported, sex: told, girths })
+    girths.keep_known(feet);
+    Ok(Scan { imported, sex: told, girths, feet })
+}
+
+/// Turns a body without feet to the front, by its trunk; what is said of it.
+fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
+    let (low, high) = mesh.bounds()?;
+    let floor = sites::usual_floor(mesh, [low, high])?;
+    let middle = |height: f64| {
+        let outline = tape::trunk_outline(mesh, floor + height * (high.z - floor), 0.0)?;
+        let (front, back) = tape::depth_range(&outline);
+        Some((front + back) / 2.0)
+    };
+    let sexes = [Sex::Male, Sex::Female].into_iter().filter(|of| sex.is_none_or(|sex| sex == *of));
+    match sexes.map(|sex| facing::by_middles(middle, sex)).sum::<i32>().signum() {
+        1 => None,
+        -1 => {
+            mesh.positions.iter_mut().for_each(|p| *p = V3::new(-p.x, -p.y, p.z));
+            Some("turned by 180 degrees: belly and buttocks pointed backwards".to_owned())
+        }
+        _ => Some("which way it faces is not told without feet: it is taken as it is".to_owned()),
+    }
 }
 
 impl Scan {
+    /// Everything that is measured on it.
+    ///
+    /// # Errors
+    /// [`BodyError::MissingPart`] where a part of the body is not found.
+    pub fn measured(&self) -> Result<Measured, BodyError> {
+        lengths::of_scan(&self.imported.mesh, self.sex, self.feet, self.girths.clone())
+    }
+
+    /// Refuses a scan without a foot, which cannot stand for somebody: its stature is not known, or not its shape.
+    ///
+    /// # Errors
+    /// [`BodyError::Feet`].
+    pub fn check_feet(&self) -> Result<(), BodyError> {
+        if self.feet == Feet::BOTH { Ok(()) } else { Err(BodyError::Feet) }
+    }
+
     /// The body that wears garments: the cleaned scan as fine mesh, with its features, control mesh and joints.
     ///
     /// # Errors
-    /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close.
+    /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close,
+    /// [`BodyError::Feet`] without feet.
     pub fn into_body(self) -> Result<Body, BodyError> {
+        self.check_feet()?;
         if !self.imported.mesh.is_closed_manifold() {
             return Err(BodyError::Open { problem: "parts of it cross or branch".to_owned() });
         }

@@ -203,6 +203,103 @@ fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
     scan.into_body().expect("a closed surface");
 }
 
+/// The part of a mesh above a plane across the legs, on the sides that are cut: right, left.
+fn cut_off(mesh: &TriMesh, height: f64, cut: [bool; 2]) -> TriMesh {
+    let mut rest = mesh.clone();
+    let is_off = |p: &V3| p.z < height && cut[usize::from(p.x < 0.0)];
+    rest.triangles.retain(|triangle| !triangle.iter().any(|&i| is_off(&mesh.positions[i])));
+    rest
+}
+
+const TRUNK: [&str; 6] =
+    ["neck_girth_mm", "chest_girth_mm", "underbust_girth_mm", "hip_girth_mm", "thigh_girth_mm", "across_shoulder_mm"];
+
+/// Parts of the keys of what is not known without feet.
+const FROM_THE_FLOOR: [&str; 11] =
+    ["stature", "inseam", "level", "height", "waist", "rise", "crotch", "upper_arm", "knee", "calf", "ankle"];
+
+/// What is written of a scan, and whether it is said that feet are missing.
+fn measured(mesh: &TriMesh, sex: Sex) -> (serde_json::Value, String, Scan) {
+    let scan = from_scan(&binary_ply(mesh), None, Some(sex)).expect("a scan of a body");
+    let written = serde_json::to_value(scan.measured().expect("a standing body")).expect("numbers");
+    let said =
+        scan.imported.notes.iter().filter(|note| note.contains("missing")).cloned().collect::<Vec<_>>().join("; ");
+    (written, said, scan)
+}
+
+/// A scan without feet says so, keeps the girths of its trunk, and leaves out what hangs on the floor.
+fn check_footless(name: &str, whole: &TriMesh, sex: Sex) {
+    let (truth, said, _) = measured(whole, sex);
+    assert_eq!(said, "", "{name} is whole");
+    let read = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap_or_else(|| panic!("{name}: {key}"));
+    for height in [0.04, 0.06, 0.12, 0.25] {
+        let (found, said, scan) = measured(&cut_off(whole, height, [true; 2]), sex);
+        let place = format!("{name} cut at {height}");
+        assert!(said.starts_with("the feet are missing"), "{place}: {said} {:?}", scan.imported.notes);
+        for key in TRUNK {
+            let off = read(&found, key) - read(&truth, key);
+            assert!(off.abs() < 0.012 * read(&truth, key), "{place}: {key} is off by {off:.1} mm");
+        }
+        for (key, value) in found.as_object().expect("a map").iter().filter(|(_, value)| !value.is_object()) {
+            let gone = key == "volume_l" || FROM_THE_FLOOR.iter().any(|part| key.contains(part));
+            assert_eq!(value.is_null(), gone, "{place}: {key} is {value}");
+            assert!(!gone || found["confidence"][key].is_null(), "{place}: {key} has a deviation");
+        }
+        let refused = scan.into_body().expect_err("no feet").to_string();
+        assert!(refused.contains("a foot is missing") && refused.contains("stature"), "{refused}");
+        let behind = placed(&cut_off(whole, height, [true; 2]), |p| V3::new(-p.x, -p.y, p.z));
+        let (found, ..) = measured(&behind, sex);
+        for key in TRUNK {
+            let off = read(&found, key) - read(&truth, key);
+            assert!(off.abs() < 0.012 * read(&truth, key), "{place}, facing back: {key} is off by {off:.1} mm");
+        }
+        for (cut, side) in [([true, false], "right"), ([false, true], "left")] {
+            let (found, said, _) = measured(&cut_off(whole, height, cut), sex);
+            assert!(said.starts_with(&format!("the {side} foot is missing")), "{place}: {said}");
+            let off = read(&found, "stature_mm") - read(&truth, "stature_mm");
+            assert!(off.abs() < 2.0, "{place}, {side}: stature is off by {off:.1} mm");
+            assert_eq!(found["ankle_girth_mm"].is_null(), side == "right", "{place}, {side}");
+        }
+    }
+    // Booth scanners do not see the soles.
+    for height in [0.003, 0.006, 0.010] {
+        let (found, said, _) = measured(&cut_off(whole, height, [true; 2]), sex);
+        assert_eq!(said, "", "{name} without soles to {height}");
+        assert!((read(&found, "stature_mm") - read(&truth, "stature_mm")).abs() < 11.0, "{name} without soles");
+    }
+    let mut pierced = whole.clone();
+    pierce(&mut pierced, &[V3::new(0.1, 0.02, 0.0), V3::new(-0.1, 0.06, 0.0)], 0.03);
+    assert_eq!(measured(&pierced, sex).1, "", "{name} with holes in its soles");
+}
+
+#[test]
+fn feet_that_are_missing_are_said_and_what_hangs_on_them_is_left_out() {
+    let women = [(1.52, 46.0), (1.60, 85.0), (1.78, 66.0)].map(|(h, w)| (Sex::Female, h, w));
+    let men = [(1.64, 60.0), (1.78, 80.0), (1.94, 112.0)].map(|(h, w)| (Sex::Male, h, w));
+    for (sex, stature, weight) in women.into_iter().chain(men) {
+        check_footless(&format!("{sex:?} of {stature} m"), &built(sex, stature, weight).mesh, sex);
+    }
+}
+
+#[test]
+fn feet_of_the_reference_bodies_are_seen_and_missed() {
+    let Some(folder) = crate::testing::reference_bodies() else {
+        eprintln!("skipped: no reference bodies beside the project");
+        return;
+    };
+    let files =
+        ["meshes/s01.obj", "meshes/s02.obj", "meshes/s03.obj", "meshes/s04.obj", "meshes/s05.ply", "meshes/s06.obj"];
+    for (i, file) in files.into_iter().enumerate() {
+        let sex = if i < 3 { Sex::Male } else { Sex::Female };
+        let whole = from_scan(&std::fs::read(folder.join(file)).expect("bytes"), None, Some(sex)).expect("a body");
+        check_footless(file, &whole.imported.mesh, sex);
+    }
+    for (file, sex) in [("scans/s02_scan.ply", Sex::Male), ("scans/s05_scan.ply", Sex::Female)] {
+        let scan = from_scan(&std::fs::read(folder.join(file)).expect("bytes"), None, Some(sex)).expect("a body");
+        assert!(!scan.imported.notes.iter().any(|note| note.contains("missing")), "{file}: {:?}", scan.imported.notes);
+    }
+}
+
 #[test]
 fn arms_spread_to_the_horizontal_find_their_armpits() {
     let known = built(Sex::Female, 1.68, 62.0);

@@ -185,6 +185,9 @@ pub struct BesideFiles {
     /// Grade rule table (.rul) of a file that holds the sample size: makes all sizes.
     #[arg(long, value_name = "FILE")]
     pub rul: Option<PathBuf>,
+    /// Unit of the numbers of the table, whatever it says: METRIC is mm, and some programs write cm under it.
+    #[arg(long, value_enum, requires = "rul")]
+    pub rul_unit: Option<PatternUnit>,
     /// Table of piece information (CSV, XLSX) with a column `piece`: quantity, material, grain_deg, role ...
     #[arg(long, value_name = "FILE")]
     pub info: Option<PathBuf>,

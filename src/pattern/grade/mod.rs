@@ -6,9 +6,11 @@
 
 mod table;
 mod ungrade;
+mod unit;
 
 pub use self::table::{GradeError, GradeTable, is_name_of_table, named_in_pattern, read, write};
 pub use self::ungrade::{Ungraded, ungrade};
+pub use self::unit::in_unit_of;
 use super::dxf::{PatternFile, Refused};
 use super::piece::{Notch, Piece};
 use geom::V2;

@@ -54,6 +54,8 @@ pub struct GradeTable {
     pub sizes: Vec<String>,
     /// Which of them the pieces are drawn in.
     pub sample: usize,
+    /// Unit of its numbers.
+    pub unit: Unit,
     /// Steps of each rule from the sample size, m: one for each size.
     pub rules: BTreeMap<u32, Vec<V2>>,
 }
@@ -247,7 +249,7 @@ impl Reader<'_> {
             .into_iter()
             .map(|(number, rule)| Ok((number, self.steps(number, &rule, scale, sizes.len(), sample)?)));
         let rules = steps.collect::<Result<_, GradeError>>()?;
-        Ok(GradeTable { file: self.file.to_owned(), sizes, sample, rules })
+        Ok(GradeTable { file: self.file.to_owned(), sizes, sample, unit, rules })
     }
 
     /// The steps of one rule, m.
@@ -265,12 +267,14 @@ impl Reader<'_> {
             let found = format!("rule {number}, which moves the sample size");
             return Err(self.error(Some(rule.line), found, "steps from the sample size, whose own is zero"));
         }
-        match steps.iter().find(|step| step.norm() > GREATEST_M) {
-            Some(step) => {
-                let found = format!("a step of {:.1} m in rule {number}", step.norm());
-                Err(self.error(Some(rule.line), found, "steps of at most 2 m"))
-            }
-            None => Ok(steps),
-        }
+        check_steps(self.file, Some(rule.line), number, &steps)?;
+        Ok(steps)
     }
+}
+
+/// Refuses steps that are too long for a garment.
+pub(super) fn check_steps(file: &str, line: Option<usize>, number: u32, steps: &[V2]) -> Result<(), GradeError> {
+    let Some(step) = steps.iter().find(|step| step.norm() > GREATEST_M) else { return Ok(()) };
+    let found = format!("a step of {:.1} m in rule {number}", step.norm());
+    Err(GradeError { file: file.to_owned(), line, found, accepted: "steps of at most 2 m".to_owned() })
 }

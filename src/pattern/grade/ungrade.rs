@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::{GradeError, GradeTable};
-use crate::dxf::PatternFile;
+use crate::dxf::{PatternFile, Unit};
 use crate::piece::{GradePoint, Piece};
 use crate::style::corners::corner_vertices;
 use crate::style::follow::in_sizes;
@@ -67,7 +67,7 @@ pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError>
     }
     let steps = rules.steps.into_iter().enumerate().map(|(number, steps)| (number as u32 + 1, steps));
     let rules: BTreeMap<u32, Vec<V2>> = steps.collect();
-    let table = GradeTable { file: file.file.clone(), sizes, sample: index, rules };
+    let table = GradeTable { file: file.file.clone(), sizes, sample: index, unit: Unit::Mm, rules };
     Ok(Ungraded { pieces, table, notes })
 }
 

@@ -90,7 +90,7 @@ impl Wardrobe {
             let read = if holds_measurements(&path) {
                 read_measurements(&path, None).map(|measured| Wearer::Measured(Box::new(measured)))
             } else {
-                let read = SourceFile::read(&path).and_then(|source| bodies::read_scan(&source, None, None));
+                let read = SourceFile::read(&path).and_then(|source| bodies::whole_scan(&source, None, None));
                 read.and_then(|_| absolute(&path)).map(Wearer::Scanned)
             };
             match read {

@@ -9,7 +9,7 @@ pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 pub(crate) const VERSIONS: [(&str, u32); 3] = [("body.version", 7), ("field.version", 4), ("mesh.version", 8)];
 /// Version of what is read on a scan: an input of those who are one.
-pub(crate) const SCAN_VERSION: u32 = 2;
+pub(crate) const SCAN_VERSION: u32 = 3;
 /// Version of what is measured on a drape: a job is measured anew, its drape is taken as it is stored.
 const MEASURE_VERSION: u32 = 1;
 /// Version of the simulators, raised as those of the stages; their default parameters count as inputs by themselves.

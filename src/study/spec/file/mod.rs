@@ -110,7 +110,7 @@ impl ScanFile {
     /// # Errors
     /// When it is no body.
     pub(crate) fn person_and_notes(self, sex: Option<Sex>) -> Result<(Person, Vec<String>)> {
-        let found = bodies::read_scan(&self.file, self.unit, sex)?;
+        let found = bodies::whole_scan(&self.file, self.unit, sex)?;
         let person = Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None };
         Ok((person, found.imported.notes))
     }
