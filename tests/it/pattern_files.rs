@@ -74,6 +74,32 @@ fn a_sample_size_and_a_grade_rule_table_make_a_nest() {
 }
 
 #[test]
+fn a_table_in_centimetres_under_metric_is_said_and_may_be_stated() {
+    let place = Place::new();
+    place.draft();
+    place.write("sample.dxf", sample(&place));
+    place.write("style.rul", RULES);
+    place.write("cm.rul", RULES.replace("10.0", "1.0"));
+    let read = |arguments: &str| {
+        let said = place.toile(&format!("pattern inspect sample.dxf {arguments} --json"));
+        (perimeters(&said.json()[0]), said.err)
+    };
+    let (millimetres, said) = read("--rul style.rul");
+    assert!(!said.contains("style.rul: "), "{said}");
+    let (_, said) = read("--rul cm.rul");
+    assert!(
+        said.contains("cm.rul: its longest step is 1.0 mm from one size to the next in mm, which is hardly a grade"),
+        "{said}"
+    );
+    for arguments in ["--rul cm.rul --rul-unit cm", "--rul style.rul --rul-unit mm"] {
+        assert_eq!(read(arguments), (millimetres.clone(), read("--rul style.rul").1), "{arguments}");
+    }
+    let (_, said) = read("--rul cm.rul --unit cm");
+    assert!(said.contains("taken as cm, as those of the pattern are, and go up to 10.0 mm"), "{said}");
+    assert!(place.toile("pattern inspect sample.dxf --rul-unit cm").ends_with(2).err.contains("--rul"));
+}
+
+#[test]
 fn a_table_beside_the_pattern_tells_its_pieces() {
     let place = Place::new();
     place.draft();

@@ -110,7 +110,7 @@ impl Girths {
         self.values[dimension as usize].map(from_mm)
     }
 
-    /// Volume within the skin, litres.
+    /// Volume within the skin, litres; not a number where feet are missing.
     #[must_use]
     pub fn volume_l(&self) -> f64 {
         self.volume_l

@@ -149,6 +149,12 @@ fn photographs_that_face_left_give_the_same_girths() {
         let side = image::load_from_memory(&read("side")).expect("a picture");
         check_mirrored(&read("front"), &side, sex, stature_m);
     }
+    let case = folder.join("../cases/34-side-picture-facing-left");
+    if case.is_dir() {
+        let read = |name: &str| std::fs::read(case.join(name)).expect("a picture");
+        let side = image::load_from_memory(&read("side.jpg")).expect("a picture");
+        check_mirrored(&read("front.jpg"), &side, Sex::Female, 1.65);
+    }
 }
 
 #[test]

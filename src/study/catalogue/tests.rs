@@ -336,6 +336,18 @@ fn a_scan_is_a_subject_that_is_the_mesh_itself() {
 }
 
 #[test]
+fn a_scan_without_feet_is_no_subject() {
+    let mut bench = Bench::new();
+    let mut mesh = crate::bodies::build_body(&Measurements::of(Sex::Female, 1.65)).expect("a body").mesh;
+    let positions = &mesh.positions;
+    mesh.triangles.retain(|triangle| triangle.iter().all(|&i| positions[i].z > 0.1));
+    let path = bench.write("f.obj", &crate::bodies::write_obj(&mesh));
+    let given = ScanGiven { file: path, unit: None, sex: Some(Sex::Female) };
+    let refused = bench.workspace.save_scan(Mode::Add, "f", &given).expect_err("nobody stands so").to_string();
+    assert!(refused.contains("f.obj: a foot is missing") && refused.contains("--stature-mm"), "{refused}");
+}
+
+#[test]
 fn what_is_hidden_is_said_to_be_hidden() {
     let mut bench = Bench::new();
     bench.workspace.remove(Part::Subject, "male-ii").expect("built in");
