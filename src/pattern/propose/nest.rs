@@ -13,6 +13,8 @@ use geom::units::mm;
 
 /// Difference of the sides up to which a seam is a plain one, mm: an eighth of an inch, the usual sewing tolerance.
 const PLAIN_MM: f64 = 3.0;
+/// Difference up to which a long seam is a plain one, over its length: cloth takes up as much without a pleat.
+const PLAIN_SHARE: f64 = 0.02;
 
 /// A size as the proposal sews it.
 struct Sewn<'a> {
@@ -84,14 +86,18 @@ impl Proposal {
 /// than in the last in which they were sound. A plain seam is one in every size.
 fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     let ratio = |size: usize| sides_mm[size][0] / sides_mm[size][1];
-    let ease_mm = |size: usize| (sides_mm[size][0] - sides_mm[size][1]).abs();
-    let is_plain = ease_mm(made_on) <= PLAIN_MM;
+    let is_plain = |size: usize| {
+        let [a_mm, b_mm] = sides_mm[size];
+        (a_mm - b_mm).abs() <= PLAIN_MM.max(PLAIN_SHARE * b_mm)
+    };
     let mut doubted = vec![false; sides_mm.len()];
     let mut go = |way: &mut dyn Iterator<Item = usize>| {
         let mut sound = ratio(made_on);
         for size in way {
-            let is_other =
-                if is_plain { ease_mm(size) > PLAIN_MM } else { (ratio(size) / sound - 1.0).abs() > RATIO_DOUBT };
+            let is_other = match is_plain(made_on) {
+                true => !is_plain(size),
+                false => (ratio(size) / sound - 1.0).abs() > RATIO_DOUBT,
+            };
             doubted[size] = is_other;
             if !is_other {
                 sound = ratio(size);
@@ -159,6 +165,7 @@ mod tests {
         check(&[[100.0, 140.0], [119.0, 110.0], [129.0, 120.0]], 2, &[true, false, false]);
         // An ease that grows with the sizes, and one that a plain seam gets.
         check(&[[505.0, 490.0], [536.0, 517.0], [567.0, 544.0]], 0, &[false, false, false]);
-        check(&[[290.0, 290.0], [291.0, 289.0], [292.0, 288.0]], 0, &[false, false, true]);
+        check(&[[290.0, 290.0], [291.0, 286.0], [294.0, 287.0]], 0, &[false, false, true]);
+        check(&[[99.0, 100.0], [103.0, 100.0], [104.0, 100.0]], 0, &[false, false, true]);
     }
 }
