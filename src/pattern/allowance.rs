@@ -136,7 +136,8 @@ impl Piece {
         let corners = if corners.is_empty() { vec![0] } else { corners };
         let distances_m = vec![allowance_m; corners.len()];
         self.cut_at(&corners, &distances_m)?;
-        self.nest = self.nest.iter().filter_map(|piece| piece.clone().with_allowance(allowance_m).ok()).collect();
+        let cut = |piece: &Self| piece.clone().with_allowance(allowance_m).ok();
+        self.beside.sizes = self.beside.sizes.iter().filter_map(cut).collect();
         Ok(self)
     }
 

@@ -34,8 +34,8 @@ pub struct Piece {
     pub block: String,
     /// `Piece Name`, or the block's name where none is given.
     pub name: String,
-    /// What the file calls the garment and its sample size: such words in a name say nothing of the piece.
-    pub garment: Vec<String>,
+    /// What its file says beside it.
+    pub beside: Beside,
     /// Size, where the piece or the file names one.
     pub size: Option<String>,
     /// How many are cut, as written (`2`, or `1,1` for left and right).
@@ -70,8 +70,15 @@ pub struct Piece {
     pub drill_holes: Vec<V2>,
     /// Closed sew line inside the cut line.
     pub sew_line: Option<Vec<V2>>,
-    /// The piece in every size of its file, from the smallest; empty where the file holds one size.
-    pub nest: Arc<[Self]>,
+}
+
+/// What a file says beside a piece.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Beside {
+    /// What it calls the garment and its sample size: such words in a name say nothing of the piece.
+    pub garment: Vec<String>,
+    /// The piece in every size, from the smallest; empty where the file holds one size.
+    pub sizes: Arc<[Piece]>,
 }
 
 impl Piece {

@@ -19,7 +19,8 @@ pub fn file_part(name: &str) -> String {
     let mut part = String::new();
     let mut is_gap = false;
     for letter in name.chars() {
-        if !stays(letter) {
+        // A dot is one within a word: two in a row lead out of a folder.
+        if !stays(letter) || letter == '.' && (is_gap || part.ends_with('.')) {
             is_gap = true;
             continue;
         }

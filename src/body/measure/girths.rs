@@ -47,8 +47,14 @@ const LEVELS: [(Dimension, &str); 9] = [
 const LOWER_LEG: [Dimension; 3] = [Dimension::KneeGirth, Dimension::CalfGirth, Dimension::AnkleGirth];
 
 /// Stature and inseam, and what is read at a share of the stature.
-const PLACED_BY_STATURE: [Dimension; 4] =
-    [Dimension::Stature, Dimension::Inseam, Dimension::WaistGirth, Dimension::UpperArmGirth];
+const PLACED_BY_STATURE: [Dimension; 6] = [
+    Dimension::Stature,
+    Dimension::Inseam,
+    Dimension::WaistGirth,
+    Dimension::UpperArmGirth,
+    Dimension::AcrossShoulder,
+    Dimension::ArmLength,
+];
 
 /// Key of the volume.
 const VOLUME: &str = "volume_l";

@@ -73,7 +73,7 @@ impl Measured {
         }
         if !feet.stand() {
             self.lengths = Lengths { elbow_girth_m: self.lengths.elbow_girth_m, ..Lengths::default() };
-            for taken in self.tailor.iter_mut().filter(|taken| FROM_THE_FLOOR.contains(&taken.key)) {
+            for taken in &mut self.tailor {
                 (taken.written, taken.path) = (None, Vec::new());
             }
         }
@@ -108,10 +108,6 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, girths: Girths) -> Result<Measu
     let (sites, sex) = sites::find_sites(mesh, sex, Feet::BOTH)?;
     Ok(at_sites(mesh, &sites, sex, girths))
 }
-
-/// What a tailor takes from the floor or from the waist, which lies at a share of the stature.
-const FROM_THE_FLOOR: [&str; 4] =
-    ["bust_point_height_mm", "scye_to_waist_mm", "nape_to_waist_over_bust_mm", "body_rise_mm"];
 
 /// Measures a scan with these feet.
 pub(crate) fn of_scan(mesh: &TriMesh, sex: Sex, feet: Feet, girths: Girths) -> Result<Measured, BodyError> {

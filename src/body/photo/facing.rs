@@ -5,9 +5,9 @@ use super::silhouette::Mask;
 use super::trunk;
 use crate::Sex;
 
-/// Heights over that of the figure up to which feet are seen, and between which ankles are.
-const FEET: [f64; 2] = [0.0, 0.04];
-const ANKLES: [f64; 2] = [0.06, 0.12];
+/// Heights over that of the figure up to which feet are seen, and between which ankles are. Seen from above, insteps reach up to 0.08.
+const FEET: [f64; 2] = [0.0, 0.05];
+const ANKLES: [f64; 2] = [0.10, 0.14];
 
 /// Toes reach about 0.08 of the stature before the ankle, heels 0.02 behind it: the middle of the feet lies 0.03 before that of the
 /// ankles. A third of it tells the direction.

@@ -49,7 +49,7 @@ impl Feet {
             (true, true) => return None,
             (false, false) => {
                 "the feet are missing, so that the floor is not known: the volume, heights, and what is placed by a share of the stature \
-                 (waist, upper arm, knee, calf, ankle) are left out"
+                 (waist, upper arm, knee, calf, ankle, shoulders, tailor's lengths) are left out"
             }
             (false, true) => {
                 "the right foot is missing: the volume, and the girths of that leg below the knee are left out"

@@ -1,7 +1,5 @@
 //! From the entities of one block to a piece.
 
-use std::sync::Arc;
-
 use std::collections::BTreeMap;
 
 use dxf::Block;
@@ -14,7 +12,7 @@ use super::outline::{
     without_copies,
 };
 use super::sew_line::sew_line;
-use crate::piece::{GradePoint, Notch, Piece};
+use crate::piece::{Beside, GradePoint, Notch, Piece};
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 use geom::units::mm;
@@ -329,8 +327,7 @@ impl Drawn {
         Ok(Piece {
             block: block.to_owned(),
             name: take(&mut texts, "piece name").unwrap_or_else(|| block.to_owned()),
-            garment: Vec::new(),
-            nest: Arc::default(),
+            beside: Beside::default(),
             size: take(&mut texts, "size"),
             quantity: take(&mut texts, "quantity"),
             texts,

@@ -30,7 +30,7 @@ use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
 pub(crate) use self::write::D6673;
 pub use self::write::{Standard, write, write_pieces};
-use super::piece::Piece;
+use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};
 
@@ -192,7 +192,13 @@ impl PatternFile {
         let garment: Vec<&String> = said.collect();
         let to_sew = |piece: &Piece| {
             let whole = piece.unfolded().unwrap_or_else(|| piece.clone());
-            Piece { garment: garment.iter().copied().chain(&piece.size).cloned().collect(), ..whole }
+            Piece {
+                beside: Beside {
+                    garment: garment.iter().copied().chain(&piece.size).cloned().collect(),
+                    ..Beside::default()
+                },
+                ..whole
+            }
         };
         let whole = |size: &str| -> Vec<Piece> {
             let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(size);
@@ -222,7 +228,7 @@ fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
         // Of pieces of one name each stands for that of its number.
         let number = names[..k].iter().filter(|name| **name == names[k]).count();
         let of = |size: &Vec<Piece>| size.iter().filter(|piece| bare(piece) == names[k]).nth(number).cloned();
-        pieces[k].nest = sizes.iter().filter_map(of).collect();
+        pieces[k].beside.sizes = sizes.iter().filter_map(of).collect();
     }
 }
 

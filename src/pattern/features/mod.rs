@@ -4,12 +4,10 @@
 //! Lengths are millimetres, angles degrees counter-clockwise from `+x`, places `[x, y]`. What follows from the rest
 //! (`corners`, `edges`) is written for the reader and not read back.
 
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
 use super::dxf::{CodePage, PatternFile, Unit, UnitSource};
-use super::piece::{GradePoint, Notch, Piece};
+use super::piece::{Beside, GradePoint, Notch, Piece};
 use super::style::corners::corner_vertices;
 use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
@@ -235,8 +233,7 @@ impl PieceFeatures {
         Piece {
             block: self.information.block,
             name: self.information.name,
-            garment: Vec::new(),
-            nest: Arc::default(),
+            beside: Beside::default(),
             size: self.information.size,
             quantity: self.information.quantity,
             texts,

@@ -1,12 +1,11 @@
 //! Pieces as drawn, changed by handles: so that a changed style can be written, and its seam file holds as before.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::HALVINGS;
 use super::field::Field;
 use super::{Handle, HandleError};
-use crate::piece::Piece;
+use crate::piece::{Beside, Piece};
 use crate::seams::{SeamFile, StyleError};
 use crate::style::correspond::shares;
 use crate::style::follow::corners_of;
@@ -172,7 +171,7 @@ impl Carrier<'_> {
     }
 
     fn piece(&self, drawn: &Piece) -> Piece {
-        let mut piece = Piece { nest: Arc::default(), ..drawn.clone() };
+        let mut piece = Piece { beside: Beside::default(), ..drawn.clone() };
         piece.outline = self.line(&drawn.outline, true);
         piece.sew_line = drawn.sew_line.as_ref().map(|line| self.line(line, true));
         for line in piece.internal_lines.iter_mut().chain(&mut piece.cut_outs) {

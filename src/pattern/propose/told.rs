@@ -152,7 +152,7 @@ fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
     let is_pair = Hand::BOTH.into_iter().all(|hand| hands.contains(&hand));
     let without = |(piece, mut words): (&Piece, Vec<String>)| {
         let mut of_style: Vec<String> = Vec::new();
-        for text in &piece.garment {
+        for text in &piece.beside.garment {
             let said = names::words(text);
             let at = words.windows(said.len().max(1)).position(|found| found == said);
             // Right and left are no sizes.
@@ -230,6 +230,7 @@ fn written_out(rest: &str) -> Option<Named> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::piece::Beside;
 
     fn all(pieces: &[Piece]) -> Vec<Named> {
         told(pieces).into_iter().map(Told::all).collect()
@@ -237,6 +238,10 @@ mod tests {
 
     fn called(name: &str) -> Piece {
         Piece { name: name.to_owned(), ..Piece::default() }
+    }
+
+    fn in_garment(name: &str, garment: &[String]) -> Piece {
+        Piece { beside: Beside { garment: garment.to_vec(), ..Beside::default() }, ..called(name) }
     }
 
     #[test]
@@ -268,8 +273,7 @@ mod tests {
     fn the_name_of_the_style_and_the_size_are_no_name_of_a_piece() {
         let check = |names: &[&str], garment: &[&str], expect: &[&str]| {
             let garment: Vec<String> = garment.iter().map(|text| (*text).to_owned()).collect();
-            let pieces: Vec<Piece> =
-                names.iter().map(|name| Piece { garment: garment.clone(), ..called(name) }).collect();
+            let pieces: Vec<Piece> = names.iter().map(|name| in_garment(name, &garment)).collect();
             let own: Vec<Named> = told(&pieces).into_iter().map(|told| told.own).collect();
             assert_eq!(own, expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
@@ -279,7 +283,7 @@ mod tests {
         check(&["FRONT", "BACK"], &["FRONT"], &["front", "back"]);
         let skirt = ["SKIRT FRONT", "SKIRT BACK", "BAND"];
         check(&skirt, &["Skirt"], &["front", "back", ""]);
-        let of_style = |name: &&str| Piece { garment: vec!["Skirt".to_owned()], ..called(name) };
+        let of_style = |name: &&str| in_garment(name, &["Skirt".to_owned()]);
         let all = all(&skirt.iter().map(of_style).collect::<Vec<_>>());
         let classes: Vec<Option<Class>> = all.iter().map(|named| named.class).collect();
         assert_eq!(classes, [Some(Class::Skirt), Some(Class::Skirt), None], "what is called a skirt is one");

@@ -11,8 +11,8 @@ use geom::V2;
 
 /// Length of the sides along which an outline heads at a vertex, over the size of the piece.
 const HEADING_REACH: f64 = 0.02;
-/// Distance over the size of the piece that a side which heads otherwise by a radian is worth: a fork is told from the curve
-/// beside it, whose sides differ from its own by a right angle, over a distance of a twelfth of the leg.
+/// Distance over the size of the piece that a side which heads otherwise by a radian is worth. The curve beside a fork heads
+/// otherwise by a right angle on one side: it is no fork, though it were nearer by a twelfth of the leg.
 const RADIAN_WORTH: f64 = 0.05;
 /// Greatest change of a heading at a corner from size to size where vertices are graded one by one, radians.
 const SAME_HEADING: f64 = 0.35;
@@ -31,12 +31,16 @@ pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2
     };
     let is = |size: Option<&str>| {
         let size = size?;
-        piece.nest.iter().position(|one| one.size.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(size)))
+        piece
+            .beside
+            .sizes
+            .iter()
+            .position(|one| one.size.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(size)))
     };
     let (Some(first), Some(last)) = (is(made_on), is(piece.size.as_deref())) else { return found(piece) };
     let low = first.min(last);
-    let nest = &piece.nest[low..=first.max(last)];
-    let mut corners = in_sizes(nest, first - low, &found(&piece.nest[first])?).map_err(|(_, lost)| lost)?;
+    let nest = &piece.beside.sizes[low..=first.max(last)];
+    let mut corners = in_sizes(nest, first - low, &found(&piece.beside.sizes[first])?).map_err(|(_, lost)| lost)?;
     Ok(corners.swap_remove(last - low))
 }
 
@@ -135,6 +139,7 @@ fn rules(piece: &Piece) -> Vec<Option<u32>> {
 mod tests {
     use super::*;
     use crate::draft::Model;
+    use crate::piece::Beside;
     use crate::style::correspond::shares;
     use std::sync::Arc;
 
@@ -177,7 +182,10 @@ mod tests {
                     let made_on = 5;
                     let places = shares(&marked[made_on].outline, &corner_vertices(&marked[made_on]));
                     for (piece, expect) in sizes.iter().zip(&expect) {
-                        let piece = Piece { nest: Arc::from(sizes.clone()), ..piece.clone() };
+                        let piece = Piece {
+                            beside: Beside { sizes: Arc::from(sizes.clone()), ..Beside::default() },
+                            ..piece.clone()
+                        };
                         let found = corners_of(&piece, Some("5"), &places)
                             .unwrap_or_else(|lost| panic!("{model:?} {} {:?}: {lost:?}", piece.name, piece.size));
                         let found: Vec<V2> = found.into_iter().map(|vertex| piece.outline[vertex]).collect();
