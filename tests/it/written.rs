@@ -52,7 +52,7 @@ fn a_report_keeps_to_its_folder_whatever_its_parts_are_called() {
     for file in [
         "pictures/try-on-上衣-2X.jpg",
         "pictures/try-on-衬衫-2X.jpg",
-        "pictures/try-on-..-tee-..-..-..-..-OUTSIDE.jpg",
+        "pictures/try-on-tee-OUTSIDE.jpg",
         "pattern-衬衫-2X.svg",
         "charts/上衣-size-2x-ei.png",
         "charts/衬衫-size-2x-ei.svg",
