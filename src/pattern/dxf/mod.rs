@@ -220,15 +220,20 @@ impl PatternFile {
     }
 }
 
-/// Gives each piece of one size what it is in every size.
+/// Gives each piece of one size what it is in every size: what has its name there, or its name but for the size. Of pieces of one
+/// name each stands for that of its number.
 fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
-    let names: Vec<Vec<String>> = pieces.iter().map(bare).collect();
+    // `SLEEVE 2` of size 2 is no `SLEEVE`: whole names come first.
+    let ways: [&dyn Fn(&Piece, &Piece) -> bool; 2] = [&|a, b| a.name == b.name, &|a, b| bare(a) == bare(b)];
     for k in 0..pieces.len() {
-        // Of pieces of one name each stands for that of its number.
-        let number = names[..k].iter().filter(|name| **name == names[k]).count();
-        let of = |size: &Vec<Piece>| size.iter().filter(|piece| bare(piece) == names[k]).nth(number).cloned();
-        pieces[k].beside.sizes = sizes.iter().filter_map(of).collect();
+        let in_size = |size: &Vec<Piece>| {
+            ways.iter().find_map(|is_same| {
+                let number = pieces[..k].iter().filter(|other| is_same(other, &pieces[k])).count();
+                size.iter().filter(|other| is_same(other, &pieces[k])).nth(number).cloned()
+            })
+        };
+        pieces[k].beside.sizes = sizes.iter().filter_map(in_size).collect();
     }
 }
 

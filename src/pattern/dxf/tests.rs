@@ -310,6 +310,29 @@ fn only_a_named_size_in_a_named_unit_is_sewn() {
 }
 
 #[test]
+fn pieces_are_joined_over_sizes_by_their_names_whatever_sizes_are_called() {
+    let check = |names: [[&str; 2]; 3], expect: [[&str; 3]; 2]| {
+        let piece =
+            |size: &str, name: &str| Piece { name: name.to_owned(), size: Some(size.to_owned()), ..Piece::default() };
+        let of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
+        let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(of).collect();
+        for mut pieces in sizes.clone() {
+            super::join_sizes(&mut pieces, &sizes);
+            for (piece, expect) in pieces.iter().zip(expect) {
+                let found: Vec<&str> = piece.beside.sizes.iter().map(|other| other.name.as_str()).collect();
+                assert_eq!(found, expect, "{names:?}");
+            }
+        }
+    };
+    check([["SLEEVE 1", "SLEEVE 2"]; 3], [["SLEEVE 1"; 3], ["SLEEVE 2"; 3]]);
+    check([["FRONT", "FRONT"]; 3], [["FRONT"; 3]; 2]);
+    check(
+        [["FRONT 1", "BACK 1"], ["FRONT 2", "BACK 2"], ["FRONT 3", "BACK 3"]],
+        [["FRONT 1", "FRONT 2", "FRONT 3"], ["BACK 1", "BACK 2", "BACK 3"]],
+    );
+}
+
+#[test]
 fn graded_half_pieces_open_for_sewing() {
     let Some(path) = shared("freesewing") else { return };
     let bytes = std::fs::read(path.join("teagan_nest_aama-inch.dxf")).expect("the file is there");
