@@ -225,12 +225,13 @@ impl PatternFile {
 fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
     // `SLEEVE 2` of size 2 is no `SLEEVE`: whole names come first.
-    let ways: [&dyn Fn(&Piece, &Piece) -> bool; 2] = [&|a, b| a.name == b.name, &|a, b| bare(a) == bare(b)];
+    let is_same = |is_whole: bool, a: &Piece, b: &Piece| if is_whole { a.name == b.name } else { bare(a) == bare(b) };
     for k in 0..pieces.len() {
         let in_size = |size: &Vec<Piece>| {
-            ways.iter().find_map(|is_same| {
-                let number = pieces[..k].iter().filter(|other| is_same(other, &pieces[k])).count();
-                size.iter().filter(|other| is_same(other, &pieces[k])).nth(number).cloned()
+            [true, false].into_iter().find_map(|is_whole| {
+                let is_it = |other: &&Piece| is_same(is_whole, other, &pieces[k]);
+                let number = pieces[..k].iter().filter(is_it).count();
+                size.iter().filter(is_it).nth(number).cloned()
             })
         };
         pieces[k].beside.sizes = sizes.iter().filter_map(in_size).collect();

@@ -317,7 +317,7 @@ fn pieces_are_joined_over_sizes_by_their_names_whatever_sizes_are_called() {
         let of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
         let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(of).collect();
         for mut pieces in sizes.clone() {
-            super::join_sizes(&mut pieces, &sizes);
+            join_sizes(&mut pieces, &sizes);
             for (piece, expect) in pieces.iter().zip(expect) {
                 let found: Vec<&str> = piece.beside.sizes.iter().map(|other| other.name.as_str()).collect();
                 assert_eq!(found, expect, "{names:?}");
