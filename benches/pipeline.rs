@@ -5,8 +5,9 @@
 use std::sync::LazyLock;
 
 use divan::Bencher;
-use toile::body::Dimension;
-use toile::body::{self, Body, Measurements, Sex};
+use toile::advice::{Question, chance};
+use toile::body::{self, Body, Dimension, Measurements, Sex};
+use toile::engine::{RunOptions, run};
 use toile::fit::Draw;
 use toile::fit::coverage::{Asked, Asks, Search, Series};
 use toile::geom::{DistanceField, TriMesh, shapes};
@@ -17,8 +18,9 @@ use toile::sim::contact::Skin;
 use toile::sim::fem::response::{Lying, Response, sewn};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
-use toile::study::seams::pattern_files::{Beside, inspect};
-use toile::study::{Question, RunOptions, Workspace, chance};
+use toile::store::sql;
+use toile::wardrobe::catalogue;
+use toile::wardrobe::seams::pattern_files::{Beside, inspect};
 
 fn main() {
     divan::main();
@@ -96,9 +98,9 @@ fn body_build() -> Body {
 #[divan::bench(sample_count = 5)]
 fn chance_of_fit(bencher: Bencher) {
     let folder = tempfile::tempdir().expect("a folder");
-    let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let store = catalogue::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
     let quickstart = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/quickstart");
-    let study = workspace.load_study(quickstart.as_ref()).expect("a good study");
+    let study = run::load_study(&store, quickstart.as_ref()).expect("a good study");
     let question = Question {
         garment: None,
         subject: Some("ii".to_owned()),
@@ -286,15 +288,15 @@ fn render_front(bencher: Bencher) {
 #[divan::bench]
 fn sql_results(bencher: Bencher) {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let mut store = catalogue::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
     let project = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut study = workspace.load_study(&project.join("studies/quickstart")).expect("the quickstart is right");
+    let mut study = run::load_study(&store, &project.join("studies/quickstart")).expect("the quickstart is right");
     study.garments.iter_mut().for_each(|garment| garment.edge_length_m = COARSE_M);
     study.subjects.truncate(1);
-    workspace.start(&study, &RunOptions::default()).expect("queued").join().expect("the database works");
+    run::start(&mut store, &study, &RunOptions::default()).expect("queued").join().expect("the database works");
     bencher.bench_local(|| {
-        let chi = workspace.query("SELECT * FROM v_chi WHERE stage = 'drape'").expect("a view");
+        let chi = sql::query(&store, "SELECT * FROM v_chi WHERE stage = 'drape'").expect("a view");
         assert_eq!(chi.rows.len(), 54);
-        workspace.query("SELECT * FROM v_metrics").expect("a view")
+        sql::query(&store, "SELECT * FROM v_metrics").expect("a view")
     });
 }

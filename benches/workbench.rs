@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 use crossterm::event::KeyCode;
 use divan::Bencher;
 use rusqlite::Connection;
-use toile::study::Workspace;
 use toile::tui::Headless;
+use toile::wardrobe::catalogue;
 
 fn main() {
     divan::main();
@@ -44,7 +44,7 @@ const FILL: &str = "
 static GREAT: LazyLock<(tempfile::TempDir, std::path::PathBuf)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("toile.sqlite");
-    drop(Workspace::open(&path, false).expect("a new database"));
+    drop(catalogue::open(&path, false).expect("a new database"));
     let connection = Connection::open(&path).expect("it is there");
     connection.execute_batch(FILL).expect("the schema of this version");
     (folder, path)

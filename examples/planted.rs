@@ -8,12 +8,15 @@
 use std::error::Error;
 use std::path::Path;
 
+use toile::advice::Wish;
+use toile::engine::run;
 use toile::geom::V2;
 use toile::geom::polyline::segment_distance;
 use toile::pattern::draft::Model;
 use toile::pattern::dxf::{self, Standard};
 use toile::pattern::{Handle, Style, handle};
-use toile::study::{self, Study, Wish, Workspace};
+use toile::spec::Study;
+use toile::wardrobe::catalogue;
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
@@ -154,17 +157,17 @@ fn undone(fault: &Fault, edge_mm: f64, folder: &Path) -> Outcome<String> {
         is_nest: false,
         standard: Standard::Aama,
     };
-    let stands = study::standing(&sound, &wish)?;
+    let stands = advice::standing(&sound, &wish)?;
     let moves: Vec<(Handle, f64)> = fault.handles.iter().map(|(handle, mm)| (*handle, 1e-3 * mm)).collect();
     let spoilt = study_of(fault, &moves, edge_mm, &folder.join("spoilt"))?;
     // A spoilt garment may not reach a level that the sound one covers.
-    let known = study::standing(&spoilt, &wish)?;
-    let is_known = |one: &&study::Standing| one.unit == "mm" && known.iter().any(|other| other.name == one.name);
+    let known = advice::standing(&spoilt, &wish)?;
+    let is_known = |one: &&advice::Standing| one.unit == "mm" && known.iter().any(|other| other.name == one.name);
     let asked = stands.iter().filter(is_known).map(|one| {
         let within = if one.is_ease { EASE_WITHIN } else { DRAPE_WITHIN };
         (one.name.clone(), [one.value - within, one.value + within])
     });
-    let found = study::alter(&spoilt, &Wish { targets: asked.collect(), ..wish })?;
+    let found = advice::alter(&spoilt, &Wish { targets: asked.collect(), ..wish })?;
     let moved: Vec<String> = found.moves.iter().map(|one| format!("{} {:+.1}", one.handle, one.amount_mm)).collect();
     let missed = found.readings.iter().filter(|one| !one.is_met()).count();
     let (dxf, seams) = (file(&found.files, ".dxf")?, file(&found.files, ".toml")?);
@@ -222,6 +225,6 @@ fn study_of(fault: &Fault, moves: &[(Handle, f64)], edge_mm: f64, folder: &Path)
         fault.subject
     );
     std::fs::write(folder.join("study.toml"), text)?;
-    let workspace = Workspace::open(&folder.join("planted.sqlite"), false)?;
-    Ok(workspace.load_study(folder)?)
+    let store = catalogue::open(&folder.join("planted.sqlite"), false)?;
+    Ok(run::load_study(&store, folder)?)
 }

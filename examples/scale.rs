@@ -12,16 +12,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use toile::engine::{Measured, Outcome, RunOptions, WornOn, actions, run};
 use toile::fit::{Ease, FitClass, Simulator};
 use toile::measure::{Chi, metrics};
 use toile::pattern::MeasurementKind;
 use toile::sim::{Monitor, Stage, Step};
-use toile::study::files;
-use toile::study::patterns;
-use toile::study::{
-    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, Study, StudyError, Workspace,
-    WornOn, new_study,
-};
+use toile::spec::{JobSpec, Selection, Study, new_study, patterns};
+use toile::store::{JobFilter, JobId, Result, Status, Store, StudyError, files, read, sql};
+use toile::wardrobe::catalogue;
 
 /// Measurements of a result.
 const LENGTHS: u32 = 100;
@@ -72,44 +70,44 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let (studies, subjects) = (given(1, 20)?, given(2, SUBJECTS)?);
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("toile.sqlite");
-    let mut workspace = Workspace::open(&path, false)?;
+    let mut store = catalogue::open(&path, false)?;
     write_study(folder.path(), subjects)?;
     let mut spent = 0.0;
     for number in 0..studies {
-        let mut study = workspace.load_study(folder.path())?;
+        let mut study = run::load_study(&store, folder.path())?;
         study.name = format!("study{number}");
         let options = RunOptions { workers: Some(2), ..RunOptions::default() };
         let start = Instant::now();
-        workspace.start_with(&study, &options, Arc::new(quick))?.join()?;
+        run::start_with(&mut store, &study, &options, Arc::new(quick))?.join()?;
         spent += start.elapsed().as_secs_f64();
     }
-    let count = |sql: &str| -> Result<String> { Ok(workspace.query(sql)?.rows[0][0].to_string()) };
+    let count = |sql: &str| -> Result<String> { Ok(sql::query(&store, sql)?.rows[0][0].to_string()) };
     let (jobs, rows) = (count("SELECT count(*) FROM v_jobs")?, count("SELECT count(*) FROM v_chi")?);
     let made: f64 = jobs.parse()?;
     let megabytes = std::fs::metadata(&path)?.len() as f64 / 1e6;
     println!("{jobs} jobs, {rows} rows of v_chi, {megabytes:.0} MB");
     println!("{:8.2} ms  queue, claim and finish a job, on average", spent * 1e3 / made);
 
-    let mut study = workspace.load_study(folder.path())?;
+    let mut study = run::load_study(&store, folder.path())?;
     study.name = "study0".to_owned();
     let id = JobId(made as i64 / 2);
     let filter = JobFilter { study: Some(study.name.clone()), status: Some(Status::Done), ..JobFilter::default() };
-    time("list the jobs of a study", || workspace.jobs(&filter).map(drop))?;
+    time("list the jobs of a study", || read::jobs(&store, &filter).map(drop))?;
     time("one job, its log and measurements", || {
-        workspace.job(id)?;
-        workspace.log(id)?;
-        workspace.chi(id).map(drop)
+        read::job(&store, id)?;
+        read::log(&store, id)?;
+        read::chi(&store, id).map(drop)
     })?;
-    time("the counts of all studies", || workspace.studies().map(drop))?;
+    time("the counts of all studies", || read::studies(&store).map(drop))?;
     time("pause and resume a study", || {
-        workspace.pause(&study.name)?;
-        workspace.resume(&study.name)
+        actions::pause(&mut store, &study.name)?;
+        actions::resume(&mut store, &study.name)
     })?;
-    time("cancel a job", || workspace.cancel(&[id]).map(drop))?;
-    time("plan a study again", || workspace.plan(&study, &Selection::default()).map(drop))?;
+    time("cancel a job", || actions::cancel(&mut store, &[id]).map(drop))?;
+    time("plan a study again", || run::plan(&mut store, &study, &Selection::default()).map(drop))?;
     for (question, sql) in QUESTIONS {
-        let rows = workspace.query(sql)?.rows.len();
-        time(&format!("{question}, {rows} rows"), || workspace.query(sql).map(drop))?;
+        let rows = sql::query(&store, sql)?.rows.len();
+        time(&format!("{question}, {rows} rows"), || sql::query(&store, sql).map(drop))?;
     }
     Ok(())
 }
@@ -121,14 +119,14 @@ const WORKED: usize = 200;
 fn queue(jobs: usize) -> std::result::Result<(), Box<dyn std::error::Error>> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("toile.sqlite");
-    let mut workspace = Workspace::open(&path, false)?;
+    let mut store = catalogue::open(&path, false)?;
     write_study(folder.path(), jobs / 6)?;
     let mut start = Instant::now();
     let mut lap = |what: &str| {
         println!("{:8.2} s   {what}", start.elapsed().as_secs_f64());
         start = Instant::now();
     };
-    let study = workspace.load_study(folder.path())?;
+    let study = run::load_study(&store, folder.path())?;
     lap("read the study file");
     let done = Arc::new(AtomicUsize::new(0));
     let counted = done.clone();
@@ -143,7 +141,7 @@ fn queue(jobs: usize) -> std::result::Result<(), Box<dyn std::error::Error>> {
         }
     };
     let options = RunOptions { workers: Some(1), ..RunOptions::default() };
-    let run = workspace.start_with(&study, &options, Arc::new(work))?;
+    let run = run::start_with(&mut store, &study, &options, Arc::new(work))?;
     lap(&format!("queue {} jobs", run.planned.len()));
     until(1);
     lap("claim and do the first");
@@ -154,24 +152,24 @@ fn queue(jobs: usize) -> std::result::Result<(), Box<dyn std::error::Error>> {
     run.join()?;
     lap("do some more, stop, and judge");
     println!("{each:8.2} ms  claim and do one of the {WORKED} thereafter");
-    time("the counts of all studies", || workspace.studies().map(drop))?;
+    time("the counts of all studies", || read::studies(&store).map(drop))?;
     let filter = JobFilter { study: Some(study.name.clone()), status: Some(Status::Done), ..JobFilter::default() };
-    time(&format!("list the {WORKED} jobs that are done"), || workspace.jobs(&filter).map(drop))?;
+    time(&format!("list the {WORKED} jobs that are done"), || read::jobs(&store, &filter).map(drop))?;
     time("one job, its log and measurements", || {
-        workspace.log(JobId(7))?;
-        workspace.chi(JobId(7)).map(drop)
+        read::log(&store, JobId(7))?;
+        read::chi(&store, JobId(7)).map(drop)
     })?;
-    time("cancel a job", || workspace.cancel(&[JobId(jobs as i64 / 2)]).map(drop))?;
-    start_again(&mut workspace, &study)?;
+    time("cancel a job", || actions::cancel(&mut store, &[JobId(jobs as i64 / 2)]).map(drop))?;
+    start_again(&mut store, &study)?;
     let megabytes = std::fs::metadata(&path)?.len() as f64 / 1e6;
     println!("{megabytes:8.0} MB  database, {:.0} MB most memory", peak_megabytes());
     Ok(())
 }
 
 /// Plans a study again, once.
-fn start_again(workspace: &mut Workspace, study: &Study) -> Result<()> {
+fn start_again(store: &mut Store, study: &Study) -> Result<()> {
     let start = Instant::now();
-    workspace.plan(study, &Selection::default())?;
+    run::plan(store, study, &Selection::default())?;
     println!("{:8.2} s   plan the study again", start.elapsed().as_secs_f64());
     Ok(())
 }

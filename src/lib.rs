@@ -2,8 +2,9 @@
 //! against its pattern, and the evidence says which simulator to trust for which fit.
 //!
 //! The crates are the stages of the pipeline, in the order data flows. [`body`] and [`pattern`] make the inputs.
-//! [`sim`] drapes by means of [`linalg`]. [`fit`] measures and judges, [`render`] and [`report`] show. [`study`] keeps
-//! and runs it all, [`cli`] and [`tui`] are its two faces. All stand on [`geom`]. SI units inside; millimetres, degrees
+//! [`sim`] drapes by means of [`linalg`]. [`fit`] measures and judges, [`render`] and [`report`] show. [`store`] keeps
+//! it all, [`spec`] reads what a study file asks for, [`wardrobe`] holds what is worn and by whom, [`engine`] runs,
+//! [`results`] and [`advice`] answer. [`cli`] and [`tui`] are the two faces. All stand on [`geom`]. SI units inside; millimetres, degrees
 //! and milliseconds at the edges.
 //!
 //! # Dressing a body
@@ -39,7 +40,7 @@
 //! ```
 //!
 //! `examples/dress.rs` does the same on finer meshes and writes a file for Blender; `examples/compare.rs` sets both simulators
-//! beside each other. Whole studies, cached and reported, are [`study::Workspace`]'s.
+//! beside each other. [`engine`] shows how a whole study is queued and run.
 
 pub use geom::{self, units};
 
@@ -54,7 +55,12 @@ pub use fit::{self, measure};
 pub use render;
 pub use report;
 
-pub use study;
+pub use advice;
+pub use engine;
+pub use results;
+pub use spec;
+pub use store;
+pub use wardrobe;
 
 pub use cli;
 pub use tui;

@@ -3,14 +3,15 @@
 use super::args::Alter;
 use super::context::Context;
 use super::{End, Outcome, output};
+use advice::{Alteration, AlteredLevel, AlteredReading, Wish};
 use geom::units::signed_tenths;
-use study::{Alteration, AlteredLevel, AlteredReading, Table, Value, Wish, files};
+use store::{Table, Value, files};
 
 /// Finds or applies a change of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["dxf", "toml", "json", "svg"])).transpose()?;
-    let workspace = context.workspace()?;
-    let study = context.study(&workspace, &arguments.study)?;
+    let store = context.store()?;
+    let study = context.study(&store, &arguments.study)?;
     let wish = Wish {
         garment: arguments.garment.clone(),
         subject: arguments.subject.clone(),
@@ -24,14 +25,14 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
         standard: arguments.standard.into(),
     };
     if arguments.list {
-        let standing = study::standing(&study, &wish)?;
+        let standing = advice::standing(&study, &wish)?;
         match context.json {
             true => output::json(&standing)?,
             false => context.print(&stands(&standing))?,
         }
         return Ok(End::Done);
     }
-    let found = study::alter(&study, &wish)?;
+    let found = advice::alter(&study, &wish)?;
     if let Some(folder) = &arguments.output {
         files::write_files(folder, &found.files)?;
         found.files.iter().for_each(|(name, _)| context.say(format_args!("wrote {}", folder.join(name).display())));
@@ -69,7 +70,7 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 
 fn moves(found: &Alteration) -> Table {
     let columns = ["handle", "by_mm", "of", "girth_mm"].map(str::to_owned).to_vec();
-    let row = |one: &study::MovedHandle| {
+    let row = |one: &advice::MovedHandle| {
         let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
         // A girth changes by twice what half of it does.
         let [of, girth] = match one.is_half_girth {
@@ -104,9 +105,9 @@ fn levels(found: &Alteration) -> Table {
     Table { columns, rows: found.levels.iter().map(row).collect() }
 }
 
-fn stands(standing: &[study::Standing]) -> Table {
+fn stands(standing: &[advice::Standing]) -> Table {
     let columns = ["target", "what", "value", "unit"].map(str::to_owned).to_vec();
-    let row = |one: &study::Standing| {
+    let row = |one: &advice::Standing| {
         let what = if one.is_ease { "ease" } else { "drape" };
         let value = if one.unit == "kPa" { format!("{:.2}", one.value) } else { format!("{:.1}", one.value) };
         [one.name.clone(), what.to_owned(), value, one.unit.to_owned()].map(Value::Text).to_vec()

@@ -9,7 +9,8 @@ use super::args::{Audit as AuditArguments, AuditCommand, Format, Sql, StudyPath}
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
-use study::{EaseRow, Finding, StudyError, Table, Value, saved_queries, saved_query};
+use results::{Finding, audit};
+use store::{EaseRow, StudyError, Table, Value, read, saved_queries, saved_query, sql};
 
 /// Formats of rows by the endings of files.
 const FORMATS: [(&str, Format); 4] =
@@ -45,13 +46,13 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     if format == Format::Parquet && arguments.output.is_none() && std::io::stdout().is_terminal() {
         return Err(CliError::Usage("a Parquet file is not for a terminal; give a file with -o".into()));
     }
-    let workspace = context.workspace()?;
-    let interrupter = workspace.interrupter();
+    let store = context.store()?;
+    let interrupter = sql::interrupter(&store);
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     let handle = signals.handle();
     let answer = std::thread::scope(|scope| {
         scope.spawn(move || signals.forever().for_each(|_| interrupter.interrupt()));
-        let answer = workspace.query(&query);
+        let answer = sql::query(&store, &query);
         handle.close();
         answer
     })?;
@@ -76,14 +77,14 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
         (None, Some(path)) => path,
         (None, None) => return Err(CliError::Usage("no study; give its name".into())),
     };
-    let workspace = context.workspace()?;
+    let store = context.store()?;
     let name = path.to_string_lossy();
-    let is_study = workspace.studies()?.iter().any(|study| study.name == name);
+    let is_study = read::studies(&store)?.iter().any(|study| study.name == name);
     let of_thesis = name == "thesis-published" || (name == "thesis" && !is_study);
     let audit = if of_thesis {
-        workspace.audit_thesis()?
+        audit::audit_thesis(&store)?
     } else {
-        workspace.audit_study(&context.study_name(&workspace, path)?)?
+        audit::audit_study(&store, &context.study_name(&store, path)?)?
     };
     context.print(&Finding::table(&audit.findings))?;
     let found = audit.findings.len();
@@ -113,7 +114,7 @@ fn ease_row(ease: EaseRow) -> Vec<Value> {
 
 /// Runs `toile ease`: prints ease and fit class of every size on every subject, level by level.
 pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
-    let (workspace, name) = context.eased(&arguments.study)?;
+    let (store, name) = context.eased(&arguments.study)?;
     let columns = [
         "garment",
         "size",
@@ -126,11 +127,11 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
         "undersized",
         "borderline",
     ];
-    let rows = workspace.ease(&name)?.into_iter().map(ease_row);
+    let rows = read::ease(&store, &name)?.into_iter().map(ease_row);
     let table = Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() };
     if context.json {
         let quoted = name.replace('\'', "''");
-        let exact = workspace.query(&format!("SELECT * FROM v_ease WHERE study = '{quoted}'"))?;
+        let exact = sql::query(&store, &format!("SELECT * FROM v_ease WHERE study = '{quoted}'"))?;
         output::json(&output::rows(&exact))?;
     } else {
         context.print(&table)?;
@@ -149,7 +150,8 @@ pub const NO_EASE: &str =
 #[cfg(test)]
 mod tests {
     use super::*;
-    use study::{FitCell, FitClass};
+    use fit::FitClass;
+    use store::FitCell;
 
     #[test]
     fn only_the_level_that_decides_has_a_class() {

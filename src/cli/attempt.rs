@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use super::args::Try;
 use super::context::Context;
 use super::{CliError, End, Outcome, body, output};
+use engine::{Attempt, AttemptLayer, Reached, ReachedAt, ReachedOpening, Tried};
 use geom::units::from_mm;
-use study::patterns::Unit;
-use study::{self, Attempt, AttemptLayer, Reached, ReachedAt, ReachedOpening, Table, Tried, Value, files};
+use spec::patterns::Unit;
+use store::{Table, Value, files};
 
 /// What stands for nothing.
 const NONE: &str = "-";
@@ -31,7 +32,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     output::folder(&arguments.output, &["png", "glb", "obj"])?;
     files::make_folder(&arguments.output)?;
     let mut phase_before = String::new();
-    let all = study::attempt(&asked, &mut |phase, share| {
+    let all = engine::attempt(&asked, &mut |phase, share| {
         if phase != phase_before {
             context.say(format_args!("{phase}, {:.0} %", 100.0 * share));
             phase.clone_into(&mut phase_before);
@@ -76,7 +77,7 @@ fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
         pattern: pattern.clone(),
         seams: seams[number].as_ref().map(PathBuf::from),
         size: sizes[number].clone(),
-        fabric: fabrics[number].clone().unwrap_or_else(|| study::USUAL_FABRIC.to_owned()),
+        fabric: fabrics[number].clone().unwrap_or_else(|| sim::fabric::USUAL.to_owned()),
     };
     Ok(arguments.pattern.iter().enumerate().map(layer).collect())
 }

@@ -8,9 +8,12 @@ use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::{from_mm, mm};
-use study::bodies::{self, Lens, Measurements};
-use study::evaluate::{self, Accuracy};
-use study::{Given, MEASUREMENTS, Person, Table, Value, View, files};
+use render::View;
+use spec::bodies::{self, Lens, Measurements};
+use spec::{Given, MEASUREMENTS, Person};
+use store::{Table, Value, files};
+use wardrobe::catalogue;
+use wardrobe::evaluate::{self, Accuracy};
 
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);
@@ -145,14 +148,14 @@ pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
 fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => {
-            let person = context.workspace()?.subject(name)?;
+            let person = catalogue::subject(&context.store()?, name)?;
             if person.scan.is_some() {
                 refuse_beside_scan(arguments.measured.0.first())?;
                 return Ok(person);
             }
             person.measurements
         }
-        (None, Some(file)) => study::read_measurements(file, arguments.sex.map(of))?,
+        (None, Some(file)) => spec::read_measurements(file, arguments.sex.map(of))?,
         (None, None) => {
             let missing = "say --sex and --stature-mm, or a --subject, or --measurements FILE";
             let sex = arguments.sex.map(of).ok_or_else(|| CliError::Usage(missing.into()))?;

@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 use super::args::{Catalogue, FabricValues, PatternUnit, PersonValues, SizeValues, StyleCommand, StyleValues};
 use super::context::Context;
 use super::{CliError, End, Outcome, body, output};
-use study::{
-    Given, Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, StudyError, StyleGiven, Table, Value, Workspace,
-};
+use spec::Given;
+use store::{Store, StudyError, Table, Value, sql};
+use wardrobe::{Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, catalogue};
 
 /// The values of one part of the catalogue on the command line.
 pub trait Values: Args {
@@ -17,56 +17,56 @@ pub trait Values: Args {
     const PART: Part;
 
     /// Saves an entry with them.
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError>;
+    fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError>;
 }
 
 impl Values for PersonValues {
     const PART: Part = Part::Subject;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
+    fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         let given = &self.values.0;
-        let Some(file) = &self.scan else { return Ok(vec![workspace.save_subject(mode, name, given)?]) };
+        let Some(file) = &self.scan else { return Ok(vec![catalogue::save_subject(store, mode, name, given)?]) };
         let is_number = |(key, _): &&Given| key != "sex";
         body::refuse_beside_scan(given.iter().find(is_number))?;
-        let sex = given.first().map(|(_, word)| study::sex(word)).transpose().map_err(CliError::Usage)?;
+        let sex = given.first().map(|(_, word)| spec::sex(word)).transpose().map_err(CliError::Usage)?;
         let scan = ScanGiven { file: file.clone(), unit: self.unit.map(Into::into), sex };
-        Ok(vec![workspace.save_scan(mode, name, &scan)?])
+        Ok(vec![catalogue::save_scan(store, mode, name, &scan)?])
     }
 }
 
 impl Values for FabricValues {
     const PART: Part = Part::Fabric;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
-        Ok(vec![workspace.save_fabric(mode, name, self.like.as_deref(), &self.given)?])
+    fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
+        Ok(vec![catalogue::save_fabric(store, mode, name, self.like.as_deref(), &self.given)?])
     }
 }
 
 impl Values for StyleValues {
     const PART: Part = Part::Style;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
+    fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         let given = StyleGiven {
             seams: self.seams.clone(),
             is_proposed: self.propose,
             unit: self.unit.and_then(unit_name),
             patterns: self.patterns.iter().map(|text| pattern_of(text)).collect(),
         };
-        Ok(workspace.save_style(mode, name, &given)?)
+        Ok(catalogue::save_style(store, mode, name, &given)?)
     }
 }
 
 impl Values for SizeValues {
     const PART: Part = Part::Size;
 
-    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
+    fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError> {
         let given = StyleGiven {
             seams: None,
             is_proposed: false,
             unit: self.unit.and_then(unit_name),
             patterns: self.pattern.iter().map(|path| (None, path.clone())).collect(),
         };
-        Ok(vec![workspace.save_size(mode, name, &given)?])
+        Ok(vec![catalogue::save_size(store, mode, name, &given)?])
     }
 }
 
@@ -110,13 +110,13 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
     match command {
         Catalogue::Ls { all } => list(context, V::PART, all)?,
         Catalogue::Show { name } => show(context, V::PART, &name)?,
-        Catalogue::Add { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Add, &name)?),
-        Catalogue::Edit { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Edit, &name)?),
+        Catalogue::Add { name, values } => say(context, &values.save(&mut context.store()?, Mode::Add, &name)?),
+        Catalogue::Edit { name, values } => say(context, &values.save(&mut context.store()?, Mode::Edit, &name)?),
         Catalogue::Import { good_rows, files } => return import(context, V::PART, &files, good_rows),
         Catalogue::Rm { names } => {
-            let mut workspace = context.workspace()?;
+            let mut store = context.store()?;
             for name in &names {
-                context.say(workspace.remove(V::PART, name)?);
+                context.say(catalogue::remove(&mut store, V::PART, name)?);
             }
         }
     }
@@ -126,7 +126,7 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
 /// Imports files; tells what is wrong with the rows that are left out where only the good ones are asked for.
 fn import(context: &Context, part: Part, files: &[PathBuf], good_rows: bool) -> Outcome {
     let strictness = if good_rows { Strictness::GoodRows } else { Strictness::AllOrNone };
-    let Imported { saved, left_out } = context.workspace()?.import(part, files, strictness)?;
+    let Imported { saved, left_out } = catalogue::import(&mut context.store()?, part, files, strictness)?;
     say(context, &saved);
     for problem in &left_out {
         output::tell(&format!("left out: {problem}"));
@@ -140,16 +140,16 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
         StyleCommand::Of(command) => return run(context, command),
         StyleCommand::Sew { name, step } => (name, step),
     };
-    let mut workspace = context.workspace()?;
+    let mut store = context.store()?;
     let (style, size) = name.split_once('/').map_or((name.as_str(), None), |(style, size)| (style, Some(size)));
-    let sizes = workspace.sizes()?;
+    let sizes = catalogue::sizes(&store)?;
     let is_asked = |row: &&SizeRow| row.style == style && size.is_none_or(|size| row.size == size);
     let Some(row) = sizes.iter().find(is_asked) else {
         let known = sizes.iter().map(|row| format!("{}/{}", row.style, row.size)).collect();
         return Err(StudyError::NotFound { what: "size", name, known }.into());
     };
-    let seams = workspace.workpiece(row.key)?.after(&step.step(style))?;
-    say(context, &workspace.save_seams(style, &seams)?);
+    let seams = catalogue::workpiece(&store, row.key)?.after(&step.step(style))?;
+    say(context, &catalogue::save_seams(&mut store, style, &seams)?);
     Ok(End::Done)
 }
 
@@ -168,13 +168,13 @@ fn list(context: &Context, part: Part, all: bool) -> Result<(), CliError> {
     let (view, key) = view(part);
     let shown = if all { "" } else { "AND NOT is_retired" };
     let sql = format!("SELECT *, {key} AS entry FROM {view} WHERE is_latest {shown} ORDER BY entry");
-    let entries = described(part, context.workspace()?.query(&sql)?);
+    let entries = described(part, sql::query(&context.store()?, &sql)?);
     context.print(&if context.json { entries } else { without(entries, &HIDDEN) })
 }
 
 fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
     let (view, key) = view(part);
-    let all = context.workspace()?.query(&format!("SELECT *, {key} AS entry FROM {view} ORDER BY entry, revision"))?;
+    let all = sql::query(&context.store()?, &format!("SELECT *, {key} AS entry FROM {view} ORDER BY entry, revision"))?;
     let entry = all.columns.len() - 1;
     let of_name = |row: &&Vec<Value>| row[entry] == Value::Text(name.to_owned());
     let rows: Vec<_> = all.rows.iter().filter(of_name).cloned().collect();
@@ -189,7 +189,7 @@ fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
 
 /// A table of entries with what follows from them.
 fn described(part: Part, entries: Table) -> Table {
-    if part == Part::Fabric { study::with_bending(entries) } else { entries }
+    if part == Part::Fabric { wardrobe::with_bending(entries) } else { entries }
 }
 
 /// A table without some columns.

@@ -3,9 +3,8 @@
 use super::args::Chance as Arguments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
-use study::{
-    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance, Table, Value,
-};
+use advice::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance};
+use store::{Table, Value};
 
 /// Shares of the truth that 80 % intervals may hold.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
@@ -13,8 +12,8 @@ const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
 /// Prints how probable it is that the sizes of a garment fit somebody, or what becomes of planted people.
 pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
-    let workspace = context.workspace()?;
-    let study = context.study(&workspace, &arguments.study)?;
+    let store = context.store()?;
+    let study = context.study(&store, &arguments.study)?;
     let question = Question {
         garment: arguments.garment.clone(),
         subject: arguments.subject.clone(),
@@ -26,7 +25,7 @@ pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
         fem: arguments.fem as usize,
     };
     if let Some(people) = arguments.planted {
-        let tally = study::planted(&study, &question, people as usize, question.error_factor)?;
+        let tally = advice::planted(&study, &question, people as usize, question.error_factor)?;
         if context.json {
             output::json(&tally)?;
         } else {
@@ -41,7 +40,7 @@ pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
         }
         return Ok(if CALIBRATED.contains(&tally.held.share) { End::Done } else { End::CheckFailed });
     }
-    let found = study::chance(&study, &question)?;
+    let found = advice::chance(&study, &question)?;
     if let Some(file) = &arguments.output {
         pictures::write_chart(context, file, &found.chart()?)?;
     }

@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::CliError;
 use super::args::{Format, Global};
-use study::{PUBLISHED, QUICKSTART, Study, Table, Workspace, write_quickstart};
+use engine::run;
+use spec::{QUICKSTART, Study, write_quickstart};
+use store::{PUBLISHED, Store, Table, read};
+use wardrobe::catalogue;
 
 /// The resolved global flags.
 pub struct Context {
@@ -44,14 +47,14 @@ impl Context {
         })
     }
 
-    /// Opens the workspace.
-    pub fn workspace(&self) -> Result<Workspace, CliError> {
+    /// Opens the store.
+    pub fn store(&self) -> Result<Store, CliError> {
         let is_new = !self.db.exists();
-        let workspace = Workspace::open(&self.db, self.readonly)?;
+        let store = catalogue::open(&self.db, self.readonly)?;
         if is_new && self.db.exists() {
             self.say(format_args!("made a new database: {}", self.db.display()));
         }
-        Ok(workspace)
+        Ok(store)
     }
 
     /// Says something on standard error, unless asked to be quiet.
@@ -69,7 +72,7 @@ impl Context {
 
     /// The study of a path, its folder or file; a bare name is also looked for among the project's studies, and is that of the study that
     /// comes with the program.
-    pub fn study(&self, workspace: &Workspace, path: &Path) -> Result<Study, CliError> {
+    pub fn study(&self, store: &Store, path: &Path) -> Result<Study, CliError> {
         let in_project = project_folder().map(|project| project.join("studies").join(path));
         let in_project = in_project.filter(|folder| !path.exists() && folder.is_dir());
         let path = match in_project {
@@ -81,34 +84,34 @@ impl Context {
             }
             None => path.to_owned(),
         };
-        Ok(workspace.load_study(&path)?)
+        Ok(run::load_study(store, &path)?)
     }
 
     /// A study with the ease of its sizes as its file has them now, where there is a file and the database may be written.
-    pub fn eased(&self, path: &Path) -> Result<(Workspace, String), CliError> {
-        let mut workspace = self.workspace()?;
+    pub fn eased(&self, path: &Path) -> Result<(Store, String), CliError> {
+        let mut store = self.store()?;
         if !path.exists() || self.readonly {
-            let name = self.study_name(&workspace, path)?;
-            return Ok((workspace, name));
+            let name = self.study_name(&store, path)?;
+            return Ok((store, name));
         }
-        let study = self.study(&workspace, path)?;
-        workspace.update_ease(&study)?;
-        Ok((workspace, study.name))
+        let study = self.study(&store, path)?;
+        run::update_ease(&mut store, &study)?;
+        Ok((store, study.name))
     }
 
     /// Name of a study given by its folder, its file, or its name itself.
-    pub fn study_name(&self, workspace: &Workspace, path: &Path) -> Result<String, CliError> {
+    pub fn study_name(&self, store: &Store, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();
         if name == PUBLISHED {
             return Ok(name.into_owned());
         }
-        if !name.contains('/') && workspace.studies()?.iter().any(|study| study.name == name) {
+        if !name.contains('/') && read::studies(store)?.iter().any(|study| study.name == name) {
             return Ok(name.into_owned());
         }
         if path.exists() {
-            return Ok(self.study(workspace, path)?.name);
+            return Ok(self.study(store, path)?.name);
         }
-        Ok(workspace.study(&name)?.name)
+        Ok(read::study(store, &name)?.name)
     }
 }
 

@@ -14,7 +14,7 @@ use signal_hook::consts::SIGINT;
 use super::context::Context;
 use super::progress::Progress;
 use super::{End, Outcome, output};
-use study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace, files};
+use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, files, read};
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(250);
@@ -49,15 +49,15 @@ pub fn start(context: &Context, study: &str) -> Outcome {
 
 /// Shows how the jobs of a study fare that other processes run, until none is left or nobody works on them. An interrupt
 /// ends the following, not the run.
-pub fn follow(context: &Context, workspace: &Workspace, study: &str) -> Outcome {
+pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     let is_left = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register(SIGINT, is_left.clone())?;
-    let jobs = || workspace.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() });
+    let jobs = || read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() });
     let open: BTreeSet<JobId> = jobs()?.iter().filter(|job| !job.status.is_final()).map(|job| job.id).collect();
     let mut progress = Progress::new(context, study, open.clone());
     let mut idle = 0;
     let last = loop {
-        progress.show(workspace)?;
+        progress.show(store)?;
         let now: Vec<JobRow> = jobs()?.into_iter().filter(|job| open.contains(&job.id)).collect();
         let is_running = now.iter().any(|job| job.status == Status::Running);
         idle = if is_running { 0 } else { idle + 1 };

@@ -4,12 +4,13 @@ use super::answers::NO_EASE;
 use super::args::Fit;
 use super::context::Context;
 use super::{End, Outcome, output};
-use study::{FitCard, LevelSits, Sits, SizeSits, Table, Value};
+use results::{FitCard, LevelSits, Sits, SizeSits, fit_card};
+use store::{Table, Value};
 
 /// Prints the fit cards of a study.
 pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
-    let (workspace, study) = context.eased(&arguments.study)?;
-    let cards = workspace.fit_cards(&study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    let (store, study) = context.eased(&arguments.study)?;
+    let cards = fit_card::fit_cards(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
     if context.json {
         output::json(&cards)?;
         return Ok(if cards.is_empty() { End::CheckFailed } else { End::Done });

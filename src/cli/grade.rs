@@ -3,14 +3,16 @@
 use super::args::Grade;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, xlsx};
-use study::{GradeWish, Grading, SizeSet, SizeShare, Table, Value, file_part, files};
+use advice::{GradeWish, Grading, SizeSet, SizeShare};
+use report::file_part;
+use store::{Table, Value, files};
 
 /// Finds the sizes that fit the most people, prints and writes them.
 pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     let endings = ["dxf", "rul", "toml", "svg", "xlsx"];
     arguments.output.as_deref().map(|folder| output::folder(folder, &endings)).transpose()?;
-    let workspace = context.workspace()?;
-    let study = context.study(&workspace, &arguments.study)?;
+    let store = context.store()?;
+    let study = context.study(&store, &arguments.study)?;
     let wish = GradeWish {
         garment: arguments.garment.clone(),
         sizes: arguments.sizes,
@@ -25,7 +27,7 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     if let Some(folder) = &arguments.output {
         files::make_folder(folder)?;
     }
-    let found = study::grade(&study, &wish)?;
+    let found = advice::grade(&study, &wish)?;
     if let Some(folder) = &arguments.output {
         let name = format!("{}.xlsx", file_part(&found.garment));
         let sheets = sheets(&found);
@@ -58,7 +60,7 @@ fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
 fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
     let [sought, held_out] = found.people;
     let Grading { garment, base, intended, apart_mm, .. } = found;
-    let who = if found.sex == study::bodies::Sex::Male { "men" } else { "women" };
+    let who = if found.sex == spec::bodies::Sex::Male { "men" } else { "women" };
     output::text(&format!(
         "{garment}, made of {base}, {intended} fit: sought for {sought} {who}, judged on {held_out} others\n"
     ))?;

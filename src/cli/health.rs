@@ -2,7 +2,8 @@
 
 use super::context::{Context, project_folder};
 use super::{End, Outcome};
-use study::{Check, Status, Table, Value, checks};
+use results::{Check, checks};
+use store::{Status, Table, Value, read};
 
 /// `toile doctor`: every check with what it found; exit code 3 when one failed.
 pub fn doctor(context: &Context) -> Outcome {
@@ -18,7 +19,7 @@ pub fn doctor(context: &Context) -> Outcome {
 
 /// `toile info`: version, database, studies.
 pub fn info(context: &Context) -> Outcome {
-    let workspace = context.workspace()?;
+    let store = context.store()?;
     let mut rows = vec![
         ("version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
         ("database".to_owned(), context.db.display().to_string()),
@@ -27,7 +28,7 @@ pub fn info(context: &Context) -> Outcome {
             project_folder().map_or_else(|| "none".to_owned(), |folder| folder.display().to_string()),
         ),
     ];
-    for study in workspace.studies()? {
+    for study in read::studies(&store)? {
         let counts = Status::ALL.into_iter().filter(|&status| study.count(status) > 0);
         let counts: Vec<String> = counts.map(|status| format!("{} {}", study.count(status), status.as_str())).collect();
         let paused = if study.paused { ", paused" } else { "" };

@@ -6,16 +6,16 @@ use super::args::Job;
 use super::context::Context;
 use super::run::selection;
 use super::{End, Outcome, output};
-use study::run_job;
+use engine::{handout, run_job};
 
 /// Runs a job command.
 pub fn run(context: &Context, command: &Job) -> Outcome {
     match command {
         Job::Handout { study, output, part } => {
             output::folder(output, &["json"])?;
-            let mut workspace = context.workspace()?;
-            let study = context.study(&workspace, study)?;
-            let handed = workspace.hand_out(&study, &selection(part), output)?;
+            let mut store = context.store()?;
+            let study = context.study(&store, study)?;
+            let handed = handout::hand_out(&mut store, &study, &selection(part), output)?;
             let files: Vec<&PathBuf> = handed.iter().filter_map(|handed| handed.file.as_ref()).collect();
             output::text(&files.iter().map(|file| format!("{}\n", file.display())).collect::<String>())?;
             context.say(format_args!("{}: {} jobs, {} handed out", study.name, handed.len(), files.len()));
@@ -30,7 +30,7 @@ pub fn run(context: &Context, command: &Job) -> Outcome {
             }
         }
         Job::Merge { results } => {
-            let merged = context.workspace()?.merge(results)?;
+            let merged = handout::merge(&mut context.store()?, results)?;
             context.say(format_args!(
                 "{} results stored, {} failed elsewhere, {} were here, {} are being made here",
                 merged.stored.len(),

@@ -45,7 +45,7 @@ use clap::{CommandFactory, FromArgMatches};
 
 use args::{Arguments, Command};
 use context::Context;
-use study::StudyError;
+use store::StudyError;
 
 /// How a command ended, as its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

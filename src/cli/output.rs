@@ -9,7 +9,7 @@ use serde_json::{Map, Value as Json};
 use super::CliError;
 use super::args::Format;
 use geom::units::significant;
-use study::{Table, Value, files};
+use store::{Table, Value, files};
 
 /// Says what went wrong, on standard error.
 pub fn tell(message: &impl std::fmt::Display) {

@@ -1,7 +1,7 @@
 //! Tables as Apache Parquet [Parquet format 2.10]: one row group, plain values, not compressed, so that no package is
 //! needed. Every column may have nulls; a column of whole numbers is INT64, of numbers DOUBLE, any other UTF-8 text.
 
-use study::{Table, Value};
+use store::{Table, Value};
 
 /// First and last bytes of a file.
 const MAGIC: &[u8; 4] = b"PAR1";

@@ -5,13 +5,12 @@ use std::path::Path;
 
 use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
-use super::{CliError, End, Outcome, output, pattern_files};
-use super::{questions, sew};
+use super::{CliError, End, Outcome, output, pattern_files, questions, sew};
 use geom::units::{from_mm, mm};
-use study::patterns::{self, FileReport, Finding, Model, Unit};
-use study::seams::pattern_files::inspect as inspect_files;
-use study::seams::{self, CHECK_EDGE_MM, SizeCheck};
-use study::{Table, Value, files};
+use spec::patterns::{self, FileReport, Finding, Model, Unit};
+use store::{Table, Value, files};
+use wardrobe::seams::pattern_files::inspect as inspect_files;
+use wardrobe::seams::{self, CHECK_EDGE_MM, SizeCheck};
 
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
@@ -212,7 +211,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let checked = style(files).and_then(|style| Ok((patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
-        Err(CliError::Study(error @ study::StudyError::Stage { .. })) => {
+        Err(CliError::Study(error @ store::StudyError::Stage { .. })) => {
             output::tell(&error);
             return Ok(End::CheckFailed);
         }
@@ -250,7 +249,7 @@ fn told(finding: &Finding) -> String {
 fn check_study(context: &Context, path: &Path) -> Outcome {
     if context.db.exists() && !context.readonly {
         // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
-        context.workspace()?;
+        context.store()?;
     }
     show_sizes(context, &seams::check_study(path, &context.db)?)
 }

@@ -5,10 +5,10 @@ use std::path::Path;
 use super::args::BesideFiles;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, xlsx};
-use study::files;
-use study::patterns::Unit;
-use study::seams::pattern_files::{self, Beside, Standard};
-use study::seams::{Asking, specification};
+use spec::patterns::Unit;
+use store::files;
+use wardrobe::seams::pattern_files::{self, Beside, Standard};
+use wardrobe::seams::{Asking, specification};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {

@@ -10,9 +10,13 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::{
-    Chart, Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files,
-};
+use render::export::MeshFormat;
+use render::{Rgb, View};
+use report::{Chart, Purpose};
+use results::{Cloth, Map, Order, Shot, Zoom, picture, record, reporting};
+use sim::Stage;
+use spec::Study;
+use store::{JobId, Store, files};
 
 /// Runs `toile render`: writes a picture, a sheet or a turntable of results.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -42,13 +46,13 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
         size: (arguments.width, arguments.height),
     };
     let jobs: Vec<JobId> = arguments.jobs.iter().copied().map(JobId).collect();
-    let workspace = context.workspace()?;
+    let store = context.store()?;
     let endings: &[(&str, ())] =
         if arguments.turntable.is_some() { &[("png", ()), ("apng", ())] } else { &[("png", ())] };
     output::kind(&arguments.output, endings)?;
     let png = match (arguments.turntable, jobs.as_slice()) {
-        (None, _) => workspace.pictures(&jobs, &order)?,
-        (Some(pictures), [job]) => workspace.turntable(*job, &order, pictures)?,
+        (None, _) => picture::pictures(&store, &jobs, &order)?,
+        (Some(pictures), [job]) => picture::turntable(&store, *job, &order, pictures)?,
         (Some(_), _) => return Err(CliError::Usage("--turntable shows one job".into())),
     };
     write(context, &arguments.output, png)
@@ -73,7 +77,7 @@ pub fn export(context: &Context, arguments: &Export) -> Outcome {
         FormatArgument::Ply => MeshFormat::Ply,
         FormatArgument::Stl => MeshFormat::Stl,
     };
-    let file = context.workspace()?.mesh_file(JobId(arguments.job), format, map(arguments.map))?;
+    let file = picture::mesh_file(&context.store()?, JobId(arguments.job), format, map(arguments.map))?;
     write(context, &arguments.output, file)
 }
 
@@ -121,14 +125,14 @@ pub fn chart_format(file: &Path) -> Result<ChartFormat, CliError> {
 /// Runs `toile report`: writes the report of a study, and its PDF where that is asked.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["html", "pdf", "csv"])).transpose()?;
-    let workspace = context.workspace()?;
-    let name = context.study_name(&workspace, &arguments.study)?;
+    let store = context.store()?;
+    let name = context.study_name(&store, &arguments.study)?;
     let purpose = arguments.purpose.map(|purpose| match purpose {
         PurposeArgument::Fit => Purpose::Fit,
         PurposeArgument::Compare => Purpose::Compare,
     });
     let folder = arguments.output.clone().unwrap_or_else(|| default_folder(context, &name));
-    write_report(context, &workspace, &name, (&folder, purpose))?;
+    write_report(context, &store, &name, (&folder, purpose))?;
     if arguments.pdf { print_page(context, &folder) } else { Ok(End::Done) }
 }
 
@@ -165,11 +169,11 @@ fn print_page(context: &Context, folder: &Path) -> Outcome {
 /// Writes a study's report and prints the path of its page.
 pub fn write_report(
     context: &Context,
-    workspace: &Workspace,
+    store: &Store,
     study: &str,
     (folder, purpose): (&Path, Option<Purpose>),
 ) -> Result<(), CliError> {
-    let files: Vec<(String, Vec<u8>)> = workspace.report(study, purpose)?;
+    let files: Vec<(String, Vec<u8>)> = reporting::report(store, study, purpose)?;
     files::write_files(folder, &files)?;
     tell_report(context, &folder.join(PAGE))
 }
@@ -179,24 +183,19 @@ const PAGE: &str = "index.html";
 
 /// Writes a study's report, unless the page that is there was written from this database and is younger than its latest
 /// result, its file and this program; prints the path.
-pub fn bring_report(
-    context: &Context,
-    workspace: &mut Workspace,
-    study: &Study,
-    since_ms: i64,
-) -> Result<(), CliError> {
+pub fn bring_report(context: &Context, store: &mut Store, study: &Study, since_ms: i64) -> Result<(), CliError> {
     let page = default_folder(context, &study.name).join(PAGE);
     let program = std::env::current_exe().ok().and_then(|path| modified_ms(&path));
     let sources = [Some(since_ms), modified_ms(&study.path), program];
     if let Some(written) = modified_ms(&page)
         && sources.into_iter().flatten().all(|source| source < written)
-        && workspace.knows_report(&study.name, &page, written)?
+        && record::knows_report(store, &study.name, &page, written)?
     {
         return tell_report(context, &page);
     }
-    write_report(context, workspace, &study.name, (&default_folder(context, &study.name), None))?;
-    if let Some(written) = modified_ms(&page).filter(|_| !workspace.is_readonly()) {
-        workspace.remember_report(&study.name, &page, written)?;
+    write_report(context, store, &study.name, (&default_folder(context, &study.name), None))?;
+    if let Some(written) = modified_ms(&page).filter(|_| !store.is_readonly()) {
+        record::remember_report(store, &study.name, &page, written)?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::io::IsTerminal;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
-use study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
+use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
 /// What a job is called on its bar, such as `tshirt S ii`.
 pub fn label(garment: &str, size: &str, subject: &str) -> String {
@@ -85,9 +85,9 @@ impl Progress {
     }
 
     /// Looks at the jobs and shows what is new.
-    pub fn show(&mut self, workspace: &Workspace) -> Result<()> {
+    pub fn show(&mut self, store: &Store) -> Result<()> {
         let filter = JobFilter { study: Some(self.study.clone()), ..JobFilter::default() };
-        for job in workspace.jobs(&filter)?.into_iter().filter(|job| self.jobs.contains(&job.id)) {
+        for job in read::jobs(store, &filter)?.into_iter().filter(|job| self.jobs.contains(&job.id)) {
             if self.shown.get(&job.id).is_some_and(|status| status.is_final()) {
                 continue;
             }

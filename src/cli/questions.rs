@@ -4,7 +4,7 @@ use std::io::{BufRead, IsTerminal, Write};
 
 use super::CliError;
 use super::output::printable;
-use study::seams::{Proposed, Question};
+use wardrobe::seams::{Proposed, Question};
 
 /// Asks what has choices and no answer yet, the least number first, until nothing is left to ask. An empty line
 /// takes what stands.

@@ -4,72 +4,74 @@ use super::args::{Jobs, Queue};
 use super::context::Context;
 use super::run::selection;
 use super::{CliError, End, Outcome};
-use study::{JobFilter, JobId, Selection, StudyError, Table, Value, Workspace, why_no_retry};
+use engine::{actions, why_no_retry};
+use spec::Selection;
+use store::{JobFilter, JobId, Store, StudyError, Table, Value, read};
 
 /// Runs a queue command.
 pub fn run(context: &Context, command: &Queue) -> Outcome {
-    let mut workspace = context.workspace()?;
+    let mut store = context.store()?;
     match command {
-        Queue::Ls { study, all } => context.print(&list(&workspace, study.as_deref(), *all)?)?,
-        Queue::Pause { study } => workspace.pause(study)?,
-        Queue::Resume { study } => workspace.resume(study)?,
+        Queue::Ls { study, all } => context.print(&list(&store, study.as_deref(), *all)?)?,
+        Queue::Pause { study } => actions::pause(&mut store, study)?,
+        Queue::Resume { study } => actions::resume(&mut store, study)?,
         Queue::Cancel(jobs) => {
-            let ids = ids(&workspace, jobs)?;
-            let changed = workspace.cancel(&ids)?;
+            let ids = ids(&store, jobs)?;
+            let changed = actions::cancel(&mut store, &ids)?;
             context.say(format_args!("cancelled {changed} of {} jobs", ids.len()));
         }
-        Queue::Retry(jobs) => return retry(context, &mut workspace, jobs),
+        Queue::Retry(jobs) => return retry(context, &mut store, jobs),
         Queue::Priority { to, jobs } => {
-            let ids = ids(&workspace, jobs)?;
-            workspace.set_priority(&ids, *to)?;
+            let ids = ids(&store, jobs)?;
+            actions::set_priority(&mut store, &ids, *to)?;
             context.say(format_args!("{} jobs have priority {to}", ids.len()));
         }
-        Queue::Log { job } => context.print(&log(&workspace, JobId(*job))?)?,
+        Queue::Log { job } => context.print(&log(&store, JobId(*job))?)?,
     }
     Ok(End::Done)
 }
 
-fn retry(context: &Context, workspace: &mut Workspace, jobs: &Jobs) -> Outcome {
-    let ids = ids(workspace, jobs)?;
+fn retry(context: &Context, store: &mut Store, jobs: &Jobs) -> Outcome {
+    let ids = ids(store, jobs)?;
     for &id in &ids {
-        let why = why_no_retry(workspace.job(id)?.status);
+        let why = why_no_retry(read::job(store, id)?.status);
         if let Some(why) = why.filter(|_| !jobs.jobs.is_empty()) {
             context.say(format_args!("job {id} is left as it is: {why}"));
         }
     }
-    let changed = workspace.retry(&ids)?;
+    let changed = actions::retry(store, &ids)?;
     context.say(format_args!("queued {changed} of {} jobs again; `toile run` works on them", ids.len()));
     Ok(End::Done)
 }
 
 /// Jobs named one by one, and the current ones of a study or of a part of it.
-fn ids(workspace: &Workspace, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
+fn ids(store: &Store, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
     let part = selection(&jobs.part);
     if jobs.study.is_none() && part != Selection::default() {
         return Err(CliError::Usage("a part of which study? give --study NAME".into()));
     }
     let mut ids: Vec<JobId> = jobs.jobs.iter().copied().map(JobId).collect();
     for &id in &ids {
-        workspace.job(id)?;
+        read::job(store, id)?;
     }
     if let Some(study) = &jobs.study {
-        workspace.study(study)?;
+        read::study(store, study)?;
         let filter = JobFilter { study: Some(study.clone()), ..JobFilter::default() };
-        ids.extend(workspace.jobs(&filter)?.iter().filter(|job| part.takes_row(job)).map(|job| job.id));
+        ids.extend(read::jobs(store, &filter)?.iter().filter(|job| part.takes_row(job)).map(|job| job.id));
     }
     Ok(ids)
 }
 
 /// Jobs as a table.
-fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, StudyError> {
+fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyError> {
     if let Some(study) = study {
-        workspace.study(study)?;
+        read::study(store, study)?;
     }
     let filter = JobFilter { study: study.map(str::to_owned), superseded: all, ..JobFilter::default() };
     let columns = [
         "job", "study", "garment", "size", "subject", "sim", "status", "prio", "done", "ei", "wall_s", "tries", "error",
     ];
-    let rows = workspace.jobs(&filter)?.into_iter().map(|job| {
+    let rows = read::jobs(store, &filter)?.into_iter().map(|job| {
         let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
         let percent =
             job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
@@ -93,9 +95,9 @@ fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, 
 }
 
 /// A job's log as a table; times are seconds since it was queued.
-fn log(workspace: &Workspace, id: JobId) -> Result<Table, StudyError> {
-    let queued = workspace.job(id)?.queued_at_ms;
-    let rows = workspace.log(id)?.into_iter().map(|line| {
+fn log(store: &Store, id: JobId) -> Result<Table, StudyError> {
+    let queued = read::job(store, id)?.queued_at_ms;
+    let rows = read::log(store, id)?.into_iter().map(|line| {
         vec![Value::Real((line.at_ms - queued) as f64 / 1e3), Value::Text(line.level), Value::Text(line.text)]
     });
     Ok(Table { columns: ["seconds", "level", "message"].map(str::to_owned).to_vec(), rows: rows.collect() })

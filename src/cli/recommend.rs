@@ -5,16 +5,17 @@ use std::fmt::Write as _;
 use super::args::Recommend;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, Table, Value, Without, Workspace};
+use fit::{Analysis, Answer, Estimate, Simulator, Without};
+use store::{PUBLISHED, Store, Table, Value, evidence};
 
 /// Runs `toile recommend`: prints which simulator to use for each garment and fit class.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
-    let mut workspace = context.workspace()?;
-    let name = context.study_name(&workspace, &arguments.study)?;
+    let mut store = context.store()?;
+    let name = context.study_name(&store, &arguments.study)?;
     if name != PUBLISHED {
-        workspace.update_evidence(&name)?;
+        evidence::update_evidence(&mut store, &name)?;
     }
-    let evidence = workspace.evidence(&name)?;
+    let evidence = evidence::evidence(&store, &name)?;
     let is_asked = |garment: &str| arguments.garment.as_deref().is_none_or(|asked| asked == garment);
     let answers: Vec<&Answer> = evidence.answers.iter().filter(|answer| is_asked(&answer.garment)).collect();
     if answers.is_empty() {
@@ -22,7 +23,7 @@ pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     }
     context.print(&table(&answers, arguments.explain || context.json, context.json))?;
     if arguments.explain && !context.json {
-        output::text(&explained(&workspace, &name, &answers)?)?;
+        output::text(&explained(&store, &name, &answers)?)?;
     }
     Ok(End::Done)
 }
@@ -65,7 +66,7 @@ fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
 }
 
 /// Every answer in words, then the garments over all fits and the rule.
-fn explained(workspace: &Workspace, study: &str, answers: &[&Answer]) -> Result<String, CliError> {
+fn explained(store: &Store, study: &str, answers: &[&Answer]) -> Result<String, CliError> {
     let mut text = String::from(
         "\nEffects are EI of FEM-GS less EI of Hybrid-GS, mean over subjects (95 % bootstrap interval): below 0 FEM-GS is truer.\n",
     );
@@ -90,16 +91,18 @@ fn explained(workspace: &Workspace, study: &str, answers: &[&Answer]) -> Result<
         line(&mut text, "settles it", &answer.would_settle);
     }
     let is_asked = |garment: &str| answers.iter().any(|answer| answer.garment == garment);
-    for (garment, analysis, p_holm) in workspace.evidence(study)?.garments.iter().filter(|(name, ..)| is_asked(name)) {
+    for (garment, analysis, p_holm) in
+        evidence::evidence(store, study)?.garments.iter().filter(|(name, ..)| is_asked(name))
+    {
         let _ = write!(text, "\n{garment}, all fits\n");
         analysed(&mut text, analysis, *p_holm);
-        line(&mut text, "crossover", &workspace.crossover_words(study, Some(garment))?);
+        line(&mut text, "crossover", &evidence::crossover_words(store, study, Some(garment))?);
     }
-    let (score, pairs) = workspace.rule_score(study)?;
+    let (score, pairs) = evidence::rule_score(store, study)?;
     if pairs > 0 {
         let _ = write!(text, "\nall garments\n");
         line(&mut text, "the rule", &format!("right in {} of {} loose or tight cases", score.right, score.of));
-        line(&mut text, "crossover", &workspace.crossover_words(study, None)?);
+        line(&mut text, "crossover", &evidence::crossover_words(store, study, None)?);
     }
     Ok(text)
 }

@@ -12,10 +12,10 @@ use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
 use super::progress::{Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
-use study::{
-    JobFilter, JobId, JobRow, JobSpec, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study,
-    StudyError, Table, Value, Workspace, files,
-};
+use engine::{Planned, RunOptions, SlurmOptions, compose, enqueue, run, slurm};
+use sim::Stage;
+use spec::{JobSpec, Limits, Selection, Study};
+use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(150);
@@ -29,19 +29,19 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         (None, Some(path)) => path,
         (None, None) => return Err(CliError::Usage("no study; give its folder".into())),
     };
-    let mut workspace = context.workspace()?;
+    let mut store = context.store()?;
     if arguments.attach {
-        let name = context.study_name(&workspace, path)?;
-        return detached::follow(context, &workspace, &name);
+        let name = context.study_name(&store, path)?;
+        return detached::follow(context, &store, &name);
     }
-    let mut study = context.study(&workspace, path)?;
+    let mut study = context.study(&store, path)?;
     study.limit(Limits { time_s: arguments.limits.time_limit, memory_mb: arguments.limits.memory_limit });
     let selection = selection(&arguments.part);
     if arguments.moved {
-        workspace.move_study(&study)?;
+        enqueue::move_home(&mut store, &study)?;
     }
     if arguments.dry_run {
-        let planned = workspace.plan(&study, &selection)?;
+        let planned = run::plan(&mut store, &study, &selection)?;
         context.print(&plan_table(&planned))?;
         return Ok(End::Done);
     }
@@ -51,13 +51,13 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let workers = arguments.workers.map(usize::from);
     if arguments.detach {
         // So that whoever follows it at once finds its jobs.
-        workspace.queue(&study, &selection)?;
+        compose::queue(&mut store, &study, &selection)?;
         return detached::start(context, &study.name);
     }
     let interrupted = match arguments.engine {
         Engine::Local => {
             let options = RunOptions { selection, workers, ..RunOptions::default() };
-            work(context, &mut workspace, &study, &options, arguments.why)?
+            work(context, &mut store, &study, &options, arguments.why)?
         }
         Engine::Slurm => {
             let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
@@ -66,18 +66,18 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
                 .clone()
                 .unwrap_or_else(|| beside().join("slurm").join(files::study_folder(&study.name)));
             let options = SlurmOptions { folder, tasks: workers, sbatch: arguments.sbatch.clone() };
-            slurm(context, &mut workspace, &study, &selection, &options, arguments.why)?
+            slurm(context, &mut store, &study, &selection, &options, arguments.why)?
         }
     };
-    let jobs = workspace.jobs(&JobFilter { study: Some(study.name.clone()), ..JobFilter::default() })?;
-    summarise(context, &workspace, &jobs)?;
+    let jobs = read::jobs(&store, &JobFilter { study: Some(study.name.clone()), ..JobFilter::default() })?;
+    summarise(context, &store, &jobs)?;
     if interrupted {
         context.say("interrupted; `toile run` goes on where this stopped");
         return Ok(End::Interrupted);
     }
     if !arguments.no_report && jobs.iter().any(|job| job.status.has_result()) {
         let since = jobs.iter().filter_map(|job| job.finished_at_ms).max().unwrap_or_default();
-        pictures::bring_report(context, &mut workspace, &study, since)?;
+        pictures::bring_report(context, &mut store, &study, since)?;
     }
     let failed: Vec<&JobRow> = jobs.iter().filter(|job| job.status == Status::Failed).collect();
     for job in &failed {
@@ -126,18 +126,18 @@ fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -
 /// on then, and the next run takes it up.
 fn slurm(
     context: &Context,
-    workspace: &mut Workspace,
+    store: &mut Store,
     study: &Study,
     selection: &Selection,
     options: &SlurmOptions,
     why: bool,
 ) -> Result<bool, CliError> {
     let interrupted = interruption()?;
-    let mut run = workspace.start_slurm(study, selection, options)?;
+    let mut run = slurm::start_slurm(store, study, selection, options)?;
     let todo = tell_plan(context, study, &run.planned, why);
     let mut progress = Progress::new(context, &study.name, todo);
     let mut told = Vec::new();
-    while !workspace.step_slurm(&mut run)? {
+    while !run.step(store)? {
         if interrupted.load(Ordering::Relaxed) {
             break;
         }
@@ -145,10 +145,10 @@ fn slurm(
             told = run.arrays().to_vec();
             context.say(format_args!("Slurm job {}", told.join(", ")));
         }
-        progress.show(workspace)?;
+        progress.show(store)?;
         std::thread::sleep(SLURM_LOOK);
     }
-    progress.show(workspace)?;
+    progress.show(store)?;
     progress.finish();
     Ok(interrupted.load(Ordering::Relaxed))
 }
@@ -156,15 +156,15 @@ fn slurm(
 /// Starts the run and shows how it fares until it ends; says whether it was interrupted.
 pub fn work(
     context: &Context,
-    workspace: &mut Workspace,
+    store: &mut Store,
     study: &Study,
     options: &RunOptions,
     why: bool,
 ) -> Result<bool, CliError> {
     let interrupted = interruption()?;
-    let run = workspace.start(study, options)?;
+    let run = run::start(store, study, options)?;
     let todo = tell_plan(context, study, &run.planned, why);
-    if workspace.study(&study.name)?.paused {
+    if read::study(store, &study.name)?.paused {
         context.say(format_args!("{0} is paused: jobs wait until `toile queue resume {0}`", study.name));
     }
     let mut progress = Progress::new(context, &study.name, todo);
@@ -172,11 +172,11 @@ pub fn work(
         if interrupted.load(Ordering::Relaxed) {
             run.stop();
         }
-        progress.show(workspace)?;
+        progress.show(store)?;
         std::thread::sleep(LOOK);
     }
     run.join()?;
-    progress.show(workspace)?;
+    progress.show(store)?;
     progress.finish();
     Ok(interrupted.load(Ordering::Relaxed))
 }
@@ -201,12 +201,12 @@ fn plan_table(planned: &[Planned]) -> Table {
 
 /// Prints the results: chi of every measurement as the thesis lays it out, one table a garment, size and simulator; as
 /// JSON the rows of `v_metrics` with their `chi`.
-fn summarise(context: &Context, workspace: &Workspace, jobs: &[JobRow]) -> Result<(), CliError> {
+fn summarise(context: &Context, store: &Store, jobs: &[JobRow]) -> Result<(), CliError> {
     let done: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result()).collect();
     if context.json {
         let mut results = Vec::new();
         for job in done {
-            results.push(result_json(workspace, job)?);
+            results.push(result_json(store, job)?);
         }
         return Ok(output::json(&results)?);
     }
@@ -227,13 +227,13 @@ fn summarise(context: &Context, workspace: &Workspace, jobs: &[JobRow]) -> Resul
         let first = group[0];
         let title = format!("{} {}, {}: chi = L3D / L2D\n", first.garment, first.size, first.simulator.as_str());
         output::text(&title)?;
-        output::text(&output::pretty(&chi_table(workspace, &group)?))?;
+        output::text(&output::pretty(&chi_table(store, &group)?))?;
     }
     Ok(())
 }
 
 /// Rows: measurements and summary; columns: pattern length and one chi a subject.
-fn chi_table(workspace: &Workspace, jobs: &[&JobRow]) -> Result<Table, StudyError> {
+fn chi_table(store: &Store, jobs: &[&JobRow]) -> Result<Table, StudyError> {
     let mut columns = vec!["#".to_owned(), "measurement".to_owned(), "L2D mm".to_owned()];
     let mut rows: Vec<Vec<Value>> = Vec::new();
     let mut summary = ["E", "SD", "EI"].map(|name| vec![Value::Null, Value::Text(name.to_owned()), Value::Null]);
@@ -242,14 +242,14 @@ fn chi_table(workspace: &Workspace, jobs: &[&JobRow]) -> Result<Table, StudyErro
         let mark = if job.status == Status::NotConverged { " *" } else { "" };
         columns.push(format!("{}{repeat}{mark}", job.subject));
         let drape = Stage::Drape.as_str();
-        for (index, chi) in workspace.chi(job.id)?.iter().filter(|chi| chi.stage == drape).enumerate() {
+        for (index, chi) in read::chi(store, job.id)?.iter().filter(|chi| chi.stage == drape).enumerate() {
             if rows.len() == index {
                 let length = Value::Text(format!("{:.2}", geom::units::mm(chi.l2d_m)));
                 rows.push(vec![Value::Integer(i64::from(chi.no)), Value::Text(chi.name.clone()), length]);
             }
             rows[index].push(Value::Text(format!("{:.3}", chi.chi())));
         }
-        if let Some(metrics) = workspace.metrics(job.id)? {
+        if let Some(metrics) = read::metrics(store, job.id)? {
             for (row, value) in summary.iter_mut().zip([metrics.e_chi, metrics.sd_chi, metrics.ei]) {
                 row.push(Value::Text(format!("{value:.4}")));
             }
@@ -260,9 +260,9 @@ fn chi_table(workspace: &Workspace, jobs: &[&JobRow]) -> Result<Table, StudyErro
 }
 
 /// The columns of `v_metrics` and an array `chi` with those of `v_chi`.
-fn result_json(workspace: &Workspace, job: &JobRow) -> Result<serde_json::Value, StudyError> {
+fn result_json(store: &Store, job: &JobRow) -> Result<serde_json::Value, StudyError> {
     let rows = |view: &str| -> Result<Vec<serde_json::Map<String, serde_json::Value>>, StudyError> {
-        Ok(output::rows(&workspace.query(&format!("SELECT * FROM {view} WHERE job_id = {}", job.id))?))
+        Ok(output::rows(&sql::query(store, &format!("SELECT * FROM {view} WHERE job_id = {}", job.id))?))
     };
     let mut result = rows("v_metrics")?.into_iter().next().unwrap_or_default();
     result.insert("chi".to_owned(), rows("v_chi")?.into());

@@ -6,7 +6,9 @@ use super::args::RunCommand;
 use super::context::Context;
 use super::{End, Outcome, output};
 use geom::units::mm;
-use study::{Change, ChiPair, Inputs, JobId, MetricsRow, Record, Table, Value};
+use results::{ChiPair, Record, record};
+use spec::{Change, Inputs};
+use store::{JobId, MetricsRow, Table, Value};
 
 /// Runs one of the commands on stored runs.
 pub fn run(context: &Context, command: &RunCommand) -> Outcome {
@@ -18,7 +20,7 @@ pub fn run(context: &Context, command: &RunCommand) -> Outcome {
 }
 
 fn show(context: &Context, id: JobId) -> Outcome {
-    let record = context.workspace()?.record(id)?;
+    let record = record::record(&context.store()?, id)?;
     if context.json {
         output::json(&record_json(&record))?;
         return Ok(End::Done);
@@ -65,7 +67,7 @@ fn show(context: &Context, id: JobId) -> Outcome {
 }
 
 fn diff(context: &Context, before: JobId, after: JobId) -> Outcome {
-    let found = context.workspace()?.compare(before, after)?;
+    let found = record::compare(&context.store()?, before, after)?;
     let metrics = found.metrics.each_ref().map(|metrics| metrics.as_ref().map(numbers));
     let names: Vec<&str> =
         metrics.iter().flatten().next().map(|all| all.iter().map(|(name, _)| *name).collect()).unwrap_or_default();
@@ -96,7 +98,7 @@ fn diff(context: &Context, before: JobId, after: JobId) -> Outcome {
 }
 
 fn rerun(context: &Context, id: JobId) -> Outcome {
-    let again = context.workspace()?.rerun(id)?;
+    let again = record::rerun(&context.store()?, id)?;
     let differ = again.chi.iter().filter(|pair| !pair.is_same()).count();
     if context.json {
         let chi: Vec<Json> = again.chi.iter().map(chi_json).collect();

@@ -5,22 +5,24 @@ use std::path::Path;
 use super::args::Section;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
-use study::{CrossSection, CutAt, CutCloth, GarmentWorn, JobId, Simulator, Table, Value, Workspace};
+use fit::Simulator;
+use results::{CrossSection, CutAt, CutCloth, GarmentWorn, draped_fit, section};
+use store::{JobId, Store, Table, Value};
 
 /// Prints cross sections, or draws one.
 pub fn section(context: &Context, arguments: &Section) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
-    let workspace = context.workspace()?;
-    let study = context.study_name(&workspace, &arguments.study)?;
+    let store = context.store()?;
+    let study = context.study_name(&store, &arguments.study)?;
     let at = match (&arguments.level, arguments.at_mm) {
         (Some(level), _) => CutAt::Level(level.clone()),
         (None, Some(height_mm)) => CutAt::HeightMm(height_mm),
         (None, None) => CutAt::Levels,
     };
-    let worn = workspace.worn(&study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    let worn = draped_fit::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
     let mut cut: Vec<(&GarmentWorn, Vec<JobId>)> = Vec::new();
     for one in &worn {
-        let jobs = jobs(&workspace, &study, one, arguments)?;
+        let jobs = jobs(&store, &study, one, arguments)?;
         if !jobs.is_empty() {
             cut.push((one, jobs));
         }
@@ -31,11 +33,11 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
         )));
     }
     if let Some(file) = &arguments.output {
-        return draw(context, &workspace, &cut, &at, file);
+        return draw(context, &store, &cut, &at, file);
     }
     let mut found = Vec::new();
     for (one, jobs) in &cut {
-        found.push((*one, workspace.sections(jobs, &at)?));
+        found.push((*one, section::sections(&store, jobs, &at)?));
     }
     if context.json {
         output::json(&found.into_iter().flat_map(|(_, sections)| sections).collect::<Vec<_>>())?;
@@ -50,26 +52,20 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
 }
 
 /// The results that are asked for of a garment on a subject, in the order of their sizes.
-fn jobs(workspace: &Workspace, study: &str, one: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
+fn jobs(store: &Store, study: &str, one: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
     let simulator = arguments.sim.map(Simulator::from).or(one.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
     let is_wanted = |size: &str| arguments.size.is_empty() || arguments.size.iter().any(|wanted| wanted == size);
-    let sizes = workspace.worn_by(study, &one.card, simulator)?;
+    let sizes = draped_fit::drapes(store, study, &one.card, simulator)?;
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
 /// Draws the one section that is asked for.
-fn draw(
-    context: &Context,
-    workspace: &Workspace,
-    cut: &[(&GarmentWorn, Vec<JobId>)],
-    at: &CutAt,
-    file: &Path,
-) -> Outcome {
+fn draw(context: &Context, store: &Store, cut: &[(&GarmentWorn, Vec<JobId>)], at: &CutAt, file: &Path) -> Outcome {
     let mut drawn = Vec::new();
     for (one, jobs) in cut {
         let wear = one.card.to_wear().map(|size| size.size.as_str());
-        drawn.extend(workspace.section_charts(jobs, at, wear)?);
+        drawn.extend(section::drawn(store, jobs, at, wear)?);
     }
     let [(_, chart)] = drawn.as_slice() else {
         let asked = format!("{} sections are asked for; a drawing is of one", drawn.len());

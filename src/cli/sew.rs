@@ -12,9 +12,11 @@ use super::body::of as body_of;
 use super::context::Context;
 use super::pictures::write;
 use super::{CliError, End, Outcome, output};
-use study::patterns::Unit;
-use study::seams::{self, Care, Hung, Mannequin, Workpiece};
-use study::{Fabric, StudyError};
+use results::preview::{Care, Hung, Mannequin};
+use sim::Fabric;
+use spec::patterns::Unit;
+use store::StudyError;
+use wardrobe::seams::{self, Workpiece};
 
 /// Time between two looks at the seam file.
 const LOOK: Duration = Duration::from_millis(100);
@@ -30,7 +32,7 @@ pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     let BodyFile { body, body_unit, sex } = &arguments.body;
     let (mannequin, notes) = Mannequin::read(body, body_unit.map(Into::into), sex.map(body_of))?;
     notes.iter().for_each(|note| context.say(note));
-    let cloth = study::fabric_named(&arguments.fabric)?;
+    let cloth = engine::fabric_named(&arguments.fabric)?;
     loop {
         let before = stamp(seams.as_deref());
         let is_stale = || is_left.load(Ordering::Relaxed) || stamp(seams.as_deref()) != before;
@@ -93,7 +95,7 @@ fn sewn(
     let started = Instant::now();
     let cut = &arguments.cut;
     let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
-    let preview = piece.preview(mannequin, cloth, Care::Glance, is_stale)?;
+    let preview = mannequin.dressed_in(&piece, cloth, Care::Glance, is_stale)?;
     let took_ms = started.elapsed().as_millis();
     write(context, &arguments.output, preview.sheet()?)?;
     let hung = match preview.hung {

@@ -8,10 +8,12 @@ use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
 use super::{CliError, End, Outcome, body, output};
-use study::{
-    Mode, NewStudy, PopulationOptions, StudyError, StyleGiven, Wearable, Workspace, export_study, files, new_study,
-    representatives, subjects_text, wearables,
-};
+use advice::{PopulationOptions, population, representatives, subjects_text};
+use engine::{NewStudy, Wearable, compose, wearables};
+use results::size_map;
+use spec::{export_study, new_study};
+use store::{Store, StudyError, files, sql};
+use wardrobe::{Mode, StyleGiven, catalogue};
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
@@ -19,9 +21,9 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
         StudyCommand::New { folder, wear, subject, patterns, seams, unit, fabric, sim, fit, .. }
             if !subject.is_empty() =>
         {
-            let mut workspace = context.workspace()?;
-            let own = own_style(context, &mut workspace, patterns, seams.as_ref(), *unit)?;
-            let known = wearables(&workspace.sizes()?);
+            let mut store = context.store()?;
+            let own = own_style(context, &mut store, patterns, seams.as_ref(), *unit)?;
+            let known = wearables(&catalogue::sizes(&store)?);
             let named = |one: &Wearable| format!("{}/{}", one.style, one.size);
             let of = |name: &String| {
                 known.iter().find(|one| named(one) == *name).cloned().ok_or_else(|| StudyError::NotFound {
@@ -40,7 +42,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
                 simulators: sim.iter().map(|&sim| sim.into()).collect(),
                 fit: fit.map(Into::into),
             };
-            let path = workspace.create_study(&new)?;
+            let path = compose::create_study(&mut store, &new)?;
             context.say(format_args!("wrote {}; `toile run {}` runs it", path.display(), folder.display()));
         }
         StudyCommand::New { folder, style, fit, .. } => {
@@ -50,7 +52,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
             context.say(format_args!("`toile run {}` runs it", folder.display()));
         }
         StudyCommand::Check(arguments) => {
-            let study = context.study(&context.workspace()?, &arguments.study)?;
+            let study = context.study(&context.store()?, &arguments.study)?;
             let jobs = study.jobs();
             let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
             context.say(format_args!(
@@ -70,14 +72,14 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
         }
         StudyCommand::Sizes { study, output } => {
             output::kind(output, &[("svg", ())])?;
-            let workspace = context.workspace()?;
-            let svg = workspace.size_map(&context.study_name(&workspace, study)?)?;
+            let store = context.store()?;
+            let svg = size_map::size_map(&store, &context.study_name(&store, study)?)?;
             return write(context, output, svg.into_bytes());
         }
         StudyCommand::Nearest { study, subject } => return nearest(context, study, subject),
         StudyCommand::Export { study, output } => {
             output::folder(output, &["toml"])?;
-            let study = context.study(&context.workspace()?, study)?;
+            let study = context.study(&context.store()?, study)?;
             for path in files::write_files(output, &export_study(&study))? {
                 context.say(format_args!("wrote {}", path.display()));
             }
@@ -89,7 +91,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
 /// Adds patterns of one's own as a style that is called as the first of them; returns its name, and says what is to be decided of it.
 fn own_style(
     context: &Context,
-    workspace: &mut Workspace,
+    store: &mut Store,
     patterns: &[String],
     seams: Option<&PathBuf>,
     unit: Option<PatternUnit>,
@@ -103,10 +105,10 @@ fn own_style(
         unit: unit.and_then(unit_name),
         patterns: patterns.iter().map(|text| pattern_of(text)).collect(),
     };
-    say(context, &workspace.save_style(Mode::Add, &name, &given)?);
-    let sizes = workspace.sizes()?;
+    say(context, &catalogue::save_style(store, Mode::Add, &name, &given)?);
+    let sizes = catalogue::sizes(store)?;
     let row = sizes.iter().find(|row| row.style == name);
-    let undecided = row.map(|row| workspace.workpiece(row.key)?.laid_out()).transpose()?;
+    let undecided = row.map(|row| catalogue::workpiece(store, row.key)?.laid_out()).transpose()?;
     let open = undecided.map_or(0, |laid| laid.undecided.iter().filter(|one| !one.is_sure).count());
     if open > 0 {
         context.say(format_args!("{open} questions about its seams stand: the workbench asks them (screen 3, Enter)"));
@@ -116,9 +118,9 @@ fn own_style(
 
 /// The representative of a study, and its results.
 fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome {
-    let workspace = context.workspace()?;
-    let name = context.study_name(&workspace, study)?;
-    let nearest = workspace.nearest(&name, &subject.0)?;
+    let store = context.store()?;
+    let name = context.study_name(&store, study)?;
+    let nearest = population::nearest(&store, &name, &subject.0)?;
     let (dimension, asked, found) = nearest.widest;
     let edge = |value: f64| format!("{:.0} {}", value * dimension.per_si(), dimension.unit());
     context.say(format_args!(
@@ -130,13 +132,16 @@ fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome 
         edge(asked)
     ));
     let jobs: Vec<String> = nearest.jobs.iter().map(ToString::to_string).collect();
-    let table = workspace.query(&format!(
-        "SELECT garment, size, simulator, fit_class, round(ease_mm, 1) AS ease_mm, round(e_chi, 4) AS e_chi,
+    let table = sql::query(
+        &store,
+        &format!(
+            "SELECT garment, size, simulator, fit_class, round(ease_mm, 1) AS ease_mm, round(e_chi, 4) AS e_chi,
             round(ei, 4) AS ei, converged, job_id
         FROM v_metrics LEFT JOIN (SELECT * FROM v_ease WHERE decides) USING (study, garment, size, subject)
         WHERE job_id IN ({}) ORDER BY garment, size, simulator",
-        jobs.join(", ")
-    ))?;
+            jobs.join(", ")
+        ),
+    )?;
     context.print(&table)?;
     Ok(End::Done)
 }

@@ -5,9 +5,13 @@ use serde_json::json;
 use super::args::AuditGarments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, run};
+use engine::RunOptions;
 use geom::units::from_mm;
-use study::patterns::Unit;
-use study::{Dressed, Limits, Opened, RunOptions, Table, Tally, Value, Wardrobe, files, tally};
+use results::{Dressed, Tally, dressed, tally};
+use spec::Limits;
+use spec::patterns::Unit;
+use store::{Table, Value, files};
+use wardrobe::{Opened, Wardrobe};
 
 /// Name of the document beside the study.
 const DOCUMENT: &str = "audit.json";
@@ -23,12 +27,12 @@ pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
     for (path, why) in &refused {
         output::tell(&format!("{}: left out: {why}", path.display()));
     }
-    let mut workspace = context.workspace()?;
-    let mut study = context.study(&workspace, folder)?;
+    let mut store = context.store()?;
+    let mut study = context.study(&store, folder)?;
     study.limit(Limits { time_s: arguments.limits.time_limit, memory_mb: arguments.limits.memory_limit });
     let options = RunOptions { workers: arguments.workers.map(usize::from), ..RunOptions::default() };
-    let interrupted = run::work(context, &mut workspace, &study, &options, false)?;
-    let all = workspace.dressed(&study.name)?;
+    let interrupted = run::work(context, &mut store, &study, &options, false)?;
+    let all = dressed::dressed(&store, &study.name)?;
     let tallies = tally(&all);
     let refused: Vec<_> =
         refused.iter().map(|(path, why)| json!({ "file": path.to_string_lossy(), "why": why })).collect();

@@ -3,7 +3,7 @@
 use std::io;
 
 use rust_xlsxwriter::{Format, Workbook, XlsxError};
-use study::{Table, Value};
+use store::{Table, Value};
 
 /// A workbook with a sheet for each table, its names in bold and kept in view.
 ///

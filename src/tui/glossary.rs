@@ -84,7 +84,7 @@ fn point_of(line: &str) -> Option<Term> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use study::{FABRIC_NUMBERS, MEASUREMENTS};
+    use spec::{FABRIC_NUMBERS, MEASUREMENTS};
 
     #[test]
     fn every_line_of_the_tables_is_a_term_and_no_name_is_two() {

@@ -1,4 +1,4 @@
-//! The workbench: screens over a workspace that changes while one looks.
+//! The workbench: screens over a store that changes while one looks.
 //!
 //! One event loop takes messages one at a time, lets `State::update` turn them into a new state and effects,
 //! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
@@ -45,10 +45,11 @@ use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders, State};
-use study::{StudyError, Workspace};
+use store::StudyError;
 use terminal::Display;
 use terminal::clipboard::osc52;
 use threads::Threads;
+use wardrobe::catalogue;
 use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 use widgets::theme_file;
@@ -72,7 +73,7 @@ pub struct Options {
 /// Why the workbench ended.
 #[derive(Debug, thiserror::Error)]
 pub enum TuiError {
-    /// The workspace could not be opened.
+    /// The store could not be opened.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// A file of one's own, with keys or colours, is wrong.
@@ -91,7 +92,7 @@ pub enum TuiError {
 pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
     let keys = keys_file::read(config::path(&env, keys_file::FILE).as_deref())?;
-    let workspace = Workspace::open(&options.database, options.readonly)?;
+    let store = catalogue::open(&options.database, options.readonly)?;
     let roles = config::read(config::path(&env, theme_file::FILE).as_deref(), theme_file::taken)?;
     let colours = Colours::detect(options.no_color, &env);
     let theme = Theme { roles, ..Theme::new(colours, theme::wants_ascii(&env)) };
@@ -108,7 +109,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     state.setup.database = named;
     let session = session::path(&options.database, &env);
     session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
-    let threads = Threads::start(workspace, encoder, options.quickstart, state.setup.folders.reports.clone());
+    let threads = Threads::start(store, encoder, options.quickstart, state.setup.folders.reports.clone());
     let outcome = event_loop(&mut display, &mut state, &threads);
     drop(display);
     if let Some(path) = session {

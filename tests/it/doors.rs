@@ -9,7 +9,7 @@ use toile::geom::{TriMesh, V2};
 use toile::pattern::draft::Draft;
 use toile::pattern::dxf::{Standard, write_pieces};
 use toile::pattern::{Notch, Piece};
-use toile::study::patterns::Model;
+use toile::spec::patterns::Model;
 
 use super::program::Place;
 

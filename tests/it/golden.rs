@@ -10,9 +10,9 @@ use toile::body::{self, Dimension, Measurements, Sex, write_obj};
 use toile::geom::{DistanceField, V3};
 use toile::pattern::{Garment, Style, dxf, source};
 use toile::sim::{self, Silent, fabric, fem, hybrid};
-use toile::study::bodies;
-use toile::study::files::SourceFile;
-use toile::study::patterns::Model;
+use toile::spec::bodies;
+use toile::spec::patterns::Model;
+use toile::store::files::SourceFile;
 
 use super::readers::Readers;
 use super::tree::{root, text};
@@ -192,7 +192,7 @@ fn what_a_stage_gives_changes_with_its_version_alone() {
     }
     assert!(
         told.is_empty(),
-        "results of these versions are stored, and would be served: raise them in study::spec::versions\n{}",
+        "results of these versions are stored, and would be served: raise them in spec::versions\n{}",
         told.join("\n")
     );
     let mut lines = vec!["stage\tversion\tnumber\tvalue".to_owned()];

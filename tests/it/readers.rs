@@ -3,13 +3,17 @@
 use std::path::PathBuf;
 
 use toile::body::{Measurements, Sex, write_obj};
+use toile::engine::{Planned, run};
 use toile::pattern::seams::SeamFile;
-use toile::study::{Planned, Selection, StudyError, Workspace, bodies, patterns::Model};
+use toile::spec::patterns::Model;
+use toile::spec::{Selection, bodies};
+use toile::store::{Store, StudyError};
+use toile::wardrobe::catalogue;
 
 /// A fresh database beside the drafted T-shirt.
 pub struct Readers {
     folder: tempfile::TempDir,
-    workspace: Workspace,
+    store: Store,
 }
 
 impl Readers {
@@ -19,8 +23,8 @@ impl Readers {
         for (name, bytes) in Model::Tshirt.files() {
             std::fs::write(folder.path().join("patterns").join(name), bytes).expect("writable");
         }
-        let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a fresh database");
-        Self { folder, workspace }
+        let store = catalogue::open(&folder.path().join("toile.sqlite"), false).expect("a fresh database");
+        Self { folder, store }
     }
 
     fn study_file(&self) -> PathBuf {
@@ -46,14 +50,14 @@ impl Readers {
     /// The jobs of the text of a study file.
     pub fn plan(&mut self, text: &str) -> Vec<Planned> {
         self.write("study.toml", text);
-        let study = self.workspace.load_study(&self.study_file()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        self.workspace.plan(&study, &Selection::default()).expect("planned")
+        let study = run::load_study(&self.store, &self.study_file()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        run::plan(&mut self.store, &study, &Selection::default()).expect("planned")
     }
 
     /// What is wrong with the text of a study file.
     pub fn study(&self, text: &str) -> Vec<String> {
         std::fs::write(self.study_file(), text).expect("writable");
-        match self.workspace.load_study(&self.study_file()) {
+        match run::load_study(&self.store, &self.study_file()) {
             Ok(_) => Vec::new(),
             Err(StudyError::File(problems)) => problems.into_iter().map(|problem| problem.message).collect(),
             Err(error) => panic!("{error}"),

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::pattern::DxfStandard;
-use study::{ALTER_LIMIT_MM, Handle};
+use advice::ALTER_LIMIT_MM;
+use pattern::Handle;
 
 /// Arguments of `alter`.
 #[derive(Debug, Args)]

@@ -34,7 +34,7 @@ pub struct Try {
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
     /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]]; of an outfit one for all, or one for each pattern.
-    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
+    #[arg(long, value_name = "NAME", default_value = sim::fabric::USUAL)]
     pub fabric: Vec<String>,
     /// Edge length of the mesh, mm.
     #[arg(long, value_name = "MM", default_value_t = 15.0)]
@@ -44,10 +44,10 @@ pub struct Try {
     pub repeat: u32,
     /// Pose to dress the body in: arms_5 to arms_90, legs_, forward_, step_, or several (arms_45+legs_10); by default as it stands.
     #[arg(long, value_name = "POSE")]
-    pub pose: Option<study::bodies::Pose>,
+    pub pose: Option<spec::bodies::Pose>,
     /// Pose that the body then moves into with the garment on: how far hem and cuffs are drawn, where it pulls and presses (FEM-GS only).
     #[arg(long, value_name = "POSE")]
-    pub reach: Option<study::bodies::Pose>,
+    pub reach: Option<spec::bodies::Pose>,
     /// Folder for picture and meshes.
     #[arg(long, short, value_name = "DIR", default_value = "try")]
     pub output: PathBuf,
@@ -69,7 +69,7 @@ pub struct AuditGarments {
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
     pub sim: Vec<TrySimulator>,
     /// Fabric of the catalogue.
-    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
+    #[arg(long, value_name = "NAME", default_value = sim::fabric::USUAL)]
     pub fabric: String,
     /// Unit of the patterns, where their files name none.
     #[arg(long, value_enum)]

@@ -1,8 +1,8 @@
 //! Arguments of `toile body`.
 
 use super::catalogue::MeasuredValues;
+use spec::bodies;
 use std::path::PathBuf;
-use study::bodies;
 
 use clap::{Args, Subcommand, ValueEnum};
 

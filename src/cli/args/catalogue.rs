@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
 use super::{MeshUnit, PatternUnit, SewStep};
-use study::bodies::Dimension;
-use study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
+use spec::bodies::Dimension;
+use spec::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
 /// Commands on one part of the catalogue.
 #[derive(Debug, Subcommand)]

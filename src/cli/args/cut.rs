@@ -3,8 +3,8 @@
 use clap::{Args, ValueEnum};
 
 use geom::units::from_mm;
-use study::patterns::Unit;
-use study::seams::Asking;
+use spec::patterns::Unit;
+use wardrobe::seams::Asking;
 
 /// Unit of a pattern whose file names none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

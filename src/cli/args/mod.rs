@@ -165,7 +165,7 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct Lab {
     /// Experiments; by default all.
-    #[arg(value_parser = study::lab::Experiment::ALL.map(study::lab::Experiment::as_str), value_name = "EXPERIMENT")]
+    #[arg(value_parser = sim::laboratory::bench::Experiment::ALL.map(sim::laboratory::bench::Experiment::as_str), value_name = "EXPERIMENT")]
     pub experiment: Vec<String>,
 }
 

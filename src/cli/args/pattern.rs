@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
 use super::{CutFiles, PatternUnit, SeamCommand, SewFiles};
-use study::seams::pattern_files::Standard;
+use wardrobe::seams::pattern_files::Standard;
 
 /// Standard by which a DXF file is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

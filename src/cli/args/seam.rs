@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::PatternUnit;
-use study::seams::{SeamEdit, SeamStep};
+use wardrobe::seams::{SeamEdit, SeamStep};
 
 /// A seam file and its pattern.
 #[derive(Clone, Debug, Args)]

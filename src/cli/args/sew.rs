@@ -19,7 +19,7 @@ pub struct SewFiles {
     #[command(flatten)]
     pub cut: CutFiles,
     /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]].
-    #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
+    #[arg(long, value_name = "NAME", default_value = sim::fabric::USUAL)]
     pub fabric: String,
     /// Sew again whenever the seam file has changed, until Ctrl-C.
     #[arg(long)]

@@ -11,7 +11,7 @@ pub enum TrySimulator {
     Hybrid,
 }
 
-impl From<TrySimulator> for study::Simulator {
+impl From<TrySimulator> for fit::Simulator {
     fn from(simulator: TrySimulator) -> Self {
         match simulator {
             TrySimulator::Fem => Self::Fem,

@@ -26,7 +26,7 @@ pub enum IntendedFit {
     Loose,
 }
 
-impl From<IntendedFit> for study::Intended {
+impl From<IntendedFit> for fit::target::Intended {
     fn from(fit: IntendedFit) -> Self {
         match fit {
             IntendedFit::Compression => Self::Compression,
@@ -65,7 +65,7 @@ pub enum StudyCommand {
         #[arg(long, value_enum, requires = "patterns")]
         unit: Option<PatternUnit>,
         /// Fabric of the catalogue.
-        #[arg(long, value_name = "NAME", default_value = study::USUAL_FABRIC)]
+        #[arg(long, value_name = "NAME", default_value = sim::fabric::USUAL)]
         fabric: String,
         /// Simulators; may be given twice.
         #[arg(long, value_enum, default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]

@@ -9,13 +9,12 @@ use ratatui::widgets::{Clear, Paragraph};
 use crate::keys::binding::Binding;
 use crate::keys::screen::Screen;
 use crate::overlays::Overlay;
-use crate::screens;
-use crate::screens::start;
 use crate::screens::state::State;
+use crate::screens::{self, start};
 use crate::widgets::layout::{WIDE, rows};
 use crate::widgets::theme::{Theme, glyph};
 use crate::widgets::{ascii, text};
-use study::Status;
+use store::Status;
 
 /// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
 const SHORT: u16 = 66;

@@ -16,7 +16,8 @@ use crate::screens::state::{Abilities, State};
 use crate::terminal::framed::FramedBackend;
 use crate::threads::reading;
 use crate::widgets::theme::{Colours, Theme};
-use study::{Result, Workspace};
+use store::{Result, Store};
+use wardrobe::catalogue;
 
 /// Counts what is written to it.
 struct Counter(Rc<Cell<usize>>);
@@ -34,7 +35,7 @@ impl io::Write for Counter {
 
 /// A workbench on a database whose screen goes nowhere.
 pub struct Headless {
-    workspace: Workspace,
+    store: Store,
     state: State,
     sent: Rc<Cell<usize>>,
     terminal: Terminal<FramedBackend<Counter>>,
@@ -46,7 +47,7 @@ impl Headless {
     /// # Errors
     /// When the database cannot be read.
     pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
-        let workspace = Workspace::open(database, true)?;
+        let store = catalogue::open(database, true)?;
         let abilities = Abilities { run: false, pictures: false };
         let state = State::new(Theme::new(Colours::Indexed, false), abilities, Size::new(width, height));
         let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
@@ -54,8 +55,8 @@ impl Headless {
         let line = FramedBackend::new(Counter(sent.clone()), Some(Size::new(width, height)));
         let terminal = line
             .and_then(|line| Terminal::with_options(line, options))
-            .map_err(study::StudyError::io("a screen in memory"))?;
-        let mut headless = Self { workspace, state, sent, terminal };
+            .map_err(store::StudyError::io("a screen in memory"))?;
+        let mut headless = Self { store, state, sent, terminal };
         headless.read()?;
         Ok(headless)
     }
@@ -65,7 +66,7 @@ impl Headless {
     /// # Errors
     /// When the database cannot be read.
     pub fn read(&mut self) -> Result<()> {
-        let data = reading::snapshot(&self.workspace, &self.state.focus)?;
+        let data = reading::snapshot(&self.store, &self.state.focus)?;
         self.state.update(Message::Data(Box::new(data)));
         Ok(())
     }

@@ -10,7 +10,7 @@ use crate::screens::order::Order;
 use crate::screens::results::state::ChiOrder;
 use crate::screens::state::State;
 use crate::screens::subjects::state::SubjectOrder;
-use study::JobId;
+use store::JobId;
 
 /// The longest name of a file.
 const LONGEST: usize = 200;

@@ -1,7 +1,7 @@
 //! What a user can do.
 
 use crate::keys::screen::Screen;
-use study::Part;
+use wardrobe::Part;
 
 /// Everything a key or the palette can ask for. Handled in one place, `State::act`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

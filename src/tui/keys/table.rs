@@ -4,9 +4,8 @@ use crossterm::event::KeyCode;
 
 use crate::keys::action::Action;
 use crate::keys::binding::{Binding, Key};
-use crate::keys::screen::Screen;
-use crate::keys::screen::Screen::{Compare, Fabrics, Fit, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
-use study::Part;
+use crate::keys::screen::Screen::{self, Compare, Fabrics, Fit, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
+use wardrobe::Part;
 
 const fn ch(letter: char) -> Key {
     Key::new(KeyCode::Char(letter), false)

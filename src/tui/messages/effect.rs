@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
 use crate::widgets::picture::PictureRequest;
-use study::JobId;
-use study::files::SourceFile;
+use store::JobId;
+use store::files::SourceFile;
 
 /// What is written in an editor of the user's own.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -10,10 +10,12 @@ use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayou
 use crate::messages::snapshot::Snapshot;
 use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
-use study::bodies::Girths;
-use study::files::SourceFile;
-use study::seams::SeamStep;
-use study::{Alteration, CrossSection, JobId, LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
+use advice::Alteration;
+use results::{CrossSection, ReportRow};
+use spec::bodies::Girths;
+use store::files::SourceFile;
+use store::{JobId, LiveFrame, Relation, SavedQuery, SubjectId};
+use wardrobe::seams::SeamStep;
 
 /// Something that happened.
 #[derive(Debug)]

@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
-use study::files::SourceFile;
-use study::{Given, JobId, Mode, NewStudy, Part, StyleGiven};
+use engine::NewStudy;
+use spec::Given;
+use store::JobId;
+use store::files::SourceFile;
+use wardrobe::{Mode, Part, StyleGiven};
 
 /// An action on the queue or the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]

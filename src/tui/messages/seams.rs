@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use study::files::SourceFile;
-use study::seams::{Care, Hung, LaidOut, SeamStep};
-use study::{SizeKey, SubjectId};
+use results::preview::{Care, Hung};
+use store::files::SourceFile;
+use store::{SizeKey, SubjectId};
+use wardrobe::seams::{LaidOut, SeamStep};
 
 /// A size to lay out.
 #[derive(Clone, Debug, PartialEq, Eq)]

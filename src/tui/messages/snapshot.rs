@@ -1,9 +1,11 @@
 //! What the screens show of the database at one moment.
 
-use study::{
-    ChiRow, EaseRow, FabricRow, GarmentWorn, Grid, Inputs, JobId, JobRow, LogLine, MetricsRow, RecommendationRow,
-    SizeRow, StageRow, Step, StudyRow, SubjectRow, Why,
-};
+use engine::Why;
+use results::GarmentWorn;
+use sim::Step;
+use spec::Inputs;
+use store::{ChiRow, EaseRow, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow, StudyRow};
+use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
 /// What the user looks at; whatever is `None` or gone is chosen when it is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
 use crate::widgets::text::quoted;
-use study::seams::{SeamEdit, SeamStep};
-use study::{Mode, NewStudy, Part, StyleGiven};
+use engine::NewStudy;
+use wardrobe::seams::{SeamEdit, SeamStep};
+use wardrobe::{Mode, Part, StyleGiven};
 
 /// The command of an effect; `None` where it changes nothing and writes nothing.
 #[must_use]

@@ -14,11 +14,9 @@ use crate::widgets::text::{self, left, right, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use geom::units::significant;
-use study::bodies::Sex;
-use study::{
-    FABRIC_NUMBERS, FabricRow, Given, MEASUREMENTS, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text,
-    sex,
-};
+use spec::bodies::Sex;
+use spec::{FABRIC_NUMBERS, Given, MEASUREMENTS, sex};
+use wardrobe::{FabricRow, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Lines of a form before its numbers: the name, and the sex of a subject or the source of a fabric's numbers.
 const NAME: usize = 0;

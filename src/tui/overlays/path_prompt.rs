@@ -13,7 +13,7 @@ use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
-use study::Part;
+use wardrobe::Part;
 
 /// What a path is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@ use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
-use study::SavedQuery;
+use store::SavedQuery;
 
 /// A list of queries that what is typed narrows.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -15,7 +15,8 @@ use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::{edit, is_ctrl_c};
-use study::{NewStudy, PatternSource, Simulator, Wearable};
+use engine::{NewStudy, PatternSource, Wearable};
+use fit::Simulator;
 
 /// Lines of a page.
 const PAGE: usize = 10;

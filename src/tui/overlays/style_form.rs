@@ -13,8 +13,8 @@ use crate::overlays::path_prompt::{completed, path_of};
 use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
-use study::StyleGiven;
-use study::patterns::Unit;
+use spec::patterns::Unit;
+use wardrobe::StyleGiven;
 
 /// Lines of the form.
 const PATTERN: usize = 0;

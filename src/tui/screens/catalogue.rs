@@ -8,7 +8,7 @@ use crate::overlays::Overlay;
 use crate::overlays::entry_form::Form;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::screens::state::State;
-use study::{Mode, Part};
+use wardrobe::{Mode, Part};
 
 /// The screen that shows a part of the catalogue.
 fn screen_of(part: Part) -> Screen {

@@ -25,7 +25,7 @@ use crate::screens::styles::state::Styles;
 use crate::screens::subjects::state::Subjects;
 use crate::widgets::layout::rows;
 use crate::widgets::theme::Theme;
-use study::{EaseRow, JobId, JobRow, LiveFrame};
+use store::{EaseRow, JobId, JobRow, LiveFrame};
 
 /// A message to the user in the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]

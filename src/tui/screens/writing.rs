@@ -4,9 +4,9 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
 use crate::messages::seams::SeamTask;
 use crate::screens::state::State;
-use study::Part;
-use study::files::SourceFile;
-use study::seams::SeamStep;
+use store::files::SourceFile;
+use wardrobe::Part;
+use wardrobe::seams::SeamStep;
 
 impl State {
     /// Opens what the screen shows in the editor.

@@ -7,14 +7,17 @@ use insta::assert_snapshot;
 use super::Bench;
 use crate::keys::screen::Screen;
 use crate::messages::alterations::AlterRequest;
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
 use crate::messages::requests::FileTask;
-use crate::messages::{effect::Effect, message::Message};
 use crate::screens::fit::state::View;
 use crate::threads::alterations::alteration;
 use crate::threads::files;
 use crate::widgets::theme::Colours;
+use advice::{Alteration, AlteredLevel, MovedHandle, Redraped};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use study::{Alteration, AlteredLevel, Handle, MovedHandle, Redraped, Workspace};
+use pattern::Handle;
+use wardrobe::catalogue;
 
 /// Level, target, ease before and after, mm.
 type LevelMm = (&'static str, Option<[f64; 2]>, [f64; 2]);
@@ -260,16 +263,16 @@ fn signs_tell_what_colours_do() {
 #[test]
 fn the_quickstart_is_altered_as_its_file_has_it() {
     let place = tempfile::tempdir().expect("a folder");
-    let workspace = Workspace::open(&place.path().join("toile.sqlite"), false).expect("a new database");
+    let store = catalogue::open(&place.path().join("toile.sqlite"), false).expect("a new database");
     let quickstart = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
     let asked = |garment: &str| AlterRequest {
         study: quickstart.join("study.toml"),
         garment: garment.into(),
         ..request("v", "S", false)
     };
-    let found = alteration(&workspace, &asked("tshirt")).expect("it has this size and subject");
+    let found = alteration(&store, &asked("tshirt")).expect("it has this size and subject");
     assert!(!found.moves.is_empty() && found.is_met() && found.drape.is_none());
     assert_eq!(found.files.len(), 3);
-    let error = alteration(&workspace, &asked("cloak")).expect_err("no such garment").to_string();
+    let error = alteration(&store, &asked("cloak")).expect_err("no such garment").to_string();
     assert!(error.contains("cloak") && error.contains("tshirt"), "{error}");
 }

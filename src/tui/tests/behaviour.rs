@@ -2,14 +2,13 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
-use crate::messages::{
-    effect::Effect,
-    message::Message,
-    requests::{Command, Target},
-};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::messages::requests::{Command, Target};
 use crate::overlays::Overlay;
 use crate::widgets::picture::{self, FRONT, PictureRequest, Pictured};
-use study::{JobId, Map, Status};
+use results::Map;
+use store::{JobId, Status};
 
 fn selected(bench: &Bench) -> i64 {
     bench.state.focus.job.map_or(0, |id| id.0)

@@ -2,9 +2,11 @@
 
 use super::Bench;
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message, requests::Command};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::messages::requests::Command;
 use crate::overlays::Overlay;
-use study::{Mode, Part};
+use wardrobe::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.fabric().map_or("", |row| row.fabric.name.as_str())

@@ -4,13 +4,16 @@ use insta::assert_snapshot;
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
 use crate::screens::fit::state::View;
 use crate::widgets::theme::Colours;
-use study::{
-    Balance, CrossSection, CutCloth, CutLine, FitCard, FoldLine, GarmentWorn, JobId, LevelGap, LevelSits,
-    RegionPressure, Simulator, SizeSits, SizeWorn, WornPoint,
+use fit::Simulator;
+use results::{
+    Balance, CrossSection, CutCloth, CutLine, FitCard, FoldLine, GarmentWorn, LevelGap, LevelSits, RegionPressure,
+    SizeSits, SizeWorn, WornPoint,
 };
+use store::JobId;
 
 const SIZES: [&str; 3] = ["S", "M", "L"];
 

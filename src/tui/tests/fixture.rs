@@ -3,16 +3,20 @@
 use crate::messages::message::Message;
 use crate::messages::seams::{SeamTask, SizeLayout};
 use crate::messages::snapshot::{Compared, Detail, Snapshot};
-use study::bodies::{Girths, Measurements, Sex};
-use study::files::SourceFile;
-use study::patterns::{Model, drafted};
-use study::seams::Workpiece;
-use study::{
-    Cell, Change, ChiRow, EaseRow, FabricRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine,
-    MEASUREMENTS, MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow,
-    SubjectId, SubjectRow, Why,
+use engine::Why;
+use fit::{FitClass, Simulator};
+use sim::fabric::Stretched;
+use sim::{Fabric, Step};
+use spec::bodies::{Girths, Measurements, Sex};
+use spec::patterns::{Model, drafted};
+use spec::{Change, MEASUREMENTS};
+use store::files::SourceFile;
+use store::{
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
+    StageRow, Status, StudyRow, SubjectId,
 };
-use study::{Fabric, Stretched};
+use wardrobe::seams::Workpiece;
+use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
 const NOW_MS: i64 = 1_700_000_000_000;

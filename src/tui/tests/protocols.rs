@@ -14,7 +14,8 @@ use ratatui_image::{FontSize, Image};
 
 use crate::terminal::framed::{FRAME, FramedBackend, Late};
 use crate::widgets::picture::{Drawn, FRONT, PictureEncoder, PictureRequest, Pictured, pixel_protocol};
-use study::{JobId, Map};
+use results::Map;
+use store::JobId;
 
 /// Pixels of a cell, and cells of the picture: large enough for several of kitty's chunks.
 const CELL: FontSize = FontSize::new(6, 12);

@@ -9,17 +9,17 @@ use insta::assert_snapshot;
 use super::{Bench, fixture};
 use crate::app::session::Session;
 use crate::keys::screen::Screen;
-use crate::messages::requests::FileTask;
-use crate::messages::{effect::Effect, message::Message};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::messages::requests::{FileTask, QueryRequest};
 use crate::overlays::Overlay;
 use crate::overlays::study_form::StudyForm;
 use crate::screens::state::State;
+use crate::threads::queries::{self, Canceller};
 use crate::widgets::result_table::ResultTable;
-use crate::{
-    messages::requests::QueryRequest,
-    threads::queries::{self, Canceller},
-};
-use study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
+use results::ReportRow;
+use store::{JobId, LiveFrame, Relation, SqlAnswer, Table, Value, saved_queries};
+use wardrobe::catalogue;
 
 /// An answer with a name, two numbers and a long text a row.
 fn answer(rows: i64) -> SqlAnswer {
@@ -286,7 +286,7 @@ fn ascii_has_a_stand_in_for_every_sign() {
 fn the_brake_stops_a_query_that_would_never_end() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("toile.sqlite");
-    Workspace::open(&path, false).expect("a new database");
+    catalogue::open(&path, false).expect("a new database");
     let (questions, wanted) = mpsc::channel();
     let (sender, answers) = mpsc::channel();
     let canceller = Canceller::default();

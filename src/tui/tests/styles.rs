@@ -3,14 +3,16 @@
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
+use crate::messages::message::Message;
+use crate::messages::requests::Command;
 use crate::messages::seams::{PreviewRequest, Previewed};
-use crate::messages::{message::Message, requests::Command};
 use crate::overlays::Overlay;
 use crate::screens::styles::state::TableLine;
 use crate::widgets::theme::Colours;
-use study::files::SourceFile;
-use study::seams::{DeskSeam, Hung};
-use study::{Part, StyleGiven};
+use results::preview::Hung;
+use store::files::SourceFile;
+use wardrobe::seams::DeskSeam;
+use wardrobe::{Part, StyleGiven};
 
 /// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {

@@ -2,10 +2,14 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message, requests::Command};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::messages::requests::Command;
 use crate::overlays::Overlay;
 use crate::widgets::picture::{PictureRequest, Pictured};
-use study::{MEASUREMENTS, Mode, Part, SubjectId};
+use spec::MEASUREMENTS;
+use store::SubjectId;
+use wardrobe::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.subject().map_or("", |row| row.name.as_str())

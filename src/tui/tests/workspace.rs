@@ -3,10 +3,16 @@
 use std::sync::Arc;
 
 use super::Bench;
-use crate::messages::{message::Message, requests::Command};
+use crate::messages::message::Message;
+use crate::messages::requests::Command;
+use crate::messages::snapshot::Focus;
 use crate::threads::database::carry_out;
-use crate::{messages::snapshot::Focus, threads::reading};
-use study::{Executor, JobSpec, Monitor, Outcome, RunOptions, Status, StudyError, Workspace};
+use crate::threads::reading;
+use engine::{Executor, Outcome, RunOptions, run};
+use sim::Monitor;
+use spec::JobSpec;
+use store::{Status, Store, StudyError};
+use wardrobe::catalogue;
 
 /// Refuses every job.
 struct Refusing;
@@ -21,30 +27,30 @@ impl Executor for Refusing {
 #[test]
 fn follows_a_run_and_acts_on_it() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
-    let read = |workspace: &Workspace, focus: &Focus| reading::snapshot(workspace, focus).expect("readable");
-    let mut bench = Bench::new(80, 24, read(&workspace, &Focus::default()));
+    let mut store = catalogue::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let read = |store: &Store, focus: &Focus| reading::snapshot(store, focus).expect("readable");
+    let mut bench = Bench::new(80, 24, read(&store, &Focus::default()));
     assert!(bench.state.is_first_start());
 
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
-    let study = workspace.load_study(&path).expect("the quickstart is right");
-    let run = workspace.start_with(&study, &RunOptions::default(), Arc::new(Refusing)).expect("queued");
+    let study = run::load_study(&store, &path).expect("the quickstart is right");
+    let run = run::start_with(&mut store, &study, &RunOptions::default(), Arc::new(Refusing)).expect("queued");
     run.join().expect("the database works");
 
-    let data = read(&workspace, &Focus::default());
+    let data = read(&store, &Focus::default());
     let jobs = data.jobs.len();
     assert!(jobs > 0 && data.jobs.iter().all(|job| job.status == Status::Failed));
     let first = data.grid.as_ref().and_then(|grid| grid.cells[0][0][0].job).expect("queued");
     bench.state.update(Message::Data(Box::new(data)));
     assert_eq!(bench.state.focus.job, Some(first));
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    bench.state.update(Message::Data(Box::new(read(&store, &bench.state.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
-    assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is queued again"));
-    assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is not run again"));
-    assert!(carry_out(&mut workspace, &Command::Pause(study.name.clone())).expect("allowed").contains("is paused"));
-    assert!(carry_out(&mut workspace, &Command::Pause("none".into())).is_err());
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    assert!(carry_out(&mut store, &Command::Retry(first)).expect("allowed").contains("is queued again"));
+    assert!(carry_out(&mut store, &Command::Retry(first)).expect("allowed").contains("is not run again"));
+    assert!(carry_out(&mut store, &Command::Pause(study.name.clone())).expect("allowed").contains("is paused"));
+    assert!(carry_out(&mut store, &Command::Pause("none".into())).is_err());
+    bench.state.update(Message::Data(Box::new(read(&store, &bench.state.focus.clone()))));
     let screen = bench.screen();
     assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
 }

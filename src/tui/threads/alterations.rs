@@ -5,13 +5,16 @@ use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::message::Message;
-use study::{Alteration, StudyError, Wish, Workspace, alter};
+use advice::{Alteration, Wish, alter};
+use engine::run;
+use store::{Store, StudyError};
+use wardrobe::catalogue;
 
 /// Finds the changes asked for, that of the latest request only, until nobody asks or listens any more. Nothing is written.
 pub fn serve(database: &Path, wanted: &Receiver<AlterRequest>, sender: &Sender<Message>) {
     while let Ok(first) = wanted.recv() {
         let request = wanted.try_iter().last().unwrap_or(first);
-        let found = Workspace::open(database, true).and_then(|workspace| alteration(&workspace, &request));
+        let found = catalogue::open(database, true).and_then(|store| alteration(&store, &request));
         let found = found.map(Box::new).map_err(|error| error.to_string());
         if sender.send(Message::Altered(Box::new(request), found)).is_err() {
             return;
@@ -20,8 +23,8 @@ pub fn serve(database: &Path, wanted: &Receiver<AlterRequest>, sender: &Sender<M
 }
 
 /// What to change of a size, as the study's file has it now.
-pub fn alteration(workspace: &Workspace, request: &AlterRequest) -> Result<Alteration, StudyError> {
-    let study = workspace.load_study(&request.study)?;
+pub fn alteration(store: &Store, request: &AlterRequest) -> Result<Alteration, StudyError> {
+    let study = run::load_study(store, &request.study)?;
     let wish = Wish::of(&request.garment, &request.subject, &request.size);
     alter(&study, &Wish { is_draped: request.is_draped, ..wish })
 }

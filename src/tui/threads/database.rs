@@ -7,8 +7,10 @@ use crate::messages::message::Message;
 use crate::messages::requests::Command;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::threads::reading;
-use study::seams::write_seams;
-use study::{Deed, Mode, Part, Saved, Strictness, StudyError, StyleGiven, Workspace};
+use engine::actions;
+use store::{Store, StudyError};
+use wardrobe::seams::write_seams;
+use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const POLL: Duration = Duration::from_millis(250);
@@ -22,8 +24,8 @@ pub enum Request {
 }
 
 /// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
-pub fn serve(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
-    let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: POLL };
+pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) {
+    let mut reader = Reader { store, focus: Focus::default(), last: None, rest: POLL };
     loop {
         let first = match asked.recv_timeout(reader.rest) {
             Ok(request) => Some(request),
@@ -55,7 +57,7 @@ pub fn serve(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Me
 
 /// What the thread of the database keeps.
 struct Reader {
-    workspace: Workspace,
+    store: Store,
     focus: Focus,
     /// What was read last: of which version of the database, and of which focus.
     last: Option<(i64, Focus, Snapshot)>,
@@ -66,7 +68,7 @@ struct Reader {
 impl Reader {
     /// Reads what is shown, where it is wanted or anything was written; after a long read the next look comes later.
     fn read(&mut self, is_wanted: bool) -> Result<Option<Snapshot>, StudyError> {
-        let version = self.workspace.version()?;
+        let version = self.store.version()?;
         if !is_wanted && self.last.as_ref().is_some_and(|(of, ..)| *of == version) {
             return Ok(None);
         }
@@ -74,8 +76,8 @@ impl Reader {
         let start = Instant::now();
         let is_same = |focus: &Focus| (&focus.study, &focus.garment) == (&self.focus.study, &self.focus.garment);
         let data = match known.filter(|(_, focus, _)| is_same(focus)) {
-            Some((.., before)) => reading::refocused(&self.workspace, before, &self.focus)?,
-            None => reading::snapshot(&self.workspace, &self.focus)?,
+            Some((.., before)) => reading::refocused(&self.store, before, &self.focus)?,
+            None => reading::snapshot(&self.store, &self.focus)?,
         };
         self.rest = POLL.max(2 * start.elapsed());
         let shown = Focus {
@@ -89,7 +91,7 @@ impl Reader {
 
     /// Acts, and says what came of it.
     fn carry_out(&mut self, command: Command) -> Message {
-        let done = carry_out(&mut self.workspace, &command).map_err(|error| error.to_string());
+        let done = carry_out(&mut self.store, &command).map_err(|error| error.to_string());
         match (command, done) {
             (Command::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
             (command, done) if command.is_from_form() => Message::Saved(done),
@@ -100,17 +102,17 @@ impl Reader {
 }
 
 /// Acts on the queue or the catalogue; says what was done.
-pub fn carry_out(workspace: &mut Workspace, command: &Command) -> Result<String, StudyError> {
+pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyError> {
     match command {
         Command::Save(part, mode, name, given) => {
             let saved = match part {
-                Part::Fabric => workspace.save_fabric(*mode, name, None, given)?,
-                _ => workspace.save_subject(*mode, name, given)?,
+                Part::Fabric => catalogue::save_fabric(store, *mode, name, None, given)?,
+                _ => catalogue::save_subject(store, *mode, name, given)?,
             };
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
         Command::Import(part, path) => {
-            let saved = workspace.import(*part, std::slice::from_ref(path), Strictness::AllOrNone)?.saved;
+            let saved = catalogue::import(store, *part, std::slice::from_ref(path), Strictness::AllOrNone)?.saved;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
             let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
@@ -122,46 +124,48 @@ pub fn carry_out(workspace: &mut Workspace, command: &Command) -> Result<String,
                 count(Deed::Unchanged)
             ))
         }
-        Command::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
-        Command::ImportStyle(name, given) => import_style(workspace, name, given),
-        Command::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
+        Command::Remove(part, name) => Ok(catalogue::remove(store, *part, name)?.to_string()),
+        Command::ImportStyle(name, given) => import_style(store, name, given),
+        Command::SaveSeams(style, seams) => Ok(said(&catalogue::save_seams(store, style, seams)?)),
         Command::WriteSeams(path, before, after) => {
             write_seams(path, before, after)?;
             Ok(format!("{} is written", path.display()))
         }
-        Command::Cancel(id) => match workspace.cancel(&[*id])? {
+        Command::Cancel(id) => match actions::cancel(store, &[*id])? {
             0 => Ok(format!("job {id} had ended already")),
             _ => Ok(format!("job {id} is cancelled; r queues it again")),
         },
-        Command::Retry(id) => match workspace.retry(&[*id])? {
+        Command::Retry(id) => match actions::retry(store, &[*id])? {
             0 => Ok(format!("job {id} is not run again")),
             _ => Ok(format!("job {id} is queued again")),
         },
         Command::Prioritise(id, priority) => {
-            workspace.set_priority(&[*id], *priority)?;
+            actions::set_priority(store, &[*id], *priority)?;
             Ok(format!("job {id} has priority {priority}"))
         }
         Command::Pause(study) => {
-            workspace.pause(study)?;
+            actions::pause(store, study)?;
             Ok(format!("{study} is paused: no new jobs start, running ones go on"))
         }
         Command::Resume(study) => {
-            workspace.resume(study)?;
+            actions::resume(store, study)?;
             Ok(format!("{study} goes on"))
         }
     }
 }
 
 /// Adds the styles of a study file; or a style, whose seams are proposed where none are given; or sizes to one.
-fn import_style(workspace: &mut Workspace, name: &str, given: &StyleGiven) -> Result<String, StudyError> {
+fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<String, StudyError> {
     if let [(_, path)] = given.patterns.as_slice()
         && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
     {
-        return Ok(said(&workspace.import(Part::Style, std::slice::from_ref(path), Strictness::AllOrNone)?.saved));
+        return Ok(said(
+            &catalogue::import(store, Part::Style, std::slice::from_ref(path), Strictness::AllOrNone)?.saved,
+        ));
     }
-    let is_known = workspace.sizes()?.iter().any(|row| row.style == name);
-    let saved = workspace.save_style(if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
-    let unsure = workspace.sizes()?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
+    let is_known = catalogue::sizes(store)?.iter().any(|row| row.style == name);
+    let saved = catalogue::save_style(store, if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
+    let unsure = catalogue::sizes(store)?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
     let proposed = if unsure > 0 { format!("{unsure} seams are proposed, Enter asks; ") } else { String::new() };
     Ok(proposed + &said(&saved))
 }

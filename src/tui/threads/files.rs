@@ -5,8 +5,10 @@ use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::message::Message;
 use crate::messages::requests::FileTask;
-use study::files::write_files;
-use study::{Workspace, reports};
+use engine::compose;
+use results::reports;
+use store::files::write_files;
+use wardrobe::catalogue;
 
 /// Does what is asked until nobody asks or listens any more; reports lie in folders below `reports_folder`.
 pub fn serve(
@@ -16,18 +18,20 @@ pub fn serve(
     wanted: &Receiver<FileTask>,
     sender: &Sender<Message>,
 ) {
-    let mut workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
+    let mut store = catalogue::open(database, readonly).map_err(|error| error.to_string());
     while let Ok(task) = wanted.recv() {
-        let workspace = workspace.as_mut().map_err(|error| error.clone());
+        let store = store.as_mut().map_err(|error| error.clone());
         let done = match task {
             FileTask::ListReports => Ok(Message::Reports(reports(reports_folder))),
             FileTask::BuildReport(study) => {
-                let page =
-                    workspace.and_then(|it| it.build_report(&study, reports_folder).map_err(|error| error.to_string()));
+                let page = store.and_then(|store| {
+                    reports::build_report(store, &study, reports_folder).map_err(|error| error.to_string())
+                });
                 Ok(Message::ReportBuilt(page, reports(reports_folder)))
             }
             FileTask::CreateStudy(new) => {
-                let path = workspace.and_then(|it| it.create_study(&new).map_err(|error| error.to_string()));
+                let path =
+                    store.and_then(|store| compose::create_study(store, &new).map_err(|error| error.to_string()));
                 Ok(Message::StudyCreated(new.name, path))
             }
             FileTask::Write(folder, files) => Ok(Message::Saved(write(&folder, &files))),

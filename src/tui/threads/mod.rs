@@ -16,8 +16,8 @@ mod sections;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender};
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
 use crate::messages::alterations::AlterRequest;
@@ -31,7 +31,7 @@ use crate::threads::input::Keyboard;
 use crate::threads::previews::Slot;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
-use study::{JobId, Live, Workspace};
+use store::{JobId, Live, Store};
 
 /// The threads, and what they say.
 pub struct Threads {
@@ -60,9 +60,9 @@ pub struct Threads {
 impl Threads {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(workspace: Workspace, encoder: Option<PictureEncoder>, quickstart: PathBuf, reports: PathBuf) -> Self {
+    pub fn start(store: Store, encoder: Option<PictureEncoder>, quickstart: PathBuf, reports: PathBuf) -> Self {
         let (sender, messages) = mpsc::channel();
-        let (path, readonly) = (workspace.path().to_owned(), workspace.is_readonly());
+        let (path, readonly) = (store.path().to_owned(), store.is_readonly());
         let canceller = Canceller::default();
         let keyboard = Keyboard::default();
         let own = keyboard.clone();
@@ -75,7 +75,7 @@ impl Threads {
         let shown = slot.clone();
         let (of_alterations, of_drapes) = (here(), here());
         Self {
-            database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
+            database: serve(&sender, |asked, sender| database::serve(store, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
                 pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, &shown, sender);
             }),
@@ -140,7 +140,7 @@ impl Threads {
         self.stop.store(false, Ordering::Relaxed);
         let (database, stop, live) = (self.path.clone(), self.stop.clone(), self.live.clone());
         let handle = spawn(&self.sender, move |sender| {
-            let made = if is_quickstart { study::write_quickstart(&path) } else { Ok(()) };
+            let made = if is_quickstart { spec::write_quickstart(&path) } else { Ok(()) };
             let outcome = made.and_then(|()| run::follow(&database, &path, &stop, &live, sender));
             let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
         });

@@ -9,7 +9,10 @@ use image::RgbaImage;
 use crate::messages::message::Message;
 use crate::threads::previews::Slot;
 use crate::widgets::picture::{PictureEncoder, PictureRequest, Pictured};
-use study::{Figure, SubjectId, Workspace};
+use results::picture::Scenes;
+use results::{Figure, figure};
+use store::{Store, SubjectId};
+use wardrobe::catalogue;
 
 /// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
 /// measured where there is no encoder, too.
@@ -21,8 +24,8 @@ pub fn serve(
     previews: &Slot,
     sender: &Sender<Message>,
 ) {
-    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    let mut renderer = Renderer { workspace, ready: None, previews, sender };
+    let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
+    let mut renderer = Renderer { store, scenes: Scenes::default(), ready: None, previews, sender };
     while let Ok(first) = wanted.recv() {
         let mut requests = wanted.try_iter().last().unwrap_or(first).into_iter();
         while let Some(request) = requests.next() {
@@ -38,7 +41,8 @@ pub fn serve(
 }
 
 struct Renderer<'a> {
-    workspace: Result<Workspace, String>,
+    store: Result<Store, String>,
+    scenes: Scenes,
     /// The body shown last, or why there is none.
     ready: Option<(SubjectId, Result<Figure, String>)>,
     previews: &'a Slot,
@@ -61,8 +65,8 @@ impl Renderer<'_> {
         if self.ready.as_ref().is_some_and(|(ready, _)| *ready == id) {
             return Ok(());
         }
-        let workspace = self.workspace.as_ref().map_err(Clone::clone);
-        let figure = workspace.and_then(|workspace| workspace.figure(id).map_err(|error| error.to_string()));
+        let store = self.store.as_ref().map_err(Clone::clone);
+        let figure = store.and_then(|store| figure::figure(store, id).map_err(|error| error.to_string()));
         let girths = figure.as_ref().map(|figure| Box::new(figure.girths().clone()));
         let told = Message::Measured(id, girths.map_err(Clone::clone));
         self.ready = Some((id, figure));
@@ -70,11 +74,13 @@ impl Renderer<'_> {
     }
 
     /// The pixels of a picture.
-    fn picture(&self, request: &PictureRequest, (width, height): (u32, u32)) -> Result<RgbaImage, String> {
+    fn picture(&mut self, request: &PictureRequest, (width, height): (u32, u32)) -> Result<RgbaImage, String> {
         match (request.of, &self.ready) {
             (Pictured::Drape(job), _) => {
-                let workspace = self.workspace.as_ref().map_err(Clone::clone)?;
-                workspace.look(job, request.look, width, height, request.map).map_err(|error| error.to_string())
+                let store = self.store.as_ref().map_err(Clone::clone)?;
+                self.scenes
+                    .look(store, job, request.look, [width, height], request.map)
+                    .map_err(|error| error.to_string())
             }
             (Pictured::Body(_), Some((_, Ok(figure)))) => {
                 figure.picture(width, height).map_err(|error| error.to_string())

@@ -8,8 +8,10 @@ use std::time::Instant;
 
 use crate::messages::message::Message;
 use crate::messages::seams::{PreviewRequest, Previewed};
-use study::seams::{Mannequin, Preview, Workpiece};
-use study::{StudyError, SubjectId, Workspace};
+use results::preview::{Mannequin, Preview, mannequin};
+use store::{Store, StudyError, SubjectId};
+use wardrobe::catalogue;
+use wardrobe::seams::Workpiece;
 
 /// The garment sewn last with the number of its request, for the thread of pictures.
 pub type Slot = Arc<Mutex<Option<(u64, Preview)>>>;
@@ -22,8 +24,8 @@ pub fn serve(
     slot: &Slot,
     sender: &Sender<Message>,
 ) {
-    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    let mut room = Room { workspace, ready: None };
+    let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
+    let mut room = Room { store, ready: None };
     let newer = Cell::new(None);
     while let Some(request) = newer.take().or_else(|| wanted.recv().ok()) {
         let started = Instant::now();
@@ -52,7 +54,7 @@ pub fn serve(
 }
 
 struct Room {
-    workspace: Result<Workspace, String>,
+    store: Result<Store, String>,
     ready: Option<(SubjectId, Mannequin)>,
 }
 
@@ -63,15 +65,15 @@ impl Room {
         request: &PreviewRequest,
         is_stale: &dyn Fn() -> bool,
     ) -> Result<(String, String, Preview), StudyError> {
-        let workspace = self.workspace.as_ref().map_err(|error| StudyError::stage("store")(error.clone()))?;
+        let store = self.store.as_ref().map_err(|error| StudyError::stage("store")(error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {
-            self.ready = Some((request.subject, workspace.mannequin(request.subject)?));
+            self.ready = Some((request.subject, mannequin(store, request.subject)?));
         }
         let Some((_, mannequin)) = &self.ready else { return Err(StudyError::Interrupted) };
-        let stored = workspace.workpiece(request.size.key)?;
+        let stored = catalogue::workpiece(store, request.size.key)?;
         let piece = Workpiece { seams: request.size.seams.clone().or(stored.seams.clone()), ..stored };
-        let cloth = workspace.cloth(request.fabric.as_deref())?;
-        let seen = piece.preview(mannequin, &cloth, request.care, is_stale)?;
+        let cloth = catalogue::cloth(store, request.fabric.as_deref())?;
+        let seen = mannequin.dressed_in(&piece, &cloth, request.care, is_stale)?;
         Ok((mannequin.name.clone(), cloth.name, seen))
     }
 }

@@ -10,7 +10,9 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
-use study::{Interrupter, StudyError, Workspace, save_query, saved_queries};
+use store::browse;
+use store::{Interrupter, Store, StudyError, save_query, saved_queries, sql};
+use wardrobe::catalogue;
 
 /// Rows that are shown of an answer; a file gets all.
 const MOST_ROWS: usize = 20_000;
@@ -40,40 +42,42 @@ impl Canceller {
 /// Answers until nobody asks or listens any more.
 pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequest>, sender: &Sender<Message>) {
     // Whatever a query says, it cannot write.
-    let workspace = Workspace::open(database, true).map_err(|error| error.to_string());
-    if let Ok(workspace) = &workspace {
+    let store = catalogue::open(database, true).map_err(|error| error.to_string());
+    if let Ok(store) = &store {
         // The thread is started once, and so is its interrupter set.
-        let _ = canceller.interrupter.set(workspace.interrupter());
+        let _ = canceller.interrupter.set(sql::interrupter(store));
     }
     let folder = database.parent().unwrap_or(Path::new("")).join("queries");
     while let Ok(request) = wanted.recv() {
-        let workspace = workspace.as_ref().map_err(Clone::clone);
+        let store = store.as_ref().map_err(Clone::clone);
         let start = Instant::now();
         let message = match request {
-            QueryRequest::Names => names(workspace, &folder),
+            QueryRequest::Names => names(store, &folder),
             QueryRequest::Save(sql, name) => {
                 let saved = save_query(&folder, &name, &sql).map_err(|error| error.to_string());
                 let told = saved.map(|()| format!("saved: o offers {name}, `toile sql {name}` asks it"));
                 if sender.send(Message::Saved(told)).is_err() {
                     return;
                 }
-                names(workspace, &folder)
+                names(store, &folder)
             }
             QueryRequest::Rename(from, to) => {
                 if sender.send(Message::Saved(rename(&folder, &from, &to))).is_err() {
                     return;
                 }
-                names(workspace, &folder)
+                names(store, &folder)
             }
             QueryRequest::Rows(text) => {
-                let answer = workspace
-                    .and_then(|it| it.answer(&text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error)));
+                let answer = store.and_then(|store| {
+                    browse::answer(store, &text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error))
+                });
                 let table = answer.map(|answer| Box::new(ResultTable::of(answer)));
                 Message::Answered(start.elapsed().as_millis() as u64, table)
             }
             QueryRequest::Export(text, path) => {
-                let rows = workspace
-                    .and_then(|it| it.export_query(&text, &path, &canceller.is_on).map_err(|error| said(&error)));
+                let rows = store.and_then(|store| {
+                    browse::export_query(store, &text, &path, &canceller.is_on).map_err(|error| said(&error))
+                });
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
         };
@@ -101,9 +105,9 @@ fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
 }
 
 /// What a query may name, and the saved ones.
-fn names(workspace: Result<&Workspace, String>, folder: &Path) -> Message {
-    let names = workspace.and_then(|it| {
-        let names = it.relations().and_then(|known| Ok((known, saved_queries(Some(folder))?)));
+fn names(store: Result<&Store, String>, folder: &Path) -> Message {
+    let names = store.and_then(|store| {
+        let names = browse::relations(store).and_then(|known| Ok((known, saved_queries(Some(folder))?)));
         names.map_err(|error| error.to_string())
     });
     names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
@@ -142,6 +146,6 @@ mod tests {
         let names: Vec<String> =
             saved_queries(Some(folder)).expect("read").into_iter().map(|query| query.name).collect();
         assert!(names.contains(&"ours".to_owned()) && !names.contains(&"mine".to_owned()), "{names:?}");
-        assert_eq!(study::saved_query(Some(folder), "ours").expect("there").trim(), "SELECT 1");
+        assert_eq!(store::saved_query(Some(folder), "ours").expect("there").trim(), "SELECT 1");
     }
 }

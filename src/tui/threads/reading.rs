@@ -1,18 +1,21 @@
 //! Reading what the screens show, in one go.
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
-use study::{FitCard, GarmentWorn, JobFilter, JobId, Result, StudyError, Workspace, now_ms};
+use engine::enqueue;
+use results::{FitCard, GarmentWorn, draped_fit};
+use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, read};
+use wardrobe::catalogue;
 
 /// Reads what a focus needs.
 ///
 /// # Errors
 /// When the database cannot be read.
-pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
-    let studies = workspace.studies()?;
+pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
+    let studies = read::studies(store)?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
-    let subjects = workspace.subjects()?;
-    let fabrics = workspace.fabrics()?;
-    let sizes = workspace.sizes()?;
+    let subjects = catalogue::subjects(store)?;
+    let fabrics = catalogue::fabrics(store)?;
+    let sizes = catalogue::sizes(store)?;
     let (jobs, ease) = (vec![], vec![]);
     let mut snapshot = Snapshot {
         now_ms: now_ms(),
@@ -31,15 +34,15 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
-    let grid = garment.map(|garment| workspace.grid(&row.name, garment)).transpose()?;
-    snapshot.jobs = workspace.jobs(&JobFilter { study: Some(row.name.clone()), ..JobFilter::default() })?;
-    snapshot.ease = workspace.ease(&row.name)?;
+    let grid = garment.map(|garment| read::grid(store, &row.name, garment)).transpose()?;
+    snapshot.jobs = read::jobs(store, &JobFilter { study: Some(row.name.clone()), ..JobFilter::default() })?;
+    snapshot.ease = read::ease(store, &row.name)?;
     snapshot.grid = grid;
     if let Some(job) = focus.job.filter(|id| snapshot.job(*id).is_some()) {
-        snapshot.detail = Some(detail(workspace, job)?);
+        snapshot.detail = Some(detail(store, job)?);
     }
-    add_compared(workspace, &mut snapshot, focus)?;
-    snapshot.worn = worn(workspace, &snapshot, focus)?;
+    add_compared(store, &mut snapshot, focus)?;
+    snapshot.worn = worn(store, &snapshot, focus)?;
     Ok(snapshot)
 }
 
@@ -47,30 +50,30 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
 ///
 /// # Errors
 /// When the database cannot be read.
-pub fn refocused(workspace: &Workspace, mut before: Snapshot, focus: &Focus) -> Result<Snapshot> {
+pub fn refocused(store: &Store, mut before: Snapshot, focus: &Focus) -> Result<Snapshot> {
     before.now_ms = now_ms();
-    before.detail = focus.job.filter(|id| before.job(*id).is_some()).map(|job| detail(workspace, job)).transpose()?;
-    add_compared(workspace, &mut before, focus)?;
-    before.worn = worn(workspace, &before, focus)?;
+    before.detail = focus.job.filter(|id| before.job(*id).is_some()).map(|job| detail(store, job)).transpose()?;
+    add_compared(store, &mut before, focus)?;
+    before.worn = worn(store, &before, focus)?;
     Ok(before)
 }
 
 /// Reads the runs that are compared.
-fn add_compared(workspace: &Workspace, snapshot: &mut Snapshot, focus: &Focus) -> Result<()> {
+fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result<()> {
     (snapshot.compared, snapshot.recommendations) = (vec![], vec![]);
     for id in &focus.compare {
-        snapshot.compared.extend(compared(workspace, *id)?);
+        snapshot.compared.extend(compared(store, *id)?);
     }
     if let (false, Some(study)) = (snapshot.compared.is_empty(), snapshot.studies.get(snapshot.study)) {
-        snapshot.recommendations = workspace.recommendations(&study.name)?;
+        snapshot.recommendations = read::recommendations(store, &study.name)?;
     }
     Ok(())
 }
 
 /// How the garment looked at sits on the wearer; a card without sizes where no ease is known of them.
-fn worn(workspace: &Workspace, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
+fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
     let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
-    match workspace.worn(&grid.study, Some(&grid.garment), Some(subject)) {
+    match draped_fit::worn(store, &grid.study, Some(&grid.garment), Some(subject)) {
         Err(StudyError::NotFound { .. }) => {
             let (garment, subject) = (grid.garment.clone(), subject.clone());
             let card = FitCard { garment, subject, intended: None, sizes: vec![] };
@@ -81,23 +84,23 @@ fn worn(workspace: &Workspace, snapshot: &Snapshot, focus: &Focus) -> Result<Opt
 }
 
 /// A run to compare; `None` where there is no such job any more.
-fn compared(workspace: &Workspace, id: JobId) -> Result<Option<Compared>> {
-    let job = match workspace.job(id) {
+fn compared(store: &Store, id: JobId) -> Result<Option<Compared>> {
+    let job = match read::job(store, id) {
         Err(StudyError::NotFound { .. }) => return Ok(None),
         job => job?,
     };
-    let (chi, metrics, inputs) = (workspace.chi(id)?, workspace.metrics(id)?, workspace.inputs(id)?);
+    let (chi, metrics, inputs) = (read::chi(store, id)?, read::metrics(store, id)?, enqueue::inputs(store, id)?);
     Ok(Some(Compared { job, chi, metrics, inputs }))
 }
 
-fn detail(workspace: &Workspace, job: JobId) -> Result<Detail> {
+fn detail(store: &Store, job: JobId) -> Result<Detail> {
     Ok(Detail {
         job,
-        chi: workspace.chi(job)?,
-        metrics: workspace.metrics(job)?,
-        history: workspace.history(job)?,
-        log: workspace.log(job)?,
-        why: workspace.why(job)?,
-        stages: workspace.stages(job)?,
+        chi: read::chi(store, job)?,
+        metrics: read::metrics(store, job)?,
+        history: read::history(store, job)?,
+        log: read::log(store, job)?,
+        why: enqueue::why(store, job)?,
+        stages: read::stages(store, job)?,
     })
 }

@@ -8,7 +8,9 @@ use std::thread;
 use std::time::Duration;
 
 use crate::messages::message::Message;
-use study::{Live, RunOptions, StudyError, Workspace};
+use engine::{RunOptions, run};
+use store::{Live, StudyError};
+use wardrobe::catalogue;
 
 /// Time between two looks at whether a run has ended or is to stop, and at the garment that is watched.
 const POLL: Duration = Duration::from_millis(200);
@@ -21,9 +23,9 @@ pub fn follow(
     live: &Arc<Live>,
     sender: &Sender<Message>,
 ) -> Result<String, StudyError> {
-    let mut workspace = Workspace::open(database, false)?;
-    let study = workspace.load_study(study)?;
-    let run = workspace.start(&study, &RunOptions { live: live.clone(), ..RunOptions::default() })?;
+    let mut store = catalogue::open(database, false)?;
+    let study = run::load_study(&store, study)?;
+    let run = run::start(&mut store, &study, &RunOptions { live: live.clone(), ..RunOptions::default() })?;
     while !run.is_finished() {
         if stop.load(Ordering::Relaxed) {
             run.stop();

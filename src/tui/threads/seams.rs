@@ -5,26 +5,27 @@ use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::message::Message;
 use crate::messages::seams::{LayoutRequest, SeamTask, SizeLayout};
-use study::files::SourceFile;
-use study::seams::{SeamStep, Workpiece, seam_home};
-use study::{StudyError, Workspace};
+use store::files::SourceFile;
+use store::{Store, StudyError};
+use wardrobe::catalogue;
+use wardrobe::seams::{SeamStep, Workpiece, seam_home};
 
 /// Does what is asked until nobody asks or listens any more; of sizes to lay out, the latest only.
 pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sender: &Sender<Message>) {
-    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
+    let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
     while let Ok(task) = wanted.recv() {
         let tasks: Vec<SeamTask> = std::iter::once(task).chain(wanted.try_iter()).collect();
         let last = tasks.iter().rposition(|task| matches!(task, SeamTask::LayOut(_)));
         for (k, task) in tasks.into_iter().enumerate() {
-            let workspace = workspace.as_ref().map_err(Clone::clone);
+            let store = store.as_ref().map_err(Clone::clone);
             let message = match task {
                 SeamTask::LayOut(_) if Some(k) != last => continue,
                 SeamTask::LayOut(request) => {
-                    let layout = workspace.and_then(|it| lay_out(it, &request).map_err(|error| error.to_string()));
+                    let layout = store.and_then(|it| lay_out(it, &request).map_err(|error| error.to_string()));
                     Message::LaidOut(Box::new(request), layout.map(Box::new))
                 }
                 SeamTask::Sew(request, step) => {
-                    let seams = workspace.and_then(|it| sew(it, &request, &step).map_err(|error| error.to_string()));
+                    let seams = store.and_then(|it| sew(it, &request, &step).map_err(|error| error.to_string()));
                     Message::Sewn(Box::new((request, step)), seams)
                 }
             };
@@ -36,21 +37,21 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sende
 }
 
 /// The workpiece of a size, and its seam file as stored.
-fn workpiece(workspace: &Workspace, request: &LayoutRequest) -> Result<(Workpiece, Option<SourceFile>), StudyError> {
-    let stored = workspace.workpiece(request.key)?;
+fn workpiece(store: &Store, request: &LayoutRequest) -> Result<(Workpiece, Option<SourceFile>), StudyError> {
+    let stored = catalogue::workpiece(store, request.key)?;
     let seams = request.seams.clone().or(stored.seams.clone());
     Ok((Workpiece { seams, ..stored.clone() }, stored.seams))
 }
 
 /// Lays a size out.
-pub fn lay_out(workspace: &Workspace, request: &LayoutRequest) -> Result<SizeLayout, StudyError> {
-    let (piece, stored) = workpiece(workspace, request)?;
+pub fn lay_out(store: &Store, request: &LayoutRequest) -> Result<SizeLayout, StudyError> {
+    let (piece, stored) = workpiece(store, request)?;
     let study = request.study.as_deref();
     let home = study.zip(stored.as_ref()).and_then(|(study, stored)| seam_home(study, &request.style, stored));
     Ok(SizeLayout { out: piece.laid_out()?, stored, home })
 }
 
 /// The seam file of a size after a step of work.
-pub fn sew(workspace: &Workspace, request: &LayoutRequest, step: &SeamStep) -> Result<SourceFile, StudyError> {
-    workpiece(workspace, request)?.0.after(step)
+pub fn sew(store: &Store, request: &LayoutRequest, step: &SeamStep) -> Result<SourceFile, StudyError> {
+    workpiece(store, request)?.0.after(step)
 }

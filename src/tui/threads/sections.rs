@@ -4,15 +4,18 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::message::Message;
-use study::{CutAt, JobId, Workspace};
+use results::{CutAt, section};
+use store::JobId;
+use wardrobe::catalogue;
 
 /// Cuts the results asked for at all levels, those of the latest request only, until nobody asks or listens any more.
 pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<Vec<JobId>>, sender: &Sender<Message>) {
-    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
+    let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
     while let Ok(first) = wanted.recv() {
         let jobs = wanted.try_iter().last().unwrap_or(first);
-        let workspace = workspace.as_ref().map_err(Clone::clone);
-        let cut = workspace.and_then(|it| it.sections(&jobs, &CutAt::Levels).map_err(|error| error.to_string()));
+        let store = store.as_ref().map_err(Clone::clone);
+        let cut =
+            store.and_then(|store| section::sections(store, &jobs, &CutAt::Levels).map_err(|error| error.to_string()));
         if sender.send(Message::Cut(jobs, cut)).is_err() {
             return;
         }

@@ -95,7 +95,7 @@ pub fn stand_in(sign: char) -> char {
 mod tests {
     use super::*;
     use crate::widgets::theme::glyph;
-    use study::Status;
+    use store::Status;
 
     #[test]
     fn states_stay_apart() {

@@ -4,7 +4,8 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 
 use crate::widgets::dots::Dots;
-use study::{LiveFrame, Look};
+use results::Look;
+use store::LiveFrame;
 
 /// World lengths of a picture change in such steps, m, so that it does not tremble.
 const STEP_M: f64 = 0.1;
@@ -40,7 +41,7 @@ mod tests {
     use super::*;
     use crate::widgets::picture::FRONT;
     use geom::V3;
-    use study::JobId;
+    use store::JobId;
 
     #[test]
     fn the_subjects_right_is_at_the_pictures_left() {

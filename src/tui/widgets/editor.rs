@@ -3,7 +3,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use study::Relation;
+use store::Relation;
 
 /// Words of SQL that are offered besides names.
 const WORDS: [&str; 24] = [

@@ -11,7 +11,9 @@ use ratatui_image::{FontSize, Resize};
 
 use crate::widgets::half_blocks::{Blocks, cropped, letters};
 use crate::widgets::theme::Colours;
-use study::{JobId, Look, Map, SubjectId, View};
+use render::View;
+use results::{Look, Map};
+use store::{JobId, SubjectId};
 
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use crate::widgets::text;
 use geom::units::significant;
-use study::{SqlAnswer, Value};
+use store::{SqlAnswer, Value};
 
 /// Rows whose values say how wide a column is and whether it holds numbers.
 const LOOKED_AT: usize = 300;
@@ -182,7 +182,7 @@ fn compared(a: &Value, b: &Value) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use study::Table;
+    use store::Table;
 
     fn table() -> ResultTable {
         let row = |name: &str, value: Value| vec![Value::Text(name.to_owned()), value, Value::Text("x".repeat(30))];

@@ -2,8 +2,10 @@
 
 use ratatui::text::Span;
 
-use study::bodies::Sex;
-use study::{JobRow, Simulator, Status, SubjectRow};
+use fit::Simulator;
+use spec::bodies::Sex;
+use store::{JobRow, Status};
+use wardrobe::SubjectRow;
 
 /// Columns a text takes.
 #[must_use]

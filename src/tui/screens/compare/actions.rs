@@ -6,7 +6,7 @@ use crate::screens::compare::comparison::{ComparisonRow, MOST, comparison_rows, 
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
-use study::{JobId, JobRow, RecommendationRow};
+use store::{JobId, JobRow, RecommendationRow};
 
 impl State {
     /// The runs to compare: those selected; else the job looked at and its cell by the other simulator.

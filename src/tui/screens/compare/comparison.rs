@@ -2,7 +2,7 @@
 
 use crate::messages::snapshot::Compared;
 use crate::widgets::text;
-use study::{ChiRow, JobRow, RecommendationRow};
+use store::{ChiRow, JobRow, RecommendationRow};
 
 /// Runs that are compared at most.
 pub const MOST: usize = 6;

@@ -17,7 +17,7 @@ use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
-use study::{JobRow, MetricsRow};
+use store::{JobRow, MetricsRow};
 
 /// Columns of one run.
 const RUN: usize = 12;

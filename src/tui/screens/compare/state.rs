@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use study::JobId;
+use store::JobId;
 
 /// Which runs are compared, and how.
 #[derive(Debug, Default)]

@@ -4,7 +4,8 @@ use crate::keys::screen::Screen;
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
-use study::{FABRIC_NUMBERS, FabricRow};
+use spec::FABRIC_NUMBERS;
+use wardrobe::FabricRow;
 
 impl State {
     /// Fabrics that pass the filter of the Fabrics screen, in its order.

@@ -14,7 +14,8 @@ use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
-use study::{FABRIC_NUMBERS, FabricRow};
+use spec::FABRIC_NUMBERS;
+use wardrobe::FabricRow;
 
 /// Headings of the numbers in the list, their columns, and what a number is multiplied by to be read with ease.
 const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [

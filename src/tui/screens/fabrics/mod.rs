@@ -15,7 +15,7 @@ use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 use crate::widgets::jump::Target;
-use study::Part;
+use wardrobe::Part;
 
 /// The screen of fabrics.
 pub struct FabricsPage;

@@ -2,7 +2,7 @@
 
 use crate::screens::order::Order;
 
-/// Numbers in the list of fabrics, by their places in [`study::FABRIC_NUMBERS`].
+/// Numbers in the list of fabrics, by their places in [`spec::FABRIC_NUMBERS`].
 pub const FABRIC_SHOWN: [usize; 7] = [0, 1, 2, 3, 5, 6, 7];
 
 /// How fabrics are ordered.

@@ -8,7 +8,8 @@ use crate::screens::fit::state::{Sections, View};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::widgets::text::words;
-use study::{CrossSection, GarmentWorn, JobId};
+use results::{CrossSection, GarmentWorn};
+use store::JobId;
 
 impl State {
     /// The subject looked at in the grid.

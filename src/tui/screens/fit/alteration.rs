@@ -9,7 +9,8 @@ use crate::screens::fit::state::Draping;
 use crate::screens::state::State;
 use crate::widgets::text::{self, left, right, words, wrapped};
 use crate::widgets::theme::Theme;
-use study::{Alteration, AlteredLevel, MovedHandle, Sits};
+use advice::{Alteration, AlteredLevel, MovedHandle};
+use results::Sits;
 
 /// Columns of an amount, a target, an ease and its sign.
 const AMOUNT: usize = 8;

@@ -9,7 +9,10 @@ use crate::screens::fit::state::{Alter, Draping};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text::{duration, quoted};
-use study::{Alteration, JobRow, Simulator, file_part};
+use advice::Alteration;
+use fit::Simulator;
+use report::file_part;
+use store::JobRow;
 
 /// What is said where nothing is shown that could be changed.
 const CLOSED: &str = "a finds what to change first";

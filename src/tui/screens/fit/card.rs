@@ -11,7 +11,7 @@ use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, whole, words, wrapped};
 use crate::widgets::theme::Theme;
-use study::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
+use results::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
 
 /// What the signs mean.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";

@@ -1,7 +1,7 @@
 //! What is measured on the drapes of a garment, a row a quantity, a cell a size.
 
 use crate::widgets::text::{whole, words};
-use study::{FoldLine, SizeWorn};
+use results::{FoldLine, SizeWorn};
 
 /// A quantity of all sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use crate::screens::state::State;
 use crate::widgets::dots::{Dash, Dots};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{left, right, whole, words};
-use study::{CrossSection, CutCloth, CutLine, FitCard};
+use results::{CrossSection, CutCloth, CutLine, FitCard};
 
 /// Where one looks from, and in a few words.
 const LEGEND: [&str; 2] = [" front up, the subject's right on the right ", " front up, right on the right "];

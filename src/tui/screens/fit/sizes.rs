@@ -6,7 +6,7 @@ use crate::screens::fit::card::headed;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, selected_line};
 use crate::widgets::text::{self, left, shortened};
-use study::GarmentWorn;
+use results::GarmentWorn;
 
 /// What the numbers are.
 pub const LEGEND: &str = " mm  → from flat to worn ";

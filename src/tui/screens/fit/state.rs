@@ -1,7 +1,9 @@
 //! Where the user is in the fit of a garment, its cross sections, and what to change of it.
 
 use crate::messages::alterations::AlterRequest;
-use study::{Alteration, CrossSection, JobId};
+use advice::Alteration;
+use results::CrossSection;
+use store::JobId;
 
 /// A part of the screen; with little room it alone is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,7 +6,9 @@ use crate::messages::requests::Command;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
-use study::{JobId, JobRow, Step, why_no_retry};
+use engine::why_no_retry;
+use sim::Step;
+use store::{JobId, JobRow};
 
 impl State {
     /// Jobs that pass the filter of the Jobs screen, in its order.

@@ -13,7 +13,7 @@ use crate::widgets::layout::is_narrow;
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
-use study::{JobRow, LogLine, Status};
+use store::{JobRow, LogLine, Status};
 
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {

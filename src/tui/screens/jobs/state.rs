@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::screens::order::Order;
 use crate::widgets::text;
-use study::{JobId, JobRow, Status, Step};
+use sim::Step;
+use store::{JobId, JobRow, Status};
 
 /// Steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;

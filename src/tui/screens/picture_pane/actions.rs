@@ -10,7 +10,8 @@ use crate::screens::picture_pane::draw::cells;
 use crate::screens::picture_pane::state::Pictures;
 use crate::screens::state::State;
 use crate::widgets::picture::{self, Drawn, FRONT, PictureRequest, Pictured};
-use study::{Map, Status};
+use results::Map;
+use store::Status;
 
 impl Pictures {
     /// Does an action on pictures; returns whether it is one.

@@ -12,7 +12,7 @@ use crate::widgets::braille::braille;
 use crate::widgets::lists::pane;
 use crate::widgets::picture::{Drawn, PictureRequest, Pictured, look_name};
 use crate::widgets::text;
-use study::Status;
+use store::Status;
 
 /// Picture and, where there is room, the line below it that says what its colours mean. The line is there for pictures
 /// without a legend too, so that they keep their size when the colours change.

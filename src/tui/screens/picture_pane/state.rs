@@ -1,7 +1,7 @@
 //! How drapes are seen.
 
 use crate::widgets::picture::{Drawn, FRONT, PictureRequest};
-use study::{Look, Map};
+use results::{Look, Map};
 
 /// How drapes are seen, and the pictures there are.
 pub struct Pictures {

@@ -7,7 +7,7 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::FileTask;
 use crate::screens::state::State;
-use study::ReportRow;
+use results::ReportRow;
 
 impl State {
     /// Reports that pass the filter of their screen.

@@ -11,7 +11,7 @@ use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, left, right, shortened};
-use study::ReportRow;
+use results::ReportRow;
 
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [list, facts] = panes(area);

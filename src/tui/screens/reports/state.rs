@@ -1,6 +1,6 @@
 //! Where the user is among reports.
 
-use study::ReportRow;
+use results::ReportRow;
 
 /// Where the user is among reports.
 #[derive(Debug, Default)]

@@ -5,7 +5,7 @@ use crate::screens::movement::{Movement, stepped};
 use crate::screens::results::state::ChiOrder;
 use crate::screens::state::State;
 use crate::widgets::text;
-use study::{ChiRow, JobId};
+use store::{ChiRow, JobId};
 
 impl State {
     /// Stages of the selected result, in the order they are made.
@@ -44,7 +44,7 @@ impl State {
 
     /// Goes to the next or previous job that has a result.
     pub fn step_result(&mut self, step: isize) {
-        let is_shown = |job: &&study::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
+        let is_shown = |job: &&store::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
         let Some(data) = &self.data else { return };
         let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
         let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);

@@ -8,7 +8,7 @@ use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, selected_line};
 use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
 use crate::widgets::theme::glyph;
-use study::{ChiRow, FitCell, MetricsRow};
+use store::{ChiRow, FitCell, MetricsRow};
 
 /// What the marks after names mean.
 pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";

@@ -167,7 +167,7 @@ fn names(state: &State, width: usize) -> Vec<Line<'static>> {
     let relations = state.sql.relations.as_deref().unwrap_or_default();
     let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
     let longest = relations.iter().map(|relation| text::width(&relation.name)).max().unwrap_or(0) + 2;
-    let line = |relation: &study::Relation| {
+    let line = |relation: &store::Relation| {
         let columns = shortened(&relation.columns.join(", "), width.saturating_sub(longest));
         let name = Span::styled(left(&relation.name, longest), state.theme.bold());
         Line::from(vec![name, Span::styled(columns, state.theme.dim())])

@@ -2,7 +2,7 @@
 
 use crate::widgets::editor::Editor;
 use crate::widgets::result_table::ResultTable;
-use study::{Relation, SavedQuery};
+use store::{Relation, SavedQuery};
 
 /// Where the user is among questions.
 #[derive(Debug, Default)]

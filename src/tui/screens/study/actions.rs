@@ -13,7 +13,9 @@ use crate::screens::results::measurements;
 use crate::screens::state::State;
 use crate::screens::study::state::Place;
 use crate::widgets::text;
-use study::{Cell, FitCell, Grid, JobId, USUAL_FABRIC, wearables};
+use engine::wearables;
+use sim::fabric::USUAL as USUAL_FABRIC;
+use store::{Cell, FitCell, Grid, JobId};
 
 impl State {
     /// The grid looked at; `None` where it has no size or no subject.
@@ -183,7 +185,7 @@ impl State {
             folder: self.setup.folders.studies.clone(),
             fabric: fabrics.iter().position(|name| name == USUAL_FABRIC).unwrap_or(0),
             fabrics,
-            simulators: study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
+            simulators: spec::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
             sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
             subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
             filter: Filter::default(),

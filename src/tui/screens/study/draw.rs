@@ -17,7 +17,7 @@ use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
-use study::{Cell, Grid, Status};
+use store::{Cell, Grid, Status};
 
 /// Lines that make a picture below the grid worth while.
 const LEAST_PICTURE: u16 = 14;

@@ -8,7 +8,7 @@ use crate::overlays::Overlay;
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::screens::styles::state::TableLine;
-use study::{Part, SizeRow};
+use wardrobe::{Part, SizeRow};
 
 impl State {
     /// Sizes that pass the filter of the Styles screen.

@@ -7,7 +7,7 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::stepped;
 use crate::screens::state::State;
 use crate::screens::styles::state::{Asking, EdgeAt, Own, TableLine};
-use study::seams::{LEFT_OUT, SeamStep, Undecided};
+use wardrobe::seams::{LEFT_OUT, SeamStep, Undecided};
 
 /// Keys while something is asked, for the status line.
 pub const HINTS: &[(&str, &str)] = &[

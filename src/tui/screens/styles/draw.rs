@@ -15,8 +15,8 @@ use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
-use study::SizeRow;
-use study::seams::{Desk, DeskSeam};
+use wardrobe::SizeRow;
+use wardrobe::seams::{Desk, DeskSeam};
 
 /// Columns of a small terminal that has room for the pieces beside the table.
 const BESIDE: u16 = 56;

@@ -22,7 +22,7 @@ use crate::screens::state::State;
 use crate::screens::styles::state::Own;
 use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
-use study::Part;
+use wardrobe::Part;
 
 /// The screen of styles.
 pub struct StylesPage;

@@ -14,7 +14,7 @@ use crate::screens::styles::state::EdgeAt;
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
-use study::seams::{DeskEdge, DeskPiece, DeskSeam};
+use wardrobe::seams::{DeskEdge, DeskPiece, DeskSeam};
 
 /// Digits of answers.
 const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];

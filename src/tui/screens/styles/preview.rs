@@ -14,8 +14,8 @@ use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::pane;
 use crate::widgets::picture::{FRONT, Pictured, look_name, next_view};
 use crate::widgets::text::{shortened, wrapped};
-use study::SubjectId;
-use study::seams::{Care, Hung};
+use results::preview::{Care, Hung};
+use store::SubjectId;
 
 /// Lines below the picture, besides that of a legend: in a high pane, and in others.
 const TOLD: [u16; 2] = [5, 2];

@@ -9,7 +9,7 @@ use ratatui::widgets::Paragraph;
 use crate::screens::state::State;
 use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
-use study::seams::Undecided;
+use wardrobe::seams::Undecided;
 
 /// Draws it in place of the table.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {

@@ -7,9 +7,9 @@ use crate::messages::seams::{LayoutRequest, SeamTask};
 use crate::messages::taught;
 use crate::screens::state::State;
 use crate::screens::styles::state::{Asking, EdgeAt, Edited};
-use study::files::SourceFile;
-use study::seams::{DeskSeam, SeamEdit, SeamStep};
-use study::{Part, SizeRow};
+use store::files::SourceFile;
+use wardrobe::seams::{DeskSeam, SeamEdit, SeamStep};
+use wardrobe::{Part, SizeRow};
 
 impl State {
     /// Gives the seams the focus; whether they can be worked on now.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
-use study::files::SourceFile;
-use study::seams::SeamStep;
+use store::files::SourceFile;
+use wardrobe::seams::SeamStep;
 
 /// An edge by its piece and its place on it.
 pub type EdgeAt = (usize, usize);

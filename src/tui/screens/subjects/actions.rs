@@ -5,8 +5,9 @@ use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::screens::subjects::state::SubjectOrder;
 use crate::widgets::text;
-use study::bodies::Measurements;
-use study::{Field, MEASUREMENTS, SubjectRow};
+use spec::bodies::Measurements;
+use spec::{Field, MEASUREMENTS};
+use wardrobe::SubjectRow;
 
 impl State {
     /// Subjects that pass the filter of the Subjects screen, in its order.

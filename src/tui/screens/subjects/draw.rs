@@ -14,7 +14,9 @@ use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
-use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
+use results::Figure;
+use spec::MEASUREMENTS;
+use wardrobe::{SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
 const HEADINGS: [(&str, usize); SHOWN] = [("stature", 8), ("kg", 6), ("chest", 6), ("waist", 6), ("hip", 6)];

@@ -16,7 +16,8 @@ use crate::screens::page::Page;
 use crate::screens::state::State;
 use crate::widgets::jump::Target;
 use crate::widgets::picture::Pictured;
-use study::{MEASUREMENTS, Part};
+use spec::MEASUREMENTS;
+use wardrobe::Part;
 
 /// The screen of subjects.
 pub struct SubjectsPage;

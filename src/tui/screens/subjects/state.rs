@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::screens::order::Order;
-use study::SubjectId;
-use study::bodies::Girths;
+use spec::bodies::Girths;
+use store::SubjectId;
 
 /// Measurements in the list of subjects: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;
 
-/// How subjects are ordered: by name, or by the measurement of a number in [`study::MEASUREMENTS`].
+/// How subjects are ordered: by name, or by the measurement of a number in [`spec::MEASUREMENTS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
     /// By name, alphabetically.

@@ -1,0 +1,199 @@
+//! Where a changed pattern is tried on: draped by FEM-GS, read off, and how all that is read answers to the handles.
+
+use std::collections::BTreeMap;
+
+use crate::alteration::readings::{Place, Reading, Readings};
+use crate::alteration::{Redraped, STEP_M, Sensitivity};
+use body::Body;
+use engine::Outcome;
+use engine::pipeline::{Fitting, Meshes};
+use fit::Simulator;
+use geom::units::mm;
+use geom::{DistanceField, V2, V3};
+use pattern::{Garment, Handle, Style};
+use sim::contact::Skin;
+use sim::fem::response::{Lying, Response, sewn};
+use sim::fem::{self, Params};
+use sim::{Drape, Silent};
+use spec::JobSpec;
+use spec::versions::FIELD_SPACING_M;
+use store::{Result, StudyError};
+
+/// By how much a handle is moved to see how a drape answers, m: the mesh is taken along, and no longer made anew.
+const TAKEN_ALONG_M: f64 = 0.1e-3;
+
+/// Seeds of the starts by which scatter is told.
+const STARTS: [u64; 4] = [0, 1, 2, 3];
+/// Least scatter that is believed of a few starts, mm and degrees, and kPa.
+const LEAST_SCATTER: f64 = 1.0;
+const LEAST_SCATTER_KPA: f64 = 0.02;
+
+/// A body that tries on.
+pub struct FittingRoom<'a> {
+    spec: &'a JobSpec,
+    body: &'a Body,
+    field: DistanceField,
+}
+
+impl<'a> FittingRoom<'a> {
+    /// Of a job's body and cloth.
+    ///
+    /// # Errors
+    /// When the body bounds no solid.
+    pub fn new(spec: &'a JobSpec, body: &'a Body) -> Result<Self> {
+        let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+        Ok(Self { spec, body, field })
+    }
+
+    /// Drapes a style as its study does: what it measures, and the ease of the drape at every level, m.
+    ///
+    /// # Errors
+    /// What meshing or the simulator refuses.
+    pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
+        let Draped { meshes, drape, outcome } = self.draped(style)?;
+        Ok((outcome, self.fitting(style, &meshes).eases_on(&drape)?))
+    }
+
+    fn draped(&self, style: &Style) -> Result<Draped> {
+        let meshes = Meshes::of(style, self.spec.edge_length_m)?;
+        let fitting = self.fitting(style, &meshes);
+        let drape = fitting.simulate(&mut Silent)?;
+        let outcome = fitting.outcome(&drape)?;
+        Ok(Draped { meshes, drape, outcome })
+    }
+
+    /// Drapes a style as its study does, and reads the drape.
+    ///
+    /// # Errors
+    /// What meshing or the simulator refuses.
+    pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
+        let Draped { meshes, drape, outcome } = self.draped(style)?;
+        let garment = meshes.finest()?;
+        let place = Place::new(self.body, style, garment, &self.spec.fabric)?;
+        let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
+        let redraped = Redraped {
+            converged: outcome.converged,
+            ei: outcome.metrics.ei,
+            penetration_max_mm: mm(outcome.penetration_max_m),
+            hem_front_over_back_mm: hem,
+            most_kpa: outcome.worn.pressing.iter().map(|one| one.most_kpa).reduce(f64::max),
+            drag_lines: outcome.worn.folds.iter().filter(|fold| fold.is_drag).count(),
+        };
+        Ok((redraped, place.readings(garment, &drape.positions)?))
+    }
+
+    /// How far readings differ between coarse drapes from starts that differ a little, root mean square, in their units: a drape comes to rest
+    /// in one of many ways that are nearly alike.
+    ///
+    /// # Errors
+    /// What meshing or the simulator refuses.
+    pub fn scatter(&self, style: &Style) -> Result<Readings> {
+        let meshes = self.coarse(style)?;
+        let garment = meshes.finest()?;
+        let place = Place::new(self.body, style, garment, &self.spec.fabric)?;
+        let drape = |seed: u64| {
+            let params = Params { seed, ..self.spec.parameters.fem()? };
+            let drape = fem::simulate(self.body, &self.field, &meshes.0, &self.spec.fabric, &params, &mut Silent);
+            place.readings(garment, &drape.map_err(StudyError::stage("sim"))?.positions)
+        };
+        let all = STARTS.into_iter().map(drape).collect::<Result<Vec<_>>>()?;
+        let of = |(name, reading): (&String, &Reading)| {
+            let values: Vec<f64> = all.iter().map(|one| one.get(name).map(|one| one.value)).collect::<Option<_>>()?;
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+            let least = if reading.unit == "kPa" { LEAST_SCATTER_KPA } else { LEAST_SCATTER };
+            let value = (squares / (values.len() - 1) as f64).sqrt().max(least);
+            Some((name.clone(), Reading { value, ..*reading }))
+        };
+        Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(of).collect()))
+    }
+
+    /// Meshes of a style up to the one before the last.
+    fn coarse(&self, style: &Style) -> Result<Meshes> {
+        let mut meshes = Meshes::of(style, self.spec.edge_length_m)?;
+        if meshes.0.len() > 1 {
+            meshes.0.pop();
+        }
+        Ok(meshes)
+    }
+
+    /// What each handle changes of all that is read off a drape, per metre. It is of a coarser drape than that of the
+    /// study, as it would slide if nothing held it, since that is how a new drape finds its place.
+    ///
+    /// # Errors
+    /// What meshing or the simulator refuses.
+    pub fn answers(&self, style: &Style, handles: &[Handle]) -> Result<Answers> {
+        let meshes = self.coarse(style)?;
+        let drape = self.fitting(style, &meshes).simulate(&mut Silent)?;
+        let (garment, fabric) = (meshes.finest()?, &self.spec.fabric);
+        let skin = Skin::new(&self.body.mesh).ok();
+        let params = self.spec.parameters.fem()?;
+        let floor_m = fem::floor_m(self.body);
+        let lying = Lying {
+            skin: skin.as_ref(),
+            field: &self.field,
+            floor_m,
+            garment,
+            fabric,
+            params: &params,
+            is_held: false,
+        };
+        let stage = StudyError::stage("alter");
+        let cloth = sewn(garment, fabric).map_err(StudyError::stage("alter"))?;
+        let response = Response::of(lying, &cloth, &drape.positions).map_err(stage)?;
+        let place = Place::new(self.body, style, garment, fabric)?;
+        let rested = response.positions();
+        let answer = |handle: Handle| -> Result<Sensitivity> {
+            let moved = |by_m: f64| style.moved_mesh(garment, handle, by_m);
+            // What a style that is changed already cannot do any more answers nothing.
+            let (Ok(more), Ok(less)) = (moved(TAKEN_ALONG_M), moved(-TAKEN_ALONG_M)) else {
+                return Ok(Sensitivity::new());
+            };
+            let rates = response.rates([&less, &more], 2.0 * TAKEN_ALONG_M).map_err(StudyError::stage("alter"))?;
+            let at = |by_m: f64| {
+                let drawn = along(garment, [&less, &more], by_m);
+                let positions: Vec<V3> = rested.iter().zip(&rates).map(|(p, rate)| p + rate * by_m).collect();
+                place.readings(&drawn, &positions)
+            };
+            Ok(changes(&at(STEP_M)?, &at(-STEP_M)?, 2.0 * STEP_M))
+        };
+        let of_handles = handles.iter().map(|handle| answer(*handle)).collect::<Result<Vec<_>>>()?;
+        Ok(Answers { of_handles, is_stable: response.is_stable() })
+    }
+
+    fn fitting<'f>(&'f self, style: &'f Style, meshes: &'f Meshes) -> Fitting<'f> {
+        let Self { spec, body, field } = self;
+        let (fabric, parameters) = (&spec.fabric, &spec.parameters);
+        Fitting { body, field, style, meshes, fabric, simulator: Simulator::Fem, parameters }
+    }
+}
+
+/// A style, draped.
+struct Draped {
+    meshes: Meshes,
+    drape: Drape,
+    outcome: Outcome,
+}
+
+/// How a drape answers.
+pub struct Answers {
+    /// What each handle changes of each reading, in its unit per metre.
+    pub of_handles: Vec<Sensitivity>,
+    /// Whether every displacement of the drape costs energy.
+    pub is_stable: bool,
+}
+
+/// A mesh that lies between and beyond two that a handle has changed by as much either way.
+fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
+    let share = by_m / (2.0 * TAKEN_ALONG_M);
+    let rest: Vec<V2> =
+        (0..garment.rest.len()).map(|v| garment.rest[v] + (more.rest[v] - less.rest[v]) * share).collect();
+    garment.with_rest(rest)
+}
+
+/// What changes between readings, per unit of what is between them.
+fn changes(after: &Readings, before: &Readings, between: f64) -> BTreeMap<String, f64> {
+    let change =
+        |(name, after): (&String, &Reading)| Some((name.clone(), (after.value - before.get(name)?.value) / between));
+    after.iter().filter_map(change).collect()
+}

@@ -1,0 +1,384 @@
+//! What to change of a pattern so that a size fits somebody: the least change of its handles, and the changed pattern.
+//!
+//! Ease is told by the flat pattern ([`mod@bench`]). What is asked of a drape, as a level hem or a pressure, is foreseen from how the drape
+//! answers to the handles, and seen by draping again ([`fitting_room`], [`readings`]).
+
+mod bench;
+mod fitting_room;
+mod readings;
+mod tried;
+mod written;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use crate::alteration::bench::Bench;
+use crate::alteration::fitting_room::FittingRoom;
+use crate::alteration::tried::Tried;
+use body::Body;
+use engine::{Outcome, pipeline};
+use fit::target::Target;
+use geom::units::mm;
+use pattern::dxf::Standard;
+use pattern::{Handle, Style};
+use report::FileNames;
+use results::Sits;
+use spec::{JobSpec, Study};
+use store::{Result, StudyError};
+
+/// By how much a handle is moved to see what it changes, m.
+const STEP_M: f64 = 0.002;
+/// How far outside its target an ease counts as within, mm: the step of drawn amounts.
+const SLACK_MM: f64 = 0.5;
+/// Drapes at most that a change is found by, the first of the pattern as it is.
+const MOST_DRAPES: usize = 3;
+
+/// What a handle changes of every level (m per m) or reading (its unit per m).
+type Sensitivity = BTreeMap<String, f64>;
+
+/// Greatest amount of a handle either way where none is said, mm.
+pub const ALTER_LIMIT_MM: f64 = 60.0;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wish {
+    /// Garment; needed where the study has several.
+    pub garment: Option<String>,
+    /// Who is to wear it; needed where the study has several.
+    pub subject: Option<String>,
+    /// Size that is changed.
+    pub size: String,
+    /// Least and greatest ease of levels that are not to have that of the intended fit, mm, and of what is read off the drape, in its unit.
+    pub targets: BTreeMap<String, [f64; 2]>,
+    /// Greatest amount of a handle either way, mm.
+    pub limit_mm: f64,
+    /// Handles that stay.
+    pub without: Vec<Handle>,
+    /// Handles with their amounts, mm: then nothing else is changed.
+    pub moves_mm: Vec<(Handle, f64)>,
+    /// Whether the changed pattern is draped, though nothing is asked of the drape.
+    pub is_draped: bool,
+    /// Whether all sizes of the garment are changed alike and written as a nest: the grade stays.
+    pub is_nest: bool,
+    /// By which standard the changed pattern is written.
+    pub standard: Standard,
+}
+
+impl Wish {
+    /// The ease of the intended fit for a subject in a size of a garment, by any handle; nothing of the drape.
+    #[must_use]
+    pub fn of(garment: &str, subject: &str, size: &str) -> Self {
+        Self {
+            garment: Some(garment.to_owned()),
+            subject: Some(subject.to_owned()),
+            size: size.to_owned(),
+            targets: BTreeMap::new(),
+            limit_mm: ALTER_LIMIT_MM,
+            without: vec![],
+            moves_mm: vec![],
+            is_draped: false,
+            is_nest: false,
+            standard: Standard::Aama,
+        }
+    }
+}
+
+/// A handle that moves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MovedHandle {
+    /// Name of the handle.
+    pub handle: &'static str,
+    /// By how much, mm.
+    pub amount_mm: f64,
+    /// What a positive amount does.
+    pub does: &'static str,
+    /// Whether that is half of a girth, which changes by twice as much.
+    pub is_half_girth: bool,
+}
+
+/// A level before and after.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AlteredLevel {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Least and greatest ease that is meant, mm.
+    pub target_mm: Option<[f64; 2]>,
+    /// Ease before, mm.
+    pub before_mm: f64,
+    /// Ease that the change promises, mm.
+    pub promised_mm: f64,
+    /// Ease of the pattern as it is written and read again, mm.
+    pub achieved_mm: f64,
+}
+
+impl AlteredLevel {
+    /// Where an ease, mm, lies beside what is meant; `None` where nothing is.
+    #[must_use]
+    pub fn sits(&self, ease_mm: f64) -> Option<Sits> {
+        self.target_mm.map(|[least, most]| match ease_mm {
+            ease_mm if ease_mm < least - SLACK_MM => Sits::Tight,
+            ease_mm if ease_mm > most + SLACK_MM => Sits::Loose,
+            _ => Sits::AsMeant,
+        })
+    }
+
+    /// Whether what is achieved lies within what is meant.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.sits(self.achieved_mm).is_none_or(|sits| sits == Sits::AsMeant)
+    }
+}
+
+/// What may be asked, and what it is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Standing {
+    /// Level or reading.
+    pub name: String,
+    /// `mm`, `deg` or `kPa`.
+    pub unit: &'static str,
+    /// What it is, in its unit.
+    pub value: f64,
+    /// Whether it is the ease of the flat pattern at a level, or read off the drape.
+    pub is_ease: bool,
+}
+
+/// A quantity of the drape before and after.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AlteredReading {
+    /// Name of the quantity, such as `off_neck_side`.
+    pub reading: String,
+    /// `mm`, `deg` or `kPa`.
+    pub unit: &'static str,
+    /// Least and greatest that is asked for.
+    pub target: [f64; 2],
+    /// Value on the pattern as it was.
+    pub before: f64,
+    /// What the change promises.
+    pub promised: f64,
+    /// Value on the drape of the changed pattern.
+    pub achieved: f64,
+}
+
+impl AlteredReading {
+    /// Whether what is achieved lies within what is asked for.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        within(self.target, self.achieved)
+    }
+}
+
+/// Whether a value lies in a band, or out of it by less than its twentieth.
+fn within([least, most]: [f64; 2], value: f64) -> bool {
+    let near = 0.05 * (most - least);
+    (least - near..=most + near).contains(&value)
+}
+
+/// The changed pattern on the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Redraped {
+    /// Whether it came to rest.
+    pub converged: bool,
+    /// Error indicator of its measurements.
+    pub ei: f64,
+    /// Deepest penetration into the body, mm.
+    pub penetration_max_mm: f64,
+    /// Hem in front less behind, mm.
+    pub hem_front_over_back_mm: Option<f64>,
+    /// Greatest pressure, kPa.
+    pub most_kpa: Option<f64>,
+    /// Folds that cloth under tension makes.
+    pub drag_lines: usize,
+}
+
+impl Redraped {
+    /// What is to be said of it, in a line.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let rest = if self.converged { "at rest" } else { "not at rest" };
+        let hem = self.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
+        let most = self.most_kpa.map_or(String::new(), |kpa| format!(", presses with at most {kpa:.2} kPa"));
+        let drag = match self.drag_lines {
+            0 => "no drag lines".to_owned(),
+            count => format!("drag lines: {count}"),
+        };
+        format!("{rest}, EI {:.4}, {:.2} mm inside{hem}{most}, {drag}", self.ei, self.penetration_max_mm)
+    }
+}
+
+/// A change of a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Alteration {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the subject in the study.
+    pub subject: String,
+    /// Size that is changed.
+    pub size: String,
+    /// The handles that move.
+    pub moves: Vec<MovedHandle>,
+    /// Ease at every level, from the neck down.
+    pub levels: Vec<AlteredLevel>,
+    /// What is asked of the drape.
+    pub readings: Vec<AlteredReading>,
+    /// How many times the garment was draped.
+    pub drapes: usize,
+    /// Handles that cannot be moved here, and why; levels that are missed, and why; what else is to be known.
+    pub remarks: Vec<String>,
+    /// The changed pattern on the body, where that is asked.
+    pub drape: Option<Redraped>,
+    /// The changed pattern, its seam file, and a sheet of old and new outlines, by file name.
+    #[serde(skip)]
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl Alteration {
+    /// Whether everything that is meant and asked for is achieved.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.levels.iter().all(AlteredLevel::is_met) && self.readings.iter().all(AlteredReading::is_met)
+    }
+}
+
+/// Finds the least change that gives every level the ease that is meant and the drape what is asked of it, or applies the one that is
+/// asked for.
+///
+/// # Errors
+/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and a target that neither ease nor drape has; what
+/// body, pattern or simulator refuse; a handle that cannot move so far.
+pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
+    let Asked { spec, others, target } = asked(study, wish)?;
+    let body = spec.person.body()?;
+    let style = pipeline::style(&spec)?;
+    let bench = Bench::new(&style, &body, &target, wish);
+    let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
+    let room = (asks_drape || wish.is_draped).then(|| FittingRoom::new(&spec, &body)).transpose()?;
+    let found = match &room {
+        Some(room) if asks_drape => Tried::on(room, &bench)?,
+        Some(room) => Tried::flat_and_draped(&bench, room)?,
+        None => Tried::flat(&bench)?,
+    };
+    let moves = bench.moves(&found.amounts);
+    let changed = style.moved(&moves).map_err(StudyError::stage("alter"))?;
+    let mut names = FileNames::default();
+    let name = names.part(&format!("{}-{}-{}", spec.garment, spec.size, spec.subject));
+    let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard, &name)?;
+    if wish.is_nest {
+        let name = names.part(&format!("{}-nest-{}", spec.garment, spec.subject));
+        written.files.push(written::nest(&spec, &others, &moves, wish.standard, &name)?);
+    }
+    let levels = bench.levels(&changed, &written.again);
+    let reasons = if wish.moves_mm.is_empty() { bench.reasons(&found.amounts, &levels) } else { Vec::new() };
+    let moved = |(handle, amount_m): &(Handle, f64)| MovedHandle {
+        handle: handle.as_str(),
+        amount_mm: mm(*amount_m),
+        does: handle.definition(),
+        is_half_girth: handle.is_half_girth(),
+    };
+    Ok(Alteration {
+        garment: spec.garment.clone(),
+        subject: spec.subject.clone(),
+        size: spec.size.clone(),
+        moves: moves.iter().map(moved).collect(),
+        levels,
+        readings: found.readings(wish),
+        drapes: found.drapes,
+        remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).cloned().collect(),
+        drape: found.after.map(|(redraped, _)| redraped),
+        files: written.files,
+    })
+}
+
+/// A style on a body, draped by FEM-GS as its study drapes it: what it measures, and the ease of the drape at every level, m.
+pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
+    FittingRoom::new(spec, body)?.outcome(style)
+}
+
+/// What may be asked of a size on a subject and what it is now: ease at every level, and what is read off the drape.
+///
+/// # Errors
+/// As [`alter`].
+pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
+    let Asked { spec, target, .. } = asked(study, wish)?;
+    let body = spec.person.body()?;
+    let style = pipeline::style(&spec)?;
+    let bench = Bench::new(&style, &body, &target, wish);
+    let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;
+    let eases = bench.levels(&style, &style).into_iter();
+    let ease = |level: AlteredLevel| Standing { name: level.level, unit: "mm", value: level.before_mm, is_ease: true };
+    let read = |(name, reading): (String, readings::Reading)| Standing {
+        name,
+        unit: reading.unit,
+        value: reading.value,
+        is_ease: false,
+    };
+    Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
+}
+
+/// What is asked for.
+struct Asked {
+    /// Job of the garment's size on the subject.
+    spec: JobSpec,
+    /// Jobs of the garment's other sizes on the same subject.
+    others: Vec<JobSpec>,
+    /// The ease that the garment is to have.
+    target: Target,
+}
+
+fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
+    let jobs = spec::jobs(study);
+    let garments: Vec<String> = study.garments.iter().map(|garment| garment.name.clone()).collect();
+    let garment = one("garment", wish.garment.as_deref(), garments)?;
+    let of_garment = || jobs.iter().filter(|job| job.garment == garment);
+    let subject = one("subject", wish.subject.as_deref(), of_garment().map(|job| job.subject.clone()).collect())?;
+    let size = one("size", Some(&wish.size), of_garment().map(|job| job.size.clone()).collect())?;
+    let mut on_subject: Vec<JobSpec> = of_garment().filter(|job| job.subject == subject).cloned().collect();
+    // Of several simulators the first: size by size once.
+    let mut seen = BTreeSet::new();
+    on_subject.retain(|job| seen.insert(job.size.clone()));
+    let Some(place) = on_subject.iter().position(|job| job.size == size) else {
+        return Err(StudyError::NotFound {
+            what: "job",
+            name: format!("{garment} {size} on {subject}"),
+            known: vec![],
+        });
+    };
+    let spec = on_subject.remove(place);
+    let entry = study.garments.iter().find(|entry| entry.name == garment);
+    let target = entry.map_or_else(Target::default, |entry| entry.target.clone());
+    Ok(Asked { spec, others: on_subject, target })
+}
+
+/// The name that is asked for among those known, whatever its case; the only one where none is asked for. `what` is also the
+/// flag that asks for it.
+pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
+    let mut seen = BTreeSet::new();
+    known.retain(|name| seen.insert(name.clone()));
+    let Some(asked) = asked else {
+        return match known.len() {
+            1 => Ok(known.remove(0)),
+            _ => Err(StudyError::Unsaid { what, known }),
+        };
+    };
+    let found = known.iter().find(|name| name.eq_ignore_ascii_case(asked)).cloned();
+    found.ok_or_else(|| StudyError::NotFound { what, name: asked.to_owned(), known })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_of_several_is_asked_for_by_its_name() {
+        let check = |asked: Option<&str>, known: &[&str], expect: &str| {
+            let known = known.iter().map(|name| (*name).to_owned()).collect();
+            let found = one("subject", asked, known).unwrap_or_else(|error| error.to_string());
+            assert_eq!(found, expect);
+        };
+        check(None, &["v"], "v");
+        check(None, &["v", "v"], "v");
+        check(Some("V"), &["ii", "v"], "v");
+        check(None, &["ii", "v"], "which subject? --subject says it; there are: ii, v");
+        check(Some("x"), &["ii", "v"], "no subject `x`; there are: ii, v");
+    }
+}

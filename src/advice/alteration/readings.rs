@@ -1,0 +1,109 @@
+//! What is read off a drape: how it hangs, the air under it, what it presses, and where its seams lie.
+
+use std::collections::BTreeMap;
+
+use body::Body;
+use engine::Level;
+use engine::levels::quantities;
+use fit::worn::{self, DIRECTIONS, Section};
+use geom::units::mm;
+use geom::{Surface, V3};
+use pattern::pom::Point;
+use pattern::style::PathPart;
+use pattern::{Garment, MaterialLine, Style};
+use sim::Fabric;
+use sim::sewn::Sewn;
+use store::{Result, StudyError};
+
+/// Directions either way from front, back, right or left that count to it: a quarter in all.
+const QUARTER: usize = DIRECTIONS / 8;
+
+/// A quantity of a drape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// In its unit.
+    pub value: f64,
+    /// `mm`, `deg` or `kPa`.
+    pub unit: &'static str,
+}
+
+/// Quantities of a drape by name.
+pub type Readings = BTreeMap<String, Reading>;
+
+/// A style on a body, with a mesh of it.
+pub struct Place<'a> {
+    body: &'a Body,
+    surface: Surface,
+    garment: &'a Garment,
+    fabric: &'a Fabric,
+    /// Lines of its edges, of the shoulder from the neck outwards and of the inseam from the fork down, on the mesh.
+    shoulder: Vec<MaterialLine>,
+    inseam: Vec<MaterialLine>,
+    necks: [Vec<MaterialLine>; 2],
+    style: &'a Style,
+}
+
+impl<'a> Place<'a> {
+    /// Lays the lines of a style on its mesh.
+    ///
+    /// # Errors
+    /// When the body has no surface.
+    pub fn new(body: &'a Body, style: &'a Style, garment: &'a Garment, fabric: &'a Fabric) -> Result<Self> {
+        let surface = Surface::new(&body.mesh).map_err(StudyError::stage("measure"))?;
+        let points = style.points_of_measure();
+        let named = [Point::Shoulder, Point::Inseam, Point::CentreFrontLength, Point::CentreBackLength];
+        let path = |point: Point| points.iter().find(|one| one.point == point).map(|one| one.path.as_slice());
+        let paths: Vec<&[PathPart]> = named.into_iter().map(|point| path(point).unwrap_or_default()).collect();
+        let mut laid = style.laid(garment, &paths).into_iter().map(Option::unwrap_or_default);
+        let mut next = || laid.next().unwrap_or_default();
+        let (shoulder, inseam, necks) = (next(), next(), [next(), next()]);
+        Ok(Self { body, surface, garment, fabric, shoulder, inseam, necks, style })
+    }
+
+    /// What is read where the vertices are at `positions`; `drawn` is the mesh as it is cut now, where that is a little other than the
+    /// one of the place.
+    ///
+    /// # Errors
+    /// When a triangle of the pattern mesh has no area.
+    pub fn readings(&self, drawn: &Garment, positions: &[V3]) -> Result<Readings> {
+        let sewn = Sewn::new(drawn, self.fabric, positions).map_err(StudyError::stage("measure"))?;
+        let mut found = Readings::new();
+        let hang = engine::levels::hang(self.style, self.garment, positions);
+        found.extend(quantities(&hang).into_iter().map(|(name, value, unit)| (name, Reading { value, unit })));
+        let mut add = |name: String, value_m: Option<f64>| {
+            found.extend(value_m.map(|m| (name, Reading { value: mm(m), unit: "mm" })));
+        };
+        for site in worn::sites(self.body) {
+            let Some(section) = Section::cut(site, &self.body.mesh, &sewn.mesh) else { continue };
+            let Level { level, gaps_m, .. } = Level::of(&section);
+            add(format!("gap_{level}"), mean(gaps_m.iter()));
+            for (number, side) in ["front", "right", "back", "left"].into_iter().enumerate() {
+                let first = DIRECTIONS + number * DIRECTIONS / 4 - QUARTER;
+                let towards = (first..=first + 2 * QUARTER).map(|k| &gaps_m[k % DIRECTIONS]);
+                add(format!("gap_{level}_{side}"), mean(towards));
+            }
+        }
+        let ends = |lines: &[MaterialLine]| {
+            let points = || lines.iter().flat_map(|line| &line.points);
+            Some([points().next()?.at(positions), points().next_back()?.at(positions)])
+        };
+        let off = |p: V3| self.surface.signed_distance(&p);
+        add("off_neck_side".to_owned(), ends(&self.shoulder).map(|[neck, _]| off(neck)));
+        add("off_shoulder_point".to_owned(), ends(&self.shoulder).map(|[_, tip]| off(tip)));
+        add("fork_below_crotch".to_owned(), ends(&self.inseam).map(|[fork, _]| self.body.levels.crotch_m - fork.z));
+        for (side, lines) in ["neck_front", "neck_back"].into_iter().zip(&self.necks) {
+            add(side.to_owned(), ends(lines).map(|[neck, _]| neck.z).filter(|_| !self.shoulder.is_empty()));
+        }
+        for one in worn::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
+            let most = Reading { value: one.most_kpa, unit: "kPa" };
+            found.insert(format!("pressure_{}", one.region.as_str()), most);
+        }
+        Ok(found)
+    }
+}
+
+/// Mean of the gaps that there are.
+fn mean<'g>(gaps_m: impl Iterator<Item = &'g Option<f64>>) -> Option<f64> {
+    let known: Vec<f64> = gaps_m.flatten().copied().collect();
+    (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
+}

@@ -1,0 +1,87 @@
+//! The changed pattern as files, and as they are read again.
+
+use pattern::dxf::{self, Standard};
+use pattern::handle::{self, Redrawn};
+use pattern::piece::Piece;
+use pattern::{Handle, Style, garmentcode, size_order};
+use spec::{JobSpec, patterns};
+use store::files::SourceFile;
+use store::{Result, StudyError};
+
+/// A changed pattern in files.
+pub struct Written {
+    /// By file name: the pattern, its seam file where it has one, and a sheet of old and new outlines.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// The style that the files make.
+    pub again: Style,
+}
+
+/// Writes a job's style as its handles change it into files called `name`: DXF with its seam file, or GarmentCode JSON where the pattern holds its own seams.
+///
+/// # Errors
+/// What the handles refuse of the pieces as they are drawn; what cannot be read again.
+pub fn written(
+    spec: &JobSpec,
+    [style, changed]: [&Style; 2],
+    moves: &[(Handle, f64)],
+    standard: Standard,
+    name: &str,
+) -> Result<Written> {
+    let sheet = (format!("{name}.svg"), pattern::drawing::changed_svg(style, changed).into_bytes());
+    let Some(seams) = &spec.seams else {
+        let text = serde_json::to_vec_pretty(&garmentcode::document(changed)).map_err(StudyError::stage("alter"))?;
+        let file = SourceFile { name: format!("{name}.json"), bytes: text.into() };
+        let again = patterns::read_style(&file, None, None, None)?;
+        return Ok(Written { files: vec![(file.name.clone(), file.bytes.to_vec()), sheet], again });
+    };
+    let Redrawn { pieces, seams: reseamed } = redrawn(spec, seams, moves)?;
+    let file =
+        SourceFile { name: format!("{name}.dxf"), bytes: dxf::write_pieces(&pieces, &texts(spec), standard).into() };
+    let seams = SourceFile { name: format!("{name}.seams.toml"), bytes: reseamed.into() };
+    let again = patterns::read_style(&file, Some(&seams), None, None)?;
+    let files = [&file, &seams].map(|file| (file.name.clone(), file.bytes.to_vec())).into_iter().chain([sheet]);
+    Ok(Written { files: files.collect(), again })
+}
+
+/// All sizes of a garment as the handles change them alike, in one DXF called `name`: every piece in every size, read again before it is handed out.
+///
+/// # Errors
+/// What the handles refuse of a size, and what cannot be read again; a pattern that holds its own seams, of which a nest cannot be made.
+pub fn nest(
+    spec: &JobSpec,
+    others: &[JobSpec],
+    moves: &[(Handle, f64)],
+    standard: Standard,
+    name: &str,
+) -> Result<(String, Vec<u8>)> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut reseamed = None;
+    for of in others.iter().chain([spec]) {
+        let message = format!("{}: holds its own seams; accepted for a nest: DXF with a seam file", of.pattern.name);
+        let seams = of.seams.as_ref().ok_or_else(|| StudyError::stage("alter")(message))?;
+        let sized = redrawn(of, seams, moves)?;
+        pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(of.size.clone()), ..piece }));
+        // The seam file beside the nest is that of the asked size, the last.
+        reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
+    }
+    size_order::sort(&mut pieces, |piece| piece.size.as_deref().unwrap_or_default());
+    let name = format!("{name}.dxf");
+    let bytes = dxf::write_pieces(&pieces, &texts(spec), standard);
+    let file = SourceFile { name: name.clone(), bytes: bytes.clone().into() };
+    for of in others.iter().chain([spec]) {
+        patterns::read_style(&file, reseamed.as_ref(), Some(&of.size), None)?;
+    }
+    Ok((name, bytes))
+}
+
+/// The pieces of a job's size as drawn, changed.
+fn redrawn(spec: &JobSpec, seams: &SourceFile, moves: &[(Handle, f64)]) -> Result<Redrawn> {
+    let unit = spec.unit.as_deref().and_then(patterns::unit_of);
+    let drawn = patterns::pieces(&spec.pattern, Some(&spec.size), unit)?;
+    handle::redrawn(&drawn, &seams.bytes, &seams.name, moves).map_err(StudyError::stage("alter"))
+}
+
+/// What a file says of itself.
+fn texts(spec: &JobSpec) -> [(String, String); 2] {
+    [("Style Name".to_owned(), spec.garment.clone()), ("Units".to_owned(), "METRIC".to_owned())]
+}

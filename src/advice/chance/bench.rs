@@ -1,0 +1,211 @@
+//! Ease of all sizes on whoever the subject may be: linear about the likeliest body, whose dimensions are moved one by one.
+
+use crate::chance::Question;
+use body::{Body, Dimension, Likely, Measurements};
+use engine::ease;
+use fit::Draw;
+use fit::target::Target;
+use geom::units::from_mm;
+use pattern::Style;
+use spec::bodies;
+use store::{Result, StudyError};
+
+/// Deviations of a normal distribution that its 80 % interval reaches.
+const REACH: f64 = 1.281_551_565_544_6;
+
+/// A level of a size.
+pub(super) struct Level {
+    /// Level of the body, such as `chest`.
+    pub name: String,
+    /// Least and greatest ease that is meant, m.
+    pub band_m: Option<[f64; 2]>,
+    /// Ease on the middle person, m.
+    middle_m: f64,
+    /// How the ease changes with the logarithm of each dimension, m, in the order of the bench's dimensions.
+    slopes: Vec<f64>,
+    /// Part of the garment whose seams run through it, and the standard deviation of the garment's length there, m.
+    made: (usize, f64),
+}
+
+/// A size on a subject.
+pub(super) struct Sized {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Levels at which the size has an ease.
+    pub levels: Vec<Level>,
+}
+
+impl Sized {
+    /// What is meant at each level, m.
+    pub fn bands(&self) -> Vec<Option<[f64; 2]>> {
+        self.levels.iter().map(|level| level.band_m).collect()
+    }
+
+    /// What one garment's length at each level is off by how it is made, m: alike along the same seams.
+    pub fn made_m(&self, draw: &mut Draw) -> Vec<f64> {
+        let made: [f64; PARTS] = std::array::from_fn(|_| draw.normal());
+        self.levels.iter().map(|level| level.made.1 * made[level.made.0]).collect()
+    }
+}
+
+/// All sizes of a garment on a subject.
+pub(super) struct Bench {
+    /// What was read of the subject.
+    pub readings: Measurements,
+    /// Its sizes, in order.
+    pub sizes: Vec<Sized>,
+    likely: Likely,
+    middle: Measurements,
+    error_factor: f64,
+    /// Dimensions that are not known exactly.
+    dimensions: Vec<Dimension>,
+}
+
+/// Ease by level, m.
+type Eases = Vec<(String, f64)>;
+
+/// Parts of a garment that are sewn each by itself: trunk, sleeves, legs, shoulders, neck.
+const PARTS: usize = 5;
+
+/// The part that a level belongs to, and the standard deviation of its length over the tolerance of half of a girth. One of twenty
+/// garments lies outside its tolerance, which is two deviations; a whole girth has twice that of its half, and sleeves and legs
+/// three quarters of the trunk's, as makers allow [Proper Cloth].
+fn part(level: &str) -> (usize, f64) {
+    match level {
+        "across_shoulder" => (3, 0.5),
+        "neck" => (4, 0.5),
+        "upper_arm" | "forearm" | "wrist" => (1, 0.75),
+        "thigh" | "knee" => (2, 0.75),
+        _ => (0, 1.0),
+    }
+}
+
+impl Bench {
+    /// The sizes of a garment on a subject of whom some readings are known; on a scan, where the subject is one, which then is read
+    /// by a tape of its own.
+    pub fn new(
+        styles: &[(String, Style)],
+        target: &Target,
+        measurements: &Measurements,
+        scanned: Option<&Body>,
+        question: &Question,
+    ) -> Result<Self> {
+        let readings = scanned.map_or_else(|| measurements.clone(), |body| read_on(body, measurements));
+        let error_factor = question.error_factor;
+        let error = |dimension: Dimension| error_factor * dimension.reading_error();
+        let likely = Likely::of(&readings, error).map_err(StudyError::stage("body"))?;
+        let middle = likely.median();
+        let is_open = |dimension: &Dimension| likely.spread(*dimension) > 1e-6;
+        let dimensions: Vec<Dimension> = Dimension::ALL.into_iter().filter(is_open).collect();
+        let mut bench = Self { readings, sizes: Vec::new(), likely, middle, error_factor, dimensions };
+        let built = bodies::build_body(&bench.middle)?;
+        let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|one| bench.moved(*one)).collect();
+        let tolerance_m = from_mm(question.tolerance_mm);
+        let size = |(size, style): &(String, Style)| Sized {
+            size: size.clone(),
+            levels: bench.levels(style, target, &built, &moved, scanned, tolerance_m),
+        };
+        bench.sizes = styles.iter().map(size).collect();
+        Ok(bench)
+    }
+
+    /// Standard deviation of the error of a reading, m or kg.
+    pub fn error(&self, dimension: Dimension) -> f64 {
+        self.error_factor * dimension.reading_error()
+    }
+
+    /// The 80 % interval of a dimension with its middle, m or kg.
+    pub fn likely_at(&self, dimension: Dimension) -> Option<[f64; 3]> {
+        let (middle, spread) = (self.middle.get(dimension)?, self.likely.spread(dimension));
+        Some([-REACH, 0.0, REACH].map(|score| middle * (score * spread).exp()))
+    }
+
+    /// Whoever the subject may be.
+    pub fn person(&self, draw: &mut Draw) -> Measurements {
+        self.likely.person(&std::array::from_fn(|_| draw.normal()))
+    }
+
+    /// Ease at every level of a size on a person, m, of a garment that is made as exactly as garments are.
+    pub fn eases_m(&self, size: &Sized, person: &Measurements, draw: &mut Draw) -> Vec<f64> {
+        let off = self.off(&self.middle, person);
+        size.levels.iter().zip(size.made_m(draw)).map(|(level, made_m)| level.on(&off) + made_m).collect()
+    }
+
+    /// Difference of two people in the logarithms of the dimensions that are not known exactly; what either does not have is none.
+    fn off(&self, from: &Measurements, to: &Measurements) -> Vec<f64> {
+        let one = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
+        self.dimensions.iter().map(|dimension| one(dimension).unwrap_or(0.0)).collect()
+    }
+
+    /// The middle body with a dimension one deviation less and more; `None` where there is no such body.
+    fn moved(&self, dimension: Dimension) -> [Option<Body>; 2] {
+        [-1.0, 1.0].map(|side| {
+            let value = self.middle.get(dimension).map(|value| value * (side * self.likely.spread(dimension)).exp());
+            bodies::build_body(&self.middle.clone().with(dimension, value)).ok()
+        })
+    }
+
+    /// The levels of a size on the middle body, or on a scan.
+    fn levels(
+        &self,
+        style: &Style,
+        target: &Target,
+        built: &Body,
+        moved: &[[Option<Body>; 2]],
+        scanned: Option<&Body>,
+        tolerance_m: f64,
+    ) -> Vec<Level> {
+        let at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
+        let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
+        let all: Vec<&Body> = bodies.clone().flatten().collect();
+        let mut found = ease::on_all(style, &all).into_iter();
+        let next = |body: Option<&Body>| -> Option<Eases> {
+            let eases = body.and_then(|_| found.next())?;
+            Some(eases.into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect())
+        };
+        let mut eases = bodies.map(next);
+        let middle = eases.next().flatten().unwrap_or_default();
+        let own = eases.next().flatten();
+        let moved: Vec<[Option<Eases>; 2]> =
+            (0..moved.len()).map(|_| [eases.next().flatten(), eases.next().flatten()]).collect();
+        let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Eases>; 2])| {
+            let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| at(eases, level)));
+            let sides = f64::from(u8::from(less.is_some()) + u8::from(more.is_some()));
+            let change = more.unwrap_or(here) - less.unwrap_or(here);
+            if sides > 0.0 { change / (sides * self.likely.spread(*dimension)) } else { 0.0 }
+        };
+        let is_top = middle.iter().any(|(level, _)| level == "chest" || level == "bust");
+        let level = |(name, here): &(String, f64)| {
+            let (part, share) = part(name);
+            let slopes = self.dimensions.iter().zip(&moved).map(|moved| slope(name, *here, moved)).collect();
+            let found = Level {
+                name: name.clone(),
+                band_m: target.band_m(name, is_top),
+                middle_m: *here,
+                slopes,
+                made: (part, share * tolerance_m),
+            };
+            // A scan has a shape of its own: its ease where it was read, moved to the middle person.
+            let own = own.as_ref().and_then(|eases| at(eases, name));
+            let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
+            Level { middle_m, ..found }
+        };
+        middle.iter().map(level).collect()
+    }
+}
+
+impl Level {
+    /// Ease on a person that is so far off the middle one, m.
+    fn on(&self, off: &[f64]) -> f64 {
+        self.middle_m + self.slopes.iter().zip(off).map(|(slope, off)| slope * off).sum::<f64>()
+    }
+}
+
+/// What a tape reads on a scanned body.
+fn read_on(body: &Body, measurements: &Measurements) -> Measurements {
+    let mut read = measurements.clone();
+    for dimension in Dimension::ALL {
+        read.set(dimension, body.girths.get(dimension).or_else(|| measurements.get(dimension)));
+    }
+    read
+}

@@ -1,0 +1,278 @@
+//! How probable it is that a garment fits: what is not known of body, garment, cloth and start is drawn, and every draw is judged.
+
+mod bench;
+mod draped;
+mod planted;
+#[cfg(test)]
+mod tests;
+
+pub use draped::DrapedChance;
+pub use planted::{PlantedLevel, PlantedTally, Reliability, planted};
+
+use serde::Serialize;
+
+use crate::alteration::one;
+use bench::{Bench, Sized};
+use body::Dimension;
+use engine::pipeline;
+use fit::Draw;
+use fit::chance::{self, Share, Sitting, Verdict};
+use fit::target::{Target, is_within_reach};
+use geom::units::{from_mm, mm};
+use report::Chart;
+use report::chart::{Probable, chance_chart};
+use spec::{JobSpec, Study};
+use store::{Result, StudyError};
+
+/// Whose fit is asked for, and what is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Garment; needed where the study has several.
+    pub garment: Option<String>,
+    /// Who is to wear it; needed where the study has several.
+    pub subject: Option<String>,
+    /// Size whose levels are told; by default the one that is worn most often.
+    pub size: Option<String>,
+    /// How often what is not known is drawn.
+    pub draws: usize,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Errors of readings over those of somebody trained.
+    pub error_factor: f64,
+    /// How far half of a girth of the garment may be off, mm; one of twenty garments is off by more.
+    pub tolerance_mm: f64,
+    /// How many draws are draped by FEM-GS.
+    pub fem: usize,
+}
+
+/// A dimension of the subject.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LikelyDimension {
+    /// Key, with its unit.
+    pub dimension: &'static str,
+    /// What was read, and the standard deviation of its error; `None` where nothing was.
+    pub read: Option<[f64; 2]>,
+    /// Lower end, middle and upper end of the 80 % interval of the true value.
+    pub likely: [f64; 3],
+}
+
+/// A level of a size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelChance {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Least and greatest ease that is meant, mm; `None` where none is.
+    pub target_mm: Option<[f64; 2]>,
+    /// Lower end, middle and upper end of the 80 % interval of the ease, mm.
+    pub ease_mm: [f64; 3],
+    /// Share of draws in which it is too tight.
+    pub tight: f64,
+    /// Share in which it is too loose.
+    pub loose: f64,
+    /// Share in which it is the worst level, and not as meant.
+    pub decides: f64,
+}
+
+impl LevelChance {
+    /// Share of draws in which it is as meant.
+    #[must_use]
+    pub fn as_meant(&self) -> f64 {
+        1.0 - self.tight - self.loose
+    }
+}
+
+/// How probable it is that a size is to wear, and that it fits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeChance {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// That it is the size to wear.
+    pub wear: Share,
+    /// That every level is as meant.
+    pub fits: Share,
+    /// Share of draws in which its worst level is too tight.
+    pub tight: f64,
+    /// Share in which its worst level is too loose.
+    pub loose: f64,
+    /// Share in which that counts more than a grade step.
+    pub out_of_reach: f64,
+    /// Each level of the size, from the neck down.
+    pub levels: Vec<LevelChance>,
+}
+
+impl SizeChance {
+    /// What it probably is among the sizes: the one to wear, or only the nearest where more often than not it is out of reach.
+    #[must_use]
+    pub fn place(&self) -> &'static str {
+        if self.out_of_reach > 0.5 { "the nearest, though none fits," } else { "the one to wear" }
+    }
+
+    /// The level that decides most often, where any does.
+    #[must_use]
+    pub fn decides(&self) -> Option<&LevelChance> {
+        let most = self.levels.iter().max_by(|a, b| a.decides.total_cmp(&b.decides));
+        most.filter(|level| level.decides > 0.0)
+    }
+}
+
+/// How probable it is that a garment fits somebody.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chance {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the subject in the study.
+    pub subject: String,
+    /// Fit that is meant, as study files name it.
+    pub intended: &'static str,
+    /// Number of draws that shares are counted over.
+    pub draws: usize,
+    /// Seed of the draws: the same seed gives the same answer.
+    pub seed: u64,
+    /// What is known of the subject.
+    pub body: Vec<LikelyDimension>,
+    /// Its sizes, in order.
+    pub sizes: Vec<SizeChance>,
+    /// The size whose levels are told.
+    pub told: String,
+    /// That size draped, where that is asked.
+    pub drape: Option<DrapedChance>,
+}
+
+impl Chance {
+    /// The size whose levels are told.
+    #[must_use]
+    pub fn told(&self) -> Option<&SizeChance> {
+        self.sizes.iter().find(|size| size.size == self.told)
+    }
+
+    /// The ease of every size, level by level, beside its targets.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn chart(&self) -> Result<Chart> {
+        let title = format!("{} on {}", self.garment, self.subject);
+        let row = |size: &SizeChance, level: &LevelChance| Probable {
+            size: size.size.clone(),
+            level: level.level.replace('_', " "),
+            target_m: level.target_mm.map(|band| band.map(from_mm)),
+            ease_m: level.ease_mm.map(from_mm),
+            share: level.target_mm.map(|_| level.as_meant()),
+        };
+        let rows: Vec<Probable> =
+            self.sizes.iter().flat_map(|size| size.levels.iter().map(|level| row(size, level))).collect();
+        chance_chart(&title, &rows).map_err(StudyError::stage("report"))
+    }
+}
+
+/// How probable it is that the sizes of a garment fit a subject.
+///
+/// # Errors
+/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have; what body or pattern refuse.
+pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
+    let (jobs, target) = asked(study, question)?;
+    let first = jobs.first().ok_or_else(|| StudyError::stage("chance")("the garment has no size"))?;
+    let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
+    let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?)));
+    let styles = styles.collect::<Result<Vec<_>>>()?;
+    let scanned = first.person.scan.is_some().then(|| first.person.body()).transpose()?;
+    let bench = Bench::new(&styles, &target, &first.person.measurements, scanned.as_ref(), question)?;
+    let sizes = tallied(&bench, question);
+    let worn = sizes.iter().reduce(|best, size| if size.wear.share > best.wear.share { size } else { best });
+    let told = asked_size.or_else(|| worn.map(|size| size.size.clone())).unwrap_or_default();
+    let job = jobs.iter().find(|job| job.size == told).filter(|_| question.fem > 0);
+    Ok(Chance {
+        garment: first.garment.clone(),
+        subject: first.subject.clone(),
+        intended: target.intended.as_str(),
+        draws: question.draws,
+        seed: question.seed,
+        body: known(&bench),
+        drape: job.map(|job| draped::draped(job, &bench, question)).transpose()?,
+        told,
+        sizes,
+    })
+}
+
+fn sizes_of(jobs: &[JobSpec]) -> Vec<String> {
+    jobs.iter().map(|job| job.size.clone()).collect()
+}
+
+/// A job of each size of what is asked, and the ease that the garment is to have.
+fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
+    let garments = study.garments.iter().map(|garment| garment.name.clone()).collect();
+    let name = one("garment", question.garment.as_deref(), garments)?;
+    let garment = study.garments.iter().find(|garment| garment.name == name);
+    let subjects = garment.map(|garment| garment.subjects.clone()).unwrap_or_default();
+    let subject = one("subject", question.subject.as_deref(), subjects)?;
+    let mut jobs = spec::jobs_of(study, &name, &subject);
+    jobs.dedup_by(|next, before| next.size == before.size);
+    Ok((jobs, garment.map_or_else(Target::default, |garment| garment.target.clone())))
+}
+
+/// Every dimension as it is likely to be.
+fn known(bench: &Bench) -> Vec<LikelyDimension> {
+    let scale = |dimension: Dimension, value: f64| (value * dimension.per_si() * 10.0).round() / 10.0;
+    let of = |dimension: Dimension| {
+        let likely = bench.likely_at(dimension)?;
+        let read = bench.readings.get(dimension).map(|value| [value, bench.error(dimension)]);
+        Some(LikelyDimension {
+            dimension: dimension.key(),
+            read: read.map(|read| read.map(|value| scale(dimension, value))),
+            likely: likely.map(|value| scale(dimension, value)),
+        })
+    };
+    Dimension::ALL.into_iter().filter_map(of).collect()
+}
+
+/// Draws bodies and garments, and counts.
+fn tallied(bench: &Bench, question: &Question) -> Vec<SizeChance> {
+    let mut draw = Draw::new(question.seed);
+    let mut drawn: Vec<Vec<Vec<f64>>> = vec![Vec::with_capacity(question.draws); bench.sizes.len()];
+    let mut verdicts: Vec<Vec<Verdict>> = vec![Vec::with_capacity(question.draws); bench.sizes.len()];
+    let mut worn = vec![0; bench.sizes.len()];
+    for _ in 0..question.draws {
+        let person = bench.person(&mut draw);
+        let mut judged = Vec::with_capacity(bench.sizes.len());
+        for (number, size) in bench.sizes.iter().enumerate() {
+            let eases = bench.eases_m(size, &person, &mut draw);
+            judged.push(chance::verdict(&eases, &size.bands()));
+            drawn[number].push(eases);
+        }
+        if let Some(best) = chance::to_wear(&judged) {
+            worn[best] += 1;
+        }
+        judged.into_iter().enumerate().for_each(|(number, verdict)| verdicts[number].push(verdict));
+    }
+    let all = bench.sizes.iter().zip(drawn).zip(verdicts).zip(worn);
+    all.map(|(((size, drawn), verdicts), worn)| size_chance(size, &drawn, &verdicts, worn)).collect()
+}
+
+fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usize) -> SizeChance {
+    let draws = verdicts.len();
+    let count = |is: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count();
+    let share = |count: usize| Share::of(count, draws).share;
+    let level = |(at, level): (usize, &bench::Level)| {
+        let eases: Vec<f64> = drawn.iter().map(|eases| eases[at]).collect();
+        let sits = |wanted: Sitting| {
+            let is = |ease: &&f64| level.band_m.is_some_and(|band| chance::sitting(**ease, band) == wanted);
+            share(eases.iter().filter(is).count())
+        };
+        LevelChance {
+            level: level.name.clone(),
+            target_mm: level.band_m.map(|band| band.map(mm)),
+            ease_mm: chance::interval(&eases).map(mm),
+            tight: sits(Sitting::Tight),
+            loose: sits(Sitting::Loose),
+            decides: share(count(&|verdict| verdict.decides == Some(at))),
+        }
+    };
+    SizeChance {
+        size: size.size.clone(),
+        wear: Share::of(worn, draws),
+        fits: Share::of(count(&|verdict| verdict.sitting == Sitting::Fits), draws),
+        tight: share(count(&|verdict| verdict.sitting == Sitting::Tight)),
+        loose: share(count(&|verdict| verdict.sitting == Sitting::Loose)),
+        out_of_reach: share(count(&|verdict| !is_within_reach(verdict.weight_m))),
+        levels: size.levels.iter().enumerate().map(level).collect(),
+    }
+}

@@ -1,0 +1,202 @@
+//! Whether what is told comes true: people are planted whose bodies are known, measured with errors, and judged from the readings.
+
+use std::thread;
+
+use serde::Serialize;
+
+use crate::chance::bench::Bench;
+use crate::chance::{Question, asked, tallied};
+use body::{Body, Dimension, Likely, Measurements, Sex};
+use engine::{ease, pipeline};
+use fit::Draw;
+use fit::chance::{self, Share, Sitting};
+use fit::target::Target;
+use geom::units::mm;
+use pattern::Style;
+use spec::{Study, bodies};
+use store::{Result, StudyError};
+
+/// A level over all people.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlantedLevel {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// People who have it.
+    pub people: usize,
+    /// Share of them whose true ease lies in the 80 % interval that was told.
+    pub held: Share,
+    /// Mean width of the interval, mm.
+    pub width_mm: f64,
+}
+
+/// Cases whose probability was told within a range.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Reliability {
+    /// Least and greatest probability that was told.
+    pub told: [f64; 2],
+    /// Number of cases, each a size on a person.
+    pub cases: usize,
+    /// Mean of what was told.
+    pub mean: f64,
+    /// Share that came true.
+    pub came_true: Share,
+}
+
+/// What became of planted people.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlantedTally {
+    /// People, half of them women.
+    pub people: usize,
+    /// What was read of each.
+    pub read: Vec<&'static str>,
+    /// Over all levels that have a target.
+    pub held: Share,
+    /// The same by level, over the people who have it.
+    pub levels: Vec<PlantedLevel>,
+    /// That a size fits, over all sizes.
+    pub fits: Vec<Reliability>,
+    /// That a size is the one to wear, over all sizes.
+    pub wear: Vec<Reliability>,
+}
+
+/// Bounds of the ranges of told probabilities.
+const RANGES: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
+
+/// What was told of one person, and what is so.
+#[derive(Default)]
+struct Case {
+    /// Level, whether it has a target, the 80 % interval told, and the true ease; mm.
+    levels: Vec<(String, bool, [f64; 3], f64)>,
+    /// Probability told that a size fits, and whether it does.
+    fits: Vec<(f64, bool)>,
+    wear: Vec<(f64, bool)>,
+}
+
+/// Plants people of both sexes as the survey has them, reads of each what is read of the subject that is asked for, with errors of
+/// `error_factor`, and counts how often the truth lies where [`chance`](crate::chance::chance()) says.
+///
+/// # Errors
+/// As [`chance`](crate::chance::chance()).
+pub fn planted(study: &Study, question: &Question, people: usize, error_factor: f64) -> Result<PlantedTally> {
+    let (jobs, target) = asked(study, question)?;
+    let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?))).collect::<Result<Vec<_>>>()?;
+    let read = jobs.first().map(|job| job.person.measurements.known().map(|(dimension, _)| dimension).collect());
+    let read: Vec<Dimension> = read.unwrap_or_default();
+    let plot = Plot { styles: &styles, target: &target, read: &read, question, error_factor };
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    let cases: Vec<Result<Vec<Case>>> = thread::scope(|scope| {
+        let work = |worker: usize| move || (worker..people).step_by(workers).map(|number| plot.case(number)).collect();
+        let threads: Vec<_> = (0..workers).map(|worker| scope.spawn(work(worker))).collect();
+        let lost = |_| Err(StudyError::stage("chance")("a thread ended early"));
+        threads.into_iter().map(|thread| thread.join().unwrap_or_else(lost)).collect()
+    });
+    let cases: Vec<Case> = cases.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+    Ok(tally(&cases, &read))
+}
+
+#[derive(Clone, Copy)]
+struct Plot<'a> {
+    styles: &'a [(String, Style)],
+    target: &'a Target,
+    read: &'a [Dimension],
+    question: &'a Question,
+    error_factor: f64,
+}
+
+impl Plot<'_> {
+    /// Plants a person, measures them with errors, and compares what is told with the truth.
+    fn case(&self, number: usize) -> Result<Case> {
+        let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
+        let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };
+        // Whoever cannot be built, or is read as nobody is, is somebody else.
+        let (body, bench) = loop {
+            if let Some(found) = self.planted(sex, &mut draw) {
+                break found;
+            }
+        };
+        let told = tallied(&bench, &Question { seed: draw.bits(), ..self.question.clone() });
+        let Some(worn) = told.iter().reduce(|best, size| if size.wear.share > best.wear.share { size } else { best })
+        else {
+            return Ok(Case::default());
+        };
+        let mut case = Case::default();
+        let mut verdicts = Vec::new();
+        for ((size, chance), (_, style)) in bench.sizes.iter().zip(&told).zip(self.styles) {
+            let eases = ease::on(style, &body);
+            let made_m = size.made_m(&mut draw);
+            let of = |level: &str| eases.iter().find(|ease| ease.level == level).map_or(f64::NAN, |ease| ease.ease_m());
+            let truth: Vec<f64> = size.levels.iter().zip(made_m).map(|(level, made)| of(&level.name) + made).collect();
+            let verdict = chance::verdict(&truth, &size.bands());
+            case.fits.push((chance.fits.share, verdict.sitting == Sitting::Fits));
+            verdicts.push(verdict);
+            if chance.size == worn.size {
+                let levels = chance.levels.iter().zip(truth).filter(|(_, ease_m)| ease_m.is_finite());
+                case.levels.extend(
+                    levels.map(|(one, ease_m)| (one.level.clone(), one.target_mm.is_some(), one.ease_mm, mm(ease_m))),
+                );
+            }
+        }
+        let to_wear = chance::to_wear(&verdicts);
+        case.wear = told.iter().enumerate().map(|(at, size)| (size.wear.share, to_wear == Some(at))).collect();
+        Ok(case)
+    }
+
+    /// Somebody's body, and the sizes on whoever was read there.
+    fn planted(&self, sex: Sex, draw: &mut Draw) -> Option<(Body, Bench)> {
+        let person = Likely::anybody(sex).person(&std::array::from_fn(|_| draw.normal()));
+        let body = bodies::build_body(&person).ok()?;
+        let mut readings = Measurements::of(sex, f64::NAN);
+        for dimension in self.read {
+            let error = self.error_factor * dimension.reading_error() * draw.normal();
+            readings.set(*dimension, person.get(*dimension).map(|value| value + error));
+        }
+        let bench = Bench::new(self.styles, self.target, &readings, None, self.question).ok()?;
+        Some((body, bench))
+    }
+}
+
+fn tally(cases: &[Case], read: &[Dimension]) -> PlantedTally {
+    let is_held = |told: &[f64; 3], truth: f64| (told[0]..=told[2]).contains(&truth);
+    let all = || cases.iter().flat_map(|case| &case.levels);
+    let mut names: Vec<&str> = Vec::new();
+    for (name, ..) in all() {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    let level = |name: &&str| {
+        let own: Vec<_> = all().filter(|(level, ..)| level == name).collect();
+        let held = own.iter().filter(|(_, _, told, truth)| is_held(told, *truth)).count();
+        let width = own.iter().map(|(_, _, told, _)| told[2] - told[0]).sum::<f64>() / own.len() as f64;
+        PlantedLevel {
+            level: (*name).to_owned(),
+            people: own.len(),
+            held: Share::of(held, own.len()),
+            width_mm: (width * 10.0).round() / 10.0,
+        }
+    };
+    let meant: Vec<_> = all().filter(|(_, is_meant, ..)| *is_meant).collect();
+    let held = meant.iter().filter(|(_, _, told, truth)| is_held(told, *truth)).count();
+    PlantedTally {
+        people: cases.len(),
+        read: read.iter().map(|dimension| dimension.key()).collect(),
+        held: Share::of(held, meant.len()),
+        levels: names.iter().map(level).collect(),
+        fits: reliability(cases.iter().flat_map(|case| &case.fits)),
+        wear: reliability(cases.iter().flat_map(|case| &case.wear)),
+    }
+}
+
+/// Told probabilities in ranges, beside how often they came true.
+fn reliability<'a>(told: impl Iterator<Item = &'a (f64, bool)>) -> Vec<Reliability> {
+    let told: Vec<&(f64, bool)> = told.collect();
+    let last = RANGES.len() - 2;
+    let of = |at: usize| {
+        let [low, high] = [RANGES[at], RANGES[at + 1]];
+        let own: Vec<_> = told.iter().filter(|(p, _)| *p >= low && (*p < high || at == last)).collect();
+        let mean = own.iter().map(|(p, _)| p).sum::<f64>() / own.len() as f64;
+        let came_true = Share::of(own.iter().filter(|(_, is_so)| *is_so).count(), own.len());
+        Reliability { told: [low, high], cases: own.len(), mean, came_true }
+    };
+    (0..=last).map(of).filter(|one| one.cases > 0).collect()
+}

@@ -1,0 +1,66 @@
+//! Some of those whom a size fits, dressed by FEM-GS: whether the drape agrees that it fits.
+
+use crate::alteration;
+use crate::grading::DrapedAgain;
+use crate::grading::knobs::Band;
+use crate::grading::people::{self, Figure};
+use crate::grading::tally::Tally;
+use engine::Outcome;
+use geom::units::mm;
+use pattern::Style;
+use spec::JobSpec;
+use store::Result;
+
+/// How far outside its band an ease on a drape counts as within, m: nothing, when it is written.
+const SLACK_M: f64 = 0.5e-3;
+/// Deepest that cloth may lie inside the body, m.
+const INSIDE_M: f64 = 1e-3;
+
+/// Drapes a share of those whom a size fits, evenly among them, each in the size to wear.
+///
+/// # Errors
+/// What body or simulator refuse.
+pub fn agree(
+    spec: &JobSpec,
+    styles: &[Style],
+    names: &[String],
+    figures: &[Figure],
+    tally: &Tally,
+    bands: &[Band],
+    share: f64,
+) -> Result<DrapedAgain> {
+    let fitted: Vec<usize> = (0..figures.len()).filter(|person| tally.is_fitted(*person)).collect();
+    let count = ((fitted.len() as f64 * share).ceil() as usize).min(fitted.len());
+    let chosen: Vec<usize> = (0..count).map(|k| fitted[(2 * k + 1) * fitted.len() / (2 * count)]).collect();
+    let dressed = |person: &usize| -> Result<Option<String>> {
+        let size = tally.wears(*person);
+        let body = people::body(&figures[*person])?;
+        let (outcome, eases) = alteration::outcome(spec, &styles[size], &body)?;
+        let against = against(&outcome, &eases, bands);
+        Ok((!against.is_empty()).then(|| format!("person {} in {}: {}", person + 1, names[size], against.join(", "))))
+    };
+    let found = people::of_all(&chosen, dressed).into_iter().collect::<Result<Vec<Option<String>>>>()?;
+    let against: Vec<String> = found.into_iter().flatten().collect();
+    Ok(DrapedAgain { people: count, agree: count - against.len(), against })
+}
+
+/// What a drape says against a fit.
+fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<String> {
+    let mut against = Vec::new();
+    if !outcome.converged {
+        against.push("not at rest".to_owned());
+    }
+    if outcome.penetration_max_m > INSIDE_M {
+        against.push(format!("{:.1} mm inside the body", mm(outcome.penetration_max_m)));
+    }
+    for band in bands {
+        let Some((_, ease_m)) = eases.iter().find(|(level, _)| *level == band.level) else { continue };
+        let [least, most] = band.band_m;
+        if !(least - SLACK_M..=most + SLACK_M).contains(ease_m) {
+            let [ease, least, most] = [*ease_m, least, most].map(mm);
+            let level = band.level.replace('_', " ");
+            against.push(format!("{level} {ease:+.0} mm, meant {least:.0} to {most:.0}"));
+        }
+    }
+    against
+}

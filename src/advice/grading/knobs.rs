@@ -1,0 +1,245 @@
+//! What a pattern is graded by: a handle for each level that has a band, and what goes with the first of them as in the pattern's own
+//! grade.
+
+use crate::grading::people::{self, Figure};
+use fit::coverage::{Asked, Asks};
+use pattern::{Handle, Style};
+use store::{Result, StudyError};
+
+/// Sizes are drawn in steps of this, m.
+pub const STEP_M: f64 = 1e-3;
+/// By how much a knob is turned to see what it changes, m.
+const TRIED_M: f64 = 5e-3;
+/// Change of a level, m per m, from which on a handle may be the one for it.
+const STRONG: f64 = 0.3;
+/// Shares of the greatest turn that are tried in turn, where a handle cannot move so far.
+const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
+
+/// Slope below which nothing follows: it would be less than a step over the whole range.
+const SLIGHT: f64 = 0.01;
+/// Handles that make something wider: what may be turned for a level. A length is never shortened so that a level is not reached.
+const WIDTHS: [Handle; 10] = [
+    Handle::Chest,
+    Handle::Waist,
+    Handle::Hip,
+    Handle::Hem,
+    Handle::Thigh,
+    Handle::Knee,
+    Handle::LegOpening,
+    Handle::ShoulderLength,
+    Handle::Bicep,
+    Handle::Cuff,
+];
+/// Girths of the trunk.
+const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
+/// Ease that is as good as any, m.
+const ANY_M: f64 = 1e3;
+
+/// A level with the ease that is meant there.
+#[derive(Clone, Debug)]
+pub struct Band {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Least and greatest ease, m.
+    pub band_m: [f64; 2],
+}
+
+/// A pattern with all that changes from size to size.
+pub struct Knobs<'a> {
+    style: &'a Style,
+    /// The handles that are turned.
+    pub handles: Vec<Handle>,
+    /// What follows the first of them, m per m.
+    pub followers: Vec<(Handle, f64)>,
+    /// How far each is turned with the first in the pattern's own grade, m per m.
+    pub habits: Vec<f64>,
+    /// Least and greatest turn of each, steps.
+    pub limits: Vec<[i32; 2]>,
+}
+
+impl<'a> Knobs<'a> {
+    /// The knobs of a style by which the levels of somebody change; `own` are the pattern's own sizes, the style among them.
+    ///
+    /// # Errors
+    /// [`StudyError::Stage`] where no handle changes a level.
+    pub fn of(style: &'a Style, own: &[Style], somebody: &Figure, bands: &[Band], limit_m: f64) -> Result<Self> {
+        let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
+        let all = style.handles();
+        let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
+        let handles = chosen(&all, &changes);
+        let Some(lead) = handles.first() else {
+            let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
+            return Err(StudyError::stage("grade")(message));
+        };
+        let lead = *lead;
+        let slope = |handle: Handle| slope(own, lead, handle);
+        let others = all.iter().copied().filter(|handle| !handles.contains(handle));
+        let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
+        let followers = others.filter_map(follower).collect();
+        // Where there is no grade to learn from the girths of the trunk go together.
+        let alike = |handle: &Handle| if ALIKE.contains(handle) { 1.0 } else { 0.0 };
+        let habits = handles.iter().map(|handle| slope(*handle).unwrap_or_else(|| alike(handle))).collect();
+        let mut knobs = Self { style, handles, followers, habits, limits: Vec::new() };
+        knobs.limits = (0..knobs.handles.len()).map(|knob| knobs.limit(knob, limit_m)).collect();
+        Ok(knobs)
+    }
+
+    /// How far a knob can be turned either way, steps.
+    fn limit(&self, knob: usize, limit_m: f64) -> [i32; 2] {
+        let steps = |sign: f64| {
+            let turned = |share: &f64| {
+                let turn = (sign * share * limit_m / STEP_M).round() as i32;
+                let mut turns = vec![0; self.handles.len()];
+                turns[knob] = turn;
+                self.drawn(&turns).is_ok().then_some(turn)
+            };
+            LIMITS.iter().find_map(turned).unwrap_or(0)
+        };
+        [steps(-1.0), steps(1.0)]
+    }
+
+    /// Handles with their amounts, m, of a size, in the order in which they are moved: all of whole steps.
+    pub fn moves(&self, turns: &[i32]) -> Vec<(Handle, f64)> {
+        let amounts_m: Vec<f64> = turns.iter().map(|turn| f64::from(*turn) * STEP_M).collect();
+        let mut moves = self.moves_by(&amounts_m);
+        moves.iter_mut().for_each(|(_, amount_m)| *amount_m = (*amount_m / STEP_M).round() * STEP_M);
+        moves.retain(|(_, amount_m)| *amount_m != 0.0);
+        moves
+    }
+
+    /// The same for amounts of the knobs, m, and what follows by just what it follows.
+    fn moves_by(&self, amounts_m: &[f64]) -> Vec<(Handle, f64)> {
+        let lead_m = amounts_m.first().copied().unwrap_or(0.0);
+        let followers = self.followers.iter().map(|(handle, slope)| (*handle, slope * lead_m));
+        let mut moves: Vec<(Handle, f64)> = self.handles.iter().copied().zip(amounts_m.iter().copied()).collect();
+        moves.extend(followers);
+        moves.retain(|(_, amount_m)| *amount_m != 0.0);
+        moves.sort_by_key(|(handle, _)| *handle);
+        moves
+    }
+
+    /// The style in a size.
+    ///
+    /// # Errors
+    /// When a handle cannot be moved so far.
+    pub fn drawn(&self, turns: &[i32]) -> Result<Style> {
+        self.style.moved(&self.moves(turns)).map_err(StudyError::stage("grade"))
+    }
+
+    /// What everybody asks of a size at each level, from their ease on the base and what each knob changes of it. Where the base does not
+    /// cover a level of somebody any length will do.
+    ///
+    /// # Errors
+    /// When a knob cannot be turned at all.
+    pub fn asks(&self, figures: &[Figure], bands: &[Band]) -> Result<Vec<Asks>> {
+        let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
+        let base = people::eases(self.style, figures, &levels);
+        let mut tried = Vec::new();
+        for knob in 0..self.handles.len() {
+            let turned = |by_m: f64| -> Result<Vec<Vec<Option<f64>>>> {
+                let amounts_m: Vec<f64> = (0..self.handles.len()).map(|k| if k == knob { by_m } else { 0.0 }).collect();
+                let style = self.style.moved(&self.moves_by(&amounts_m)).map_err(StudyError::stage("grade"))?;
+                Ok(people::eases(&style, figures, &levels))
+            };
+            tried.push([turned(-TRIED_M)?, turned(TRIED_M)?]);
+        }
+        let asked = |person: usize, level: usize| -> Asked {
+            let Some(ease_m) = base[person][level] else {
+                return Asked { per_step: vec![0.0; self.handles.len()], band: [-ANY_M, ANY_M] };
+            };
+            let per_step = tried.iter().map(|[less, more]| {
+                let both = less[person][level].zip(more[person][level]);
+                both.map_or(0.0, |(less, more)| STEP_M * (more - less) / (2.0 * TRIED_M))
+            });
+            Asked { per_step: per_step.collect(), band: bands[level].band_m.map(|bound| bound - ease_m) }
+        };
+        let asks = (0..figures.len()).map(|person| (0..levels.len()).map(|level| asked(person, level)).collect());
+        Ok(asks.collect())
+    }
+}
+
+/// Sets what everybody asks of a size right by their ease on it as it is drawn with some turns: what the knobs change beside what was
+/// foreseen. A level that the base covers and the size does not makes it one that does not fit.
+pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], bands: &[Band]) {
+    for (asks, eases) in asks.iter_mut().zip(eases) {
+        for ((asked, ease_m), band) in asks.iter_mut().zip(eases).zip(bands) {
+            let is_any = asked.band[1] >= ANY_M;
+            match ease_m {
+                _ if is_any => {}
+                Some(ease_m) => {
+                    let unturned_m = ease_m - asked.change(turns);
+                    asked.band = band.band_m.map(|bound| bound - unturned_m);
+                }
+                None => asked.band = [ANY_M - 1.0, -ANY_M],
+            }
+        }
+    }
+}
+
+/// A handle for each level, as far as there are any: the strongest pairs first, and no handle for two levels.
+fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
+    let levels = changes.first().map_or(0, Vec::len);
+    let wide = (0..all.len()).filter(|k| WIDTHS.contains(&all[*k]));
+    let mut pairs: Vec<(usize, usize)> = wide.flat_map(|k| (0..levels).map(move |level| (k, level))).collect();
+    let strength = |(k, level): &(usize, usize)| changes[*k][*level].abs();
+    pairs.retain(|pair| strength(pair) > STRONG);
+    pairs.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    for (k, level) in pairs {
+        if taken.iter().all(|(handle, of)| *handle != k && *of != level) {
+            taken.push((k, level));
+        }
+    }
+    taken.sort_unstable();
+    taken.into_iter().map(|(k, _)| all[k]).collect()
+}
+
+/// What a handle changes of each level of somebody, m per m; nothing where it cannot be moved.
+fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
+    let moved = |by_m: f64| style.moved(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels));
+    match (moved(-TRIED_M), moved(TRIED_M)) {
+        (Ok(less), Ok(more)) => {
+            let change = |(less, more): (&Option<f64>, &Option<f64>)| {
+                less.zip(*more).map_or(0.0, |(less, more)| (more - less) / (2.0 * TRIED_M))
+            };
+            less.iter().zip(&more).map(change).collect()
+        }
+        _ => vec![0.0; levels.len()],
+    }
+}
+
+/// By how much the point of measure of a handle changes with that of the first, in the pattern's own grade: least squares over its sizes;
+/// `None` where the grade does not tell.
+fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
+    let lengths = |handle: Handle| -> Option<Vec<f64>> {
+        let point = handle.changes()?;
+        let of =
+            |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
+        let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        Some(lengths.iter().map(|length| length - mean).collect())
+    };
+    let (leading, other) = (lengths(lead)?, lengths(handle)?);
+    let spread: f64 = leading.iter().map(|x| x * x).sum();
+    (spread > STEP_M * STEP_M).then(|| leading.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>() / spread)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_level_has_a_handle_of_its_own_and_no_length_is_one() {
+        let all = [Handle::Chest, Handle::Waist, Handle::Hem, Handle::ArmholeDepth, Handle::BodyLength];
+        let check = |changes: &[[f64; 3]], expect: &[Handle]| {
+            let changes: Vec<Vec<f64>> = changes.iter().map(|levels| levels.to_vec()).collect();
+            assert_eq!(chosen(&all, &changes), expect);
+        };
+        // Chest, waist, and a hip that the waist changes more than the hem does.
+        let tee = [[2.0, 0.3, 0.0], [0.0, 2.0, 1.2], [0.0, 0.1, 0.8], [0.9, 0.0, 0.0], [0.0, 0.5, 2.5]];
+        check(&tee, &[Handle::Chest, Handle::Waist, Handle::Hem]);
+        let weak = [[2.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.2, 0.1], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
+        check(&weak, &[Handle::Chest]);
+    }
+}

@@ -1,0 +1,424 @@
+//! Which grade steps fit a population: the sizes that fit the most people, as a nest with its rules, a size chart and a specification
+//! sheet, beside the pattern's own sizes on people who were held out.
+//!
+//! `people` draws and builds the people, `knobs` finds what the pattern is graded by, and `fit::coverage` seeks the
+//! sizes. `tally` counts whom they fit, `nest` draws them and reads them again. `drape` dresses some of those that they
+//! fit, `picture` draws the people.
+
+mod drape;
+mod knobs;
+mod nest;
+mod people;
+mod picture;
+mod tally;
+
+use serde::Serialize;
+
+use crate::alteration::one;
+use crate::grading::knobs::{Band, Knobs};
+use crate::grading::people::Figure;
+use crate::grading::tally::Tally;
+use body::Sex;
+use engine::pipeline;
+use fit::coverage::{Asks, Search, Series, Turns};
+use geom::units::mm;
+use pattern::Style;
+use report::file_part;
+use spec::file::GarmentEntry;
+use spec::{JobSpec, Study, patterns};
+use store::{Result, StudyError};
+use wardrobe::seams::Specification;
+
+/// Greatest turn of a knob either way, m.
+const LIMIT_M: f64 = 0.150;
+/// Share of the people that must be won for each step that a size departs from the pattern's own way of grading.
+const PRICE: f64 = 5e-5;
+/// Shares of the greatest turns that are tried in turn, where a size cannot be drawn.
+const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
+/// How often the sizes are measured again as drawn, and sought anew.
+const ROUNDS: usize = 4;
+/// Accepted counts of sizes and of people.
+const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
+const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
+
+/// For whom a grade is sought, and from what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GradeWish {
+    /// Garment; needed where the study has several.
+    pub garment: Option<String>,
+    /// Sizes; as many as the pattern has where it is not said.
+    pub sizes: Option<usize>,
+    /// People whom the sizes are sought for.
+    pub people: usize,
+    /// People on whom they are judged.
+    pub held_out: usize,
+    /// Seed of the draw.
+    pub seed: u64,
+    /// Size of the pattern that the others are made of; the middle one where it is not said.
+    pub base: Option<String>,
+    /// Whether the steps between sizes are all the same.
+    pub is_even: bool,
+    /// Levels that are not asked for.
+    pub without: Vec<String>,
+    /// Share of those whom a size fits who are draped.
+    pub draped: f64,
+}
+
+impl Default for GradeWish {
+    fn default() -> Self {
+        Self {
+            garment: None,
+            sizes: None,
+            people: 2000,
+            held_out: 2000,
+            seed: 1,
+            base: None,
+            is_even: false,
+            without: Vec::new(),
+            draped: 0.0,
+        }
+    }
+}
+
+/// A handle of a size with its amount.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Turn {
+    /// Name of the handle.
+    pub handle: &'static str,
+    /// Amount beside the base pattern, mm.
+    pub amount_mm: f64,
+}
+
+/// A dimension of the people who wear a size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Range {
+    /// Key of the dimension, such as `chest_girth_mm`.
+    pub dimension: &'static str,
+    /// 5th percentile, median and 95th percentile, in the unit of its key.
+    pub values: [f64; 3],
+}
+
+/// A size of a set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeShare {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Share of the people held out whom it fits, %.
+    pub fits_percent: f64,
+    /// Share of them who wear it: it fits, and no smaller one does, %.
+    pub worn_percent: f64,
+    /// What changes of the base pattern; nothing of the pattern's own sizes.
+    pub turns: Vec<Turn>,
+    /// Dimensions of the people held out who wear it; none where nobody does.
+    pub wearers: Vec<Range>,
+}
+
+/// A set of sizes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeSet {
+    /// `own` or `new`.
+    pub set: &'static str,
+    /// Share of the people for whom the sizes were sought whom one fits, %.
+    pub sought_percent: f64,
+    /// Share of the people held out whom one fits, %.
+    pub held_out_percent: f64,
+    /// Half of its 95 % interval, percentage points.
+    pub within_percent: f64,
+    /// Its sizes, the smallest first.
+    pub sizes: Vec<SizeShare>,
+}
+
+/// What sets do at a level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelShare {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Least and greatest ease that is meant, mm.
+    pub target_mm: [f64; 2],
+    /// Share of the people held out of whom the size to wear lies within it, %, of the pattern's own sizes and of the new ones.
+    pub within_percent: [f64; 2],
+    /// Share of those whom no size fits who fail by it most, %, likewise.
+    pub fails_percent: [f64; 2],
+}
+
+/// A part of the people held out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartShare {
+    /// Least and greatest of what the body has at the first level of the girths, mm.
+    pub from_to_mm: [f64; 2],
+    /// Share of them whom a size fits, %, of the pattern's own sizes and of the new ones.
+    pub fits_percent: [f64; 2],
+}
+
+/// What some of those whom a size fits look like by FEM-GS.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrapedAgain {
+    /// How many were draped.
+    pub people: usize,
+    /// How many of them fit on the drape too.
+    pub agree: usize,
+    /// What is against each that does not.
+    pub against: Vec<String>,
+}
+
+/// A grade that fits a population, beside the pattern's own.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Grading {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the size that the grade starts from.
+    pub base: String,
+    /// Fit that is meant, as study files name it.
+    pub intended: &'static str,
+    /// Sex of the people.
+    pub sex: Sex,
+    /// People for whom the sizes were sought, and people held out, as far as they could be built.
+    pub people: [usize; 2],
+    /// Handles that are turned for a level each, and handles that follow the first of them.
+    pub handles: [Vec<&'static str>; 2],
+    /// The pattern's own sizes and the new ones.
+    pub sets: Vec<SizeSet>,
+    /// Every level that has a band.
+    pub levels: Vec<LevelShare>,
+    /// The level that parts are made by, and fifths of the people held out by it.
+    pub parts: (String, Vec<PartShare>),
+    /// Greatest distance between a size as drawn and as the rules make it, mm.
+    pub apart_mm: f64,
+    /// What drapes say, where that is asked.
+    pub drapes: Option<DrapedAgain>,
+    /// Points of measure of the new sizes.
+    pub sheet: Specification,
+    /// The pattern in all new sizes, and the picture, by file name.
+    #[serde(skip)]
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+/// Finds the sizes that fit the most people.
+///
+/// # Errors
+/// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range; a garment that
+/// women and men wear; a pattern that holds its own seams; what body or pattern refuse; rules that do not make the
+/// sizes again.
+pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
+    let asked = Asked::of(study, wish)?;
+    let seams = asked.spec.seams.as_ref().ok_or_else(|| {
+        refused(format!("{}: holds its own seams; accepted: DXF with a seam file", asked.spec.pattern.name))
+    })?;
+    let own = asked.own()?;
+    let base = &own[asked.base];
+    let drawn = people::drawn(asked.sex, [wish.people, wish.held_out], wish.seed);
+    // Somebody alone tells the levels, and whether one is measured at a height of its own.
+    let first = people::figures(&drawn[0][..1], false);
+    let somebody = first.first().ok_or_else(|| refused("the first of the people cannot be built".to_owned()))?;
+    let covered = somebody.covered(base);
+    let bands = bands(asked.entry, &covered, &wish.without)?;
+    let has_trunk = covered.iter().any(|(_, has_height)| *has_height);
+    let [sought, held_out] = drawn.map(|people| people::figures(&people, has_trunk));
+    let middle = in_the_middle(&sought, &bands[0].level).unwrap_or(somebody);
+    let knobs = Knobs::of(base, &own, middle, &bands, LIMIT_M)?;
+    let series = if wish.is_even { Series::Even } else { Series::Rising };
+    let turns = sizes(&knobs, &sought, &bands, asked.count, series, wish.seed)?;
+    let names = asked.names();
+    let nest = nest::drawn(&asked, seams, &names, &knobs, &turns)?;
+    let new: Vec<Style> = nest.styles;
+    let tallies =
+        [&own, &new].map(|styles| [&sought, &held_out].map(|figures| Tally::of(styles, base, figures, &bands)));
+    let own_names: Vec<String> = asked.entry.sizes.iter().map(|size| size.name.clone()).collect();
+    let set = |which: usize| {
+        let (set, names) = if which == 0 { ("own", &own_names) } else { ("new", &names) };
+        let [sought, out] = &tallies[which];
+        let mut set = out.set(set, names, sought, &held_out);
+        if which == 1 {
+            set.sizes.iter_mut().zip(&turns).for_each(|(size, turns)| size.turns = turned(&knobs, turns));
+        }
+        set
+    };
+    let judged = [&tallies[0][1], &tallies[1][1]];
+    let pictured = [
+        picture::Drawn { title: "own sizes", styles: &own, names: &own_names, tally: judged[0] },
+        picture::Drawn { title: "new sizes", styles: &new, names: &names, tally: judged[1] },
+    ];
+    let picture = picture::svg(&held_out, &bands, &pictured, &asked.entry.name);
+    let mut files = nest.files;
+    files.push((format!("{}.svg", file_part(&asked.entry.name)), picture.into_bytes()));
+    Ok(Grading {
+        garment: asked.entry.name.clone(),
+        base: asked.spec.size.clone(),
+        intended: asked.entry.target.intended.as_str(),
+        sex: asked.sex,
+        people: [sought.len(), held_out.len()],
+        handles: [
+            knobs.handles.iter().map(|handle| handle.as_str()).collect(),
+            knobs.followers.iter().map(|(handle, _)| handle.as_str()).collect(),
+        ],
+        sets: vec![set(0), set(1)],
+        levels: tally::levels(&bands, judged),
+        parts: tally::parts(&held_out, &bands, judged),
+        apart_mm: mm(nest.apart_m),
+        drapes: (wish.draped > 0.0)
+            .then(|| drape::agree(&asked.spec, &new, &names, &held_out, judged[1], &bands, wish.draped))
+            .transpose()?,
+        sheet: Specification::of(asked.entry.name.clone(), names, &new),
+        files,
+    })
+}
+
+fn refused(message: String) -> StudyError {
+    StudyError::stage("grade")(message)
+}
+
+/// What is asked for, found in the study.
+struct Asked<'a> {
+    entry: &'a GarmentEntry,
+    /// A job of the base size.
+    spec: JobSpec,
+    /// The base among the pattern's own sizes.
+    base: usize,
+    /// How many sizes are sought.
+    count: usize,
+    sex: Sex,
+}
+
+impl<'a> Asked<'a> {
+    fn of(study: &'a Study, wish: &GradeWish) -> Result<Self> {
+        let names = study.garments.iter().map(|garment| garment.name.clone()).collect();
+        let name = one("garment", wish.garment.as_deref(), names)?;
+        let missing = || refused(format!("{name}: nobody wears it; accepted: a garment with subjects and sizes"));
+        let entry = study.garments.iter().find(|entry| entry.name == name).ok_or_else(missing)?;
+        let names: Vec<String> = entry.sizes.iter().map(|size| size.name.clone()).collect();
+        // The lower one of two in the middle.
+        let middle = names.len().saturating_sub(1) / 2;
+        let base = match &wish.base {
+            Some(base) => one("size", Some(base), names.clone())?,
+            None => names.get(middle).cloned().ok_or_else(missing)?,
+        };
+        let sexes: Vec<Sex> = study
+            .subjects
+            .iter()
+            .filter(|subject| entry.subjects.contains(&subject.id))
+            .map(|subject| subject.person.measurements.sex)
+            .collect();
+        let sex = *sexes.first().ok_or_else(missing)?;
+        if sexes.iter().any(|other| *other != sex) {
+            return Err(refused(format!("{name}: women and men wear it; accepted: a garment of one sex")));
+        }
+        let count = wish.sizes.unwrap_or(names.len());
+        if !SIZES.contains(&count) {
+            return Err(refused(format!("{count} sizes; accepted: {} to {}", SIZES.start(), SIZES.end())));
+        }
+        if let Some(people) = [wish.people, wish.held_out].iter().find(|people| !PEOPLE.contains(people)) {
+            return Err(refused(format!("{people} people; accepted: {} to {}", PEOPLE.start(), PEOPLE.end())));
+        }
+        if !(0.0..=1.0).contains(&wish.draped) {
+            return Err(refused(format!("a share of {} draped; accepted: 0 to 1", wish.draped)));
+        }
+        let index = names.iter().position(|size| *size == base).unwrap_or(middle);
+        let spec = spec::jobs(study).into_iter().find(|job| job.garment == name && job.size == base);
+        Ok(Self { entry, spec: spec.ok_or_else(missing)?, base: index, count, sex })
+    }
+
+    /// The pattern's own sizes.
+    fn own(&self) -> Result<Vec<Style>> {
+        let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
+        let style = |size: &spec::file::SizeFile| {
+            if size.name == self.spec.size {
+                return pipeline::style(&self.spec);
+            }
+            patterns::read_style(&size.pattern, self.spec.seams.as_ref(), Some(&size.name), unit)
+        };
+        self.entry.sizes.iter().map(style).collect()
+    }
+
+    /// Names of the new sizes: those of the pattern where they are as many.
+    fn names(&self) -> Vec<String> {
+        if self.entry.sizes.len() == self.count {
+            return self.entry.sizes.iter().map(|size| size.name.clone()).collect();
+        }
+        (1..=self.count).map(|number| number.to_string()).collect()
+    }
+}
+
+/// The levels that a base covers and that have a band, girths of the trunk first.
+fn bands(entry: &GarmentEntry, covered: &[(String, bool)], without: &[String]) -> Result<Vec<Band>> {
+    if let Some(other) = without.iter().find(|level| !covered.iter().any(|(known, _)| known == *level)) {
+        let known = covered.iter().map(|(level, _)| level.clone()).collect();
+        return Err(StudyError::NotFound { what: "level", name: other.clone(), known });
+    }
+    let is_top = ["chest", "bust"].iter().any(|chest| covered.iter().any(|(level, _)| level == chest));
+    let band = |(level, _): &(String, bool)| {
+        entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m })
+    };
+    let is_asked = |(level, _): &&(String, bool)| !without.contains(level);
+    let mut bands: Vec<Band> = covered.iter().filter(is_asked).filter_map(band).collect();
+    bands.sort_by_key(|band| tally::order(&band.level));
+    match bands.is_empty() {
+        true => Err(refused(format!("{}: no level has a target; accepted: target_ease_mm of a level", entry.name))),
+        false => Ok(bands),
+    }
+}
+
+/// The one whose body is the middle of all at a level.
+fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
+    let mut all: Vec<&Figure> = figures.iter().collect();
+    all.sort_by(|a, b| a.girth_m(level).unwrap_or(0.0).total_cmp(&b.girth_m(level).unwrap_or(0.0)));
+    all.get(all.len() / 2).copied()
+}
+
+/// Seeks sizes. Where one cannot be drawn, since its handles do not go so far together, all get tighter limits.
+fn sizes(
+    knobs: &Knobs<'_>,
+    figures: &[Figure],
+    bands: &[Band],
+    count: usize,
+    series: Series,
+    seed: u64,
+) -> Result<Turns> {
+    let asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
+    let mut refused = None;
+    for share in LIMITS {
+        let limits: Vec<[i32; 2]> =
+            knobs.limits.iter().map(|limit| limit.map(|turn| (f64::from(turn) * share).round() as i32)).collect();
+        let price = PRICE * figures.len() as f64;
+        let search = Search { asks: &asks, limits: &limits, habits: &knobs.habits, price, series };
+        match as_drawn(knobs, figures, bands, &search, seed) {
+            Ok(turns) => return Ok(turns),
+            Err(error) => refused = Some(error),
+        }
+    }
+    refused.map_or(Ok(Vec::new()), Err)
+}
+
+/// Seeks sizes, measures them as they are drawn, and seeks again near them with what was measured; the best as drawn counts.
+fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Search<'_>, seed: u64) -> Result<Turns> {
+    let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
+    let mut asks = search.asks.to_vec();
+    let mut turns = search.best(seed);
+    let mut best: Option<(usize, Turns)> = None;
+    for _ in 0..ROUNDS {
+        let styles = turns.iter().map(|turns| knobs.drawn(turns)).collect::<Result<Vec<Style>>>()?;
+        let mut fitted = vec![false; figures.len()];
+        for ((style, asks), turns) in styles.iter().zip(&mut asks).zip(&turns) {
+            let eases = people::eases(style, figures, &levels);
+            knobs::correct(asks, &eases, turns, bands);
+            for (person, asks) in asks.iter().enumerate() {
+                fitted[person] |= fit::coverage::is_met(asks, turns);
+            }
+        }
+        let covered = fitted.into_iter().filter(|fitted| *fitted).count();
+        if best.as_ref().is_some_and(|(most, _)| covered <= *most) {
+            break;
+        }
+        best = Some((covered, turns.clone()));
+        turns = Search { asks: &asks, ..search.clone() }.near(&turns);
+    }
+    Ok(best.map_or(turns, |(_, turns)| turns))
+}
+
+/// What changes of the base in a size.
+fn turned(knobs: &Knobs<'_>, turns: &[i32]) -> Vec<Turn> {
+    let turn = |(handle, amount_m): &(pattern::Handle, f64)| Turn {
+        handle: handle.as_str(),
+        amount_mm: mm(*amount_m).round(),
+    };
+    knobs.moves(turns).iter().map(turn).collect()
+}

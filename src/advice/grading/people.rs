@@ -1,0 +1,147 @@
+//! The people whom sizes are to fit: drawn from the survey, built, and kept as what ease needs of them.
+
+use std::num::NonZero;
+use std::thread;
+
+use crate::population;
+use body::{Body, Girths, Measurements, Sex};
+use engine::ease::{self, Length};
+use fit::Draw;
+use pattern::Style;
+use pattern::pom::Stand;
+use spec::bodies;
+use store::Result;
+
+/// What makes the draw of those held out another one.
+const HELD_OUT: u64 = 0x68_656c_646f_7574;
+/// Distance of the heights at which the girth of a trunk is kept, and how far they reach beyond waist and hip, m.
+const APART_M: f64 = 0.010;
+const BEYOND_M: f64 = 0.100;
+
+/// Somebody, as far as ease asks.
+pub struct Figure {
+    /// What they were drawn with.
+    pub measurements: Measurements,
+    stand: Stand,
+    girths: Girths,
+    /// Height above the floor and girth of the trunk, m, upwards; empty where no level of the garment is measured at a height of
+    /// its own.
+    trunk: Vec<[f64; 2]>,
+}
+
+impl Figure {
+    /// Of a built body.
+    pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
+        let stand = ease::stand(body);
+        let (from_m, to_m) = (stand.hip_m.min(stand.waist_m) - BEYOND_M, stand.hip_m.max(stand.waist_m) + BEYOND_M);
+        let heights =
+            (0..).map(|k| from_m + f64::from(k) * APART_M).take_while(|height_m| has_trunk && *height_m < to_m);
+        let girth = |height_m: f64| Some([height_m, body.trunk_girth_at(height_m)?]);
+        let trunk = heights.filter_map(girth).collect();
+        Self { measurements: measurements.clone(), stand, girths: body.girths.clone(), trunk }
+    }
+
+    /// Ease of a style at each of some levels, m: `None` where the style does not cover it.
+    pub fn eases(&self, style: &Style, levels: &[String]) -> Vec<Option<f64>> {
+        let found = ease::lengths(style, &self.stand);
+        let of = |level: &String| {
+            let one = found.iter().find(|one| one.level == *level)?;
+            Some(one.length_m - self.body_m(one)?)
+        };
+        levels.iter().map(of).collect()
+    }
+
+    /// Every level that a style covers, from the neck down, and whether it is measured at a height of its own.
+    pub fn covered(&self, style: &Style) -> Vec<(String, bool)> {
+        let is_known = |one: &Length| one.height_m.is_some() || ease::body_length_m(&self.girths, &one.level).is_some();
+        let found = ease::lengths(style, &self.stand).into_iter().filter(is_known);
+        found.map(|one| (one.level, one.height_m.is_some())).collect()
+    }
+
+    /// What the body has at a level, m.
+    pub fn girth_m(&self, level: &str) -> Option<f64> {
+        ease::body_length_m(&self.girths, level)
+    }
+
+    fn body_m(&self, level: &Length) -> Option<f64> {
+        level.height_m.and_then(|height_m| self.trunk_m(height_m)).or_else(|| self.girth_m(&level.level))
+    }
+
+    fn trunk_m(&self, height_m: f64) -> Option<f64> {
+        let pair = self.trunk.windows(2).find(|pair| (pair[0][0]..=pair[1][0]).contains(&height_m))?;
+        let share = (height_m - pair[0][0]) / (pair[1][0] - pair[0][0]);
+        Some(pair[0][1] + share * (pair[1][1] - pair[0][1]))
+    }
+}
+
+/// People of a sex, and as drawn from another seed those who are held out.
+pub fn drawn(sex: Sex, counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] {
+    let seeds = [seed, seed ^ HELD_OUT];
+    [0, 1].map(|k| population::people(sex, counts[k], &mut Draw::new(seeds[k])))
+}
+
+/// The figures of people, in their order. Who cannot be built is left out.
+pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
+    let figure = |one: &Measurements| {
+        let body = bodies::build_body(one).ok()?;
+        Some(Figure::of(one, &body, has_trunk))
+    };
+    of_all(people, figure).into_iter().flatten().collect()
+}
+
+/// Ease of a style on everybody at some levels, m.
+pub fn eases(style: &Style, figures: &[Figure], levels: &[String]) -> Vec<Vec<Option<f64>>> {
+    of_all(figures, |figure| figure.eases(style, levels))
+}
+
+/// What something makes of each, on all cores, in their order.
+pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec<U> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let share = all.len().div_ceil(threads).max(1);
+    thread::scope(|scope| {
+        let parts: Vec<_> =
+            all.chunks(share).map(|part| scope.spawn(|| part.iter().map(&make).collect::<Vec<U>>())).collect();
+        let joined = parts.into_iter().map(|part| match part.join() {
+            Ok(made) => made,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.flatten().collect()
+    })
+}
+
+/// The body of somebody who was drawn.
+pub fn body(figure: &Figure) -> Result<Body> {
+    bodies::build_body(&figure.measurements)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pattern::draft::Model;
+
+    #[test]
+    fn a_figure_has_the_ease_of_its_body() {
+        for model in [Model::Tshirt, Model::Trousers] {
+            let draft = &model.drafts()[1];
+            let style = Style::read(&draft.pieces, model.seams(), "drafted.seams.toml").expect("our own");
+            let [people, others] = drawn(Sex::Male, [3, 1], 4);
+            assert_ne!(people[0], others[0], "those held out are others");
+            for (one, figure) in people.iter().zip(figures(&people, true)) {
+                let body = bodies::build_body(one).expect("a person that can be");
+                let eases = ease::on(&style, &body);
+                assert!(eases.len() > 3);
+                for ease in eases {
+                    let found = figure.eases(&style, std::slice::from_ref(&ease.level))[0].expect("covered");
+                    assert!((found - ease.ease_m()).abs() < 0.5e-3, "{}: {found}, not {}", ease.level, ease.ease_m());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_are_taken_in_their_order() {
+        let numbers: Vec<usize> = (0..101).collect();
+        assert_eq!(of_all(&numbers, |k| 2 * k), numbers.iter().map(|k| 2 * k).collect::<Vec<_>>());
+        assert!(of_all(&[], |k: &usize| *k).is_empty());
+    }
+}

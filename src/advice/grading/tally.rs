@@ -1,0 +1,224 @@
+//! Whom sizes fit: counted as `v_size` counts, every level that has a band within it.
+
+use crate::grading::knobs::Band;
+use crate::grading::people::{self, Figure};
+use crate::grading::{LevelShare, PartShare, Range, SizeSet, SizeShare};
+use crate::population::DIMENSIONS;
+use body::Dimension;
+use geom::units::mm;
+use pattern::Style;
+
+/// Weight of what is too tight beside what is too loose, as in `v_fit`.
+const TIGHT: f64 = 2.0;
+/// Weight of a level that a size does not cover and the base does, m.
+const UNCOVERED_M: f64 = 1.0;
+/// Parts that people are divided into.
+const PARTS: usize = 5;
+/// Standard errors of half a 95 % interval.
+const NORMAL_95: f64 = 1.96;
+/// Percentiles that a size chart says.
+const PERCENTILES: [f64; 3] = [0.05, 0.5, 0.95];
+/// Girths of the trunk before others, from the top down.
+const ORDER: [&str; 5] = ["chest", "bust", "underbust", "waist", "hip"];
+
+/// Where a level stands in lists.
+pub fn order(level: &str) -> usize {
+    ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
+}
+
+/// How a size sits on somebody.
+#[derive(Clone, Copy, Debug)]
+pub struct Sits {
+    /// The level that is worst, and its weight, m: 0 where all levels lie in their bands.
+    pub worst: (usize, f64),
+}
+
+/// How every size of a set sits on everybody.
+pub struct Tally {
+    /// By size and person.
+    sits: Vec<Vec<Sits>>,
+    /// Which levels are off on the size to wear, by person.
+    off: Vec<Vec<bool>>,
+}
+
+impl Tally {
+    /// Of sizes on people. A level that the base does not cover of somebody is not asked for.
+    pub fn of(styles: &[Style], base: &Style, figures: &[Figure], bands: &[Band]) -> Self {
+        let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
+        let asked = people::eases(base, figures, &levels);
+        let weights = |style: &Style| -> Vec<Vec<f64>> {
+            let eases = people::eases(style, figures, &levels);
+            let of = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
+                (0..bands.len()).map(|level| weight(eases[level], asked[level], bands[level].band_m)).collect()
+            };
+            eases.iter().zip(&asked).map(of).collect()
+        };
+        Self::of_weights(&styles.iter().map(weights).collect::<Vec<_>>())
+    }
+
+    /// Of weights by size, person and level.
+    fn of_weights(weights: &[Vec<Vec<f64>>]) -> Self {
+        let worst = |weights: &Vec<f64>| {
+            let all = weights.iter().copied().enumerate();
+            Sits { worst: all.fold((0, 0.0), |worst, one| if one.1 > worst.1 { one } else { worst }) }
+        };
+        let sits: Vec<Vec<Sits>> = weights.iter().map(|people| people.iter().map(worst).collect()).collect();
+        let people = sits.first().map_or(0, Vec::len);
+        let off = (0..people)
+            .map(|person| weights[to_wear(&sits, person)][person].iter().map(|weight| *weight > 0.0).collect())
+            .collect();
+        Self { sits, off }
+    }
+
+    /// The size to wear: whose worst level is the least, of equals the smaller.
+    pub fn wears(&self, person: usize) -> usize {
+        to_wear(&self.sits, person)
+    }
+
+    /// Whether some size fits.
+    pub fn is_fitted(&self, person: usize) -> bool {
+        self.sits[self.wears(person)][person].worst.1 == 0.0
+    }
+
+    fn people(&self) -> usize {
+        self.off.len()
+    }
+
+    fn fitted_percent(&self) -> f64 {
+        percent((0..self.people()).filter(|person| self.is_fitted(*person)).count(), self.people())
+    }
+
+    /// The set of sizes on people held out; `sought` is how it sits on the others.
+    pub fn set(&self, set: &'static str, names: &[String], sought: &Self, figures: &[Figure]) -> SizeSet {
+        let held_out_percent = self.fitted_percent();
+        let share = held_out_percent / 100.0;
+        let within = NORMAL_95 * (share * (1.0 - share) / self.people().max(1) as f64).sqrt();
+        let sizes = names.iter().enumerate().map(|(size, name)| {
+            let fits = self.sits[size].iter().filter(|sits| sits.worst.1 == 0.0).count();
+            let wearers: Vec<usize> =
+                (0..self.people()).filter(|person| self.is_fitted(*person) && self.wears(*person) == size).collect();
+            SizeShare {
+                size: name.clone(),
+                fits_percent: percent(fits, self.people()),
+                worn_percent: percent(wearers.len(), self.people()),
+                turns: Vec::new(),
+                wearers: ranges(figures, &wearers),
+            }
+        });
+        SizeSet {
+            set,
+            sought_percent: sought.fitted_percent(),
+            held_out_percent,
+            within_percent: 100.0 * within,
+            sizes: sizes.collect(),
+        }
+    }
+
+    fn within_percent(&self, level: usize) -> f64 {
+        percent(self.off.iter().filter(|off| !off[level]).count(), self.people())
+    }
+
+    /// Share of those whom no size fits who fail by a level most, %.
+    fn fails_percent(&self, level: usize) -> f64 {
+        let unfitted = || (0..self.people()).filter(|person| !self.is_fitted(*person));
+        let fails = unfitted().filter(|person| self.sits[self.wears(*person)][*person].worst.0 == level).count();
+        percent(fails, unfitted().count())
+    }
+}
+
+/// How much an ease counts against a size, m; `asked` is that of the base, which tells whether the level is asked for.
+fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f64 {
+    match (ease_m, asked) {
+        (_, None) => 0.0,
+        (None, Some(_)) => UNCOVERED_M,
+        (Some(ease_m), Some(_)) => (TIGHT * (least - ease_m)).max(ease_m - most).max(0.0),
+    }
+}
+
+fn to_wear(sits: &[Vec<Sits>], person: usize) -> usize {
+    let weight = |size: &usize| sits[*size][person].worst.1;
+    (0..sits.len()).min_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0)
+}
+
+fn percent(count: usize, of: usize) -> f64 {
+    100.0 * count as f64 / of.max(1) as f64
+}
+
+/// Dimensions of those who wear a size.
+fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
+    let range = |dimension: Dimension| {
+        let figures = wearers.iter().filter_map(|person| figures.get(*person));
+        let values = figures.filter_map(|figure| figure.measurements.get(dimension));
+        let mut values: Vec<f64> = values.map(|value| value * dimension.per_si()).collect();
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
+        let [low, middle, high] = PERCENTILES.map(at);
+        Some(Range { dimension: dimension.key(), values: [low?, middle?, high?] })
+    };
+    DIMENSIONS.into_iter().filter_map(range).collect()
+}
+
+/// What both sets do at each level.
+pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
+    let level = |(number, band): (usize, &Band)| LevelShare {
+        level: band.level.clone(),
+        target_mm: band.band_m.map(mm),
+        within_percent: sets.map(|set| set.within_percent(number)),
+        fails_percent: sets.map(|set| set.fails_percent(number)),
+    };
+    bands.iter().enumerate().map(level).collect()
+}
+
+/// Whom both sets fit, in parts by what the body has at the first level.
+pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, Vec<PartShare>) {
+    let level = bands.first().map_or_else(String::new, |band| band.level.clone());
+    let girth_mm = |person: &usize| figures[*person].girth_m(&level).map_or(0.0, mm);
+    let mut all: Vec<usize> = (0..figures.len()).collect();
+    all.sort_by(|a, b| girth_mm(a).total_cmp(&girth_mm(b)));
+    let part = |people: &[usize]| {
+        let fitted =
+            |set: &Tally| percent(people.iter().filter(|person| set.is_fitted(**person)).count(), people.len());
+        let ends = [people.first(), people.last()].map(|person| person.map_or(0.0, girth_mm));
+        PartShare { from_to_mm: ends, fits_percent: sets.map(fitted) }
+    };
+    let cut = |number: usize| all.len() * number / PARTS;
+    let parts = (0..PARTS).map(|number| part(&all[cut(number)..cut(number + 1)])).collect();
+    (level, parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ease_counts_by_how_far_it_is_off_and_double_where_it_is_tight() {
+        let check = |ease_m, asked, expect: f64| {
+            let found = weight(ease_m, asked, [0.04, 0.12]);
+            assert!((found - expect).abs() < 1e-12, "{ease_m:?} {asked:?}: {found}");
+        };
+        check(Some(0.04), Some(0.0), 0.0);
+        check(Some(0.12), Some(0.0), 0.0);
+        check(Some(0.01), Some(0.0), 0.06);
+        check(Some(0.15), Some(0.0), 0.03);
+        check(Some(0.15), None, 0.0);
+        check(None, Some(0.0), UNCOVERED_M);
+        check(None, None, 0.0);
+    }
+
+    #[test]
+    fn the_smaller_of_two_that_fit_is_worn_and_who_is_not_fitted_fails_at_the_worst_level() {
+        // Two sizes, four people, two levels.
+        let small = vec![vec![0.0, 0.0], vec![0.02, 0.0], vec![0.0, 0.01], vec![0.09, 0.03]];
+        let large = vec![vec![0.0, 0.0], vec![0.0, 0.0], vec![0.05, 0.0], vec![0.02, 0.04]];
+        let tally = Tally::of_weights(&[small, large]);
+        assert_eq!((0..4).map(|person| tally.wears(person)).collect::<Vec<_>>(), [0, 1, 0, 1]);
+        assert_eq!((0..4).map(|person| tally.is_fitted(person)).collect::<Vec<_>>(), [true, true, false, false]);
+        let names = ["S", "L"].map(str::to_owned);
+        let set = tally.set("new", &names, &tally, &[]);
+        assert_eq!((set.held_out_percent, set.sizes[0].fits_percent, set.sizes[1].fits_percent), (50.0, 25.0, 50.0));
+        assert_eq!((set.sizes[0].worn_percent, set.sizes[1].worn_percent), (25.0, 25.0));
+        // The third fails by the second level alone, the fourth by both, most by the second.
+        assert_eq!((tally.within_percent(0), tally.within_percent(1)), (75.0, 50.0));
+        assert_eq!((tally.fails_percent(0), tally.fails_percent(1)), (0.0, 100.0));
+    }
+}

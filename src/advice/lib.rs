@@ -1,0 +1,17 @@
+//! Advice drawn from patterns, bodies and results: alterations, the chance that a size fits, sizes graded for a
+//! population, subjects that represent it.
+
+pub mod alteration;
+pub mod chance;
+pub mod grading;
+pub mod population;
+
+pub use alteration::{
+    ALTER_LIMIT_MM, Alteration, AlteredLevel, AlteredReading, MovedHandle, Redraped, Standing, Wish, alter, standing,
+};
+pub use chance::{
+    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,
+    chance, planted,
+};
+pub use grading::{DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade};
+pub use population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};

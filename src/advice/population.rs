@@ -1,0 +1,331 @@
+//! A population as a few representative bodies (the thesis's proposal, 7.1): people drawn from a published survey, grouped
+//! by what clothes depend on, and of each group the one in its middle. A new subject is then answered for by the nearest
+//! representative, whose results are there already.
+
+use std::fmt::Write;
+
+use body::{self, Dimension, Measurements, Sex};
+use fit::Draw;
+use spec::fields::{filled, sex_name};
+use spec::{Given, MEASUREMENTS};
+use store::{JobId, Result, Store, StudyError, SubjectId, read};
+use wardrobe::catalogue;
+
+/// Dimensions by which people are drawn and grouped: those that the thesis's subjects are known by.
+pub(crate) const DIMENSIONS: [Dimension; 7] = [
+    Dimension::Stature,
+    Dimension::Weight,
+    Dimension::ChestGirth,
+    Dimension::WaistGirth,
+    Dimension::HipGirth,
+    Dimension::NeckGirth,
+    Dimension::AcrossShoulder,
+];
+/// Scores beyond which nobody is drawn: one of 16,000.
+const EXTREME: f64 = 4.0;
+/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
+/// comparisons as people times representatives, again and again.
+const GROUPED: usize = 500;
+/// Most rounds of grouping.
+const ROUNDS: usize = 200;
+
+/// Somebody who stands for a group of a population.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Representative {
+    /// Measurements, to the millimetre and the tenth of a kilogram.
+    pub measurements: Measurements,
+    /// Share of the people of this sex in the group.
+    pub share: f64,
+}
+
+/// What people are drawn and how they are grouped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PopulationOptions {
+    /// Representatives of each sex.
+    pub bodies: usize,
+    /// People drawn of each sex.
+    pub people: usize,
+    /// Seed of the draw.
+    pub seed: u64,
+}
+
+/// The representative of a study that is most like somebody.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nearest {
+    /// Name in the study.
+    pub subject: String,
+    /// Root mean square difference of the dimensions known of both, standard deviations.
+    pub distance: f64,
+    /// The greatest difference: which dimension, theirs and the representative's, m or kg.
+    pub widest: (Dimension, f64, f64),
+    /// Its jobs that have a result.
+    pub jobs: Vec<JobId>,
+}
+
+/// People of a sex, as frequent as in the survey.
+#[must_use]
+pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
+    (0..count).map(|_| draw(sex, random)).collect()
+}
+
+/// The representatives of a sex, the most frequent first.
+#[must_use]
+pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
+    let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
+    if options.bodies > GROUPED {
+        let share = 1.0 / options.bodies as f64;
+        let one = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
+        return (0..options.bodies).map(one).collect();
+    }
+    let people = people(sex, options.people, &mut random);
+    let points: Vec<Point> = people.iter().map(point).collect();
+    let groups = group(&points, options.bodies, &mut random);
+    let mut found: Vec<Representative> = groups
+        .into_iter()
+        .map(|(middle, size)| Representative {
+            measurements: rounded(&people[middle]),
+            share: size as f64 / options.people as f64,
+        })
+        .collect();
+    found.sort_by(|a, b| b.share.total_cmp(&a.share));
+    found
+}
+
+/// `[[subject]]` tables of representatives.
+#[must_use]
+pub fn subjects_text(representatives: &[Representative]) -> String {
+    let mut text = String::new();
+    for (number, one) in representatives.iter().enumerate() {
+        let sex = sex_name(&one.measurements);
+        // Writing into a text does not fail, here and below.
+        let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", one.share * 100.0);
+        let _ = writeln!(text, "id = \"{}{:03}\"\nsex = \"{sex}\"", &sex[..1], number + 1);
+        for field in MEASUREMENTS.iter() {
+            if let Some(value) = field.get(&one.measurements) {
+                let _ = writeln!(text, "{} = {value}", field.key);
+            }
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The subject of a study most like somebody, among those of the same sex.
+///
+/// # Errors
+/// When a value is wrong, there is no such study, or it has nobody of that sex.
+pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
+    read::study(store, study)?;
+    let subject = &filled::<Measurements>(None, "", given).map_err(|problems| StudyError::Refused {
+        what: "subject",
+        name: "to compare".to_owned(),
+        problems: problems.into_iter().map(|(_, problem)| problem).collect(),
+    })?;
+    let sql = "SELECT DISTINCT job.subject, subject_id FROM job JOIN study USING (study_id)
+        WHERE study.name = ? AND is_current ORDER BY job.subject";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let known: Vec<(String, i64)> =
+        statement.query_map([study], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<rusqlite::Result<_>>()?;
+    let mut best: Option<Nearest> = None;
+    for (name, id) in known {
+        let theirs = catalogue::subject_revision(store, SubjectId(id))?.measurements;
+        let Some((distance, widest)) = distance(subject, &theirs) else { continue };
+        if best.as_ref().is_none_or(|best| distance < best.distance) {
+            best = Some(Nearest { subject: name, distance, widest, jobs: vec![] });
+        }
+    }
+    let mut best = best.ok_or_else(|| StudyError::NotFound {
+        what: "subject of the study who is",
+        name: sex_name(subject).to_owned(),
+        known: vec![],
+    })?;
+    let sql = "SELECT job_id FROM job JOIN study USING (study_id) WHERE study.name = ? AND subject = ? AND is_current
+        AND status IN ('done', 'not_converged') ORDER BY job_id";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let jobs = statement.query_map([study, &best.subject], |row| row.get(0).map(JobId))?;
+    best.jobs = jobs.collect::<rusqlite::Result<_>>()?;
+    Ok(best)
+}
+
+/// Difference of two people of one sex over the dimensions known of both, and the greatest of them.
+fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64, f64))> {
+    if a.sex != b.sex {
+        return None;
+    }
+    let theirs = body::scores(b);
+    let mut squares = Vec::new();
+    let mut widest: Option<(f64, Dimension)> = None;
+    for (dimension, score) in body::scores(a) {
+        let Some((_, other)) = theirs.iter().find(|(known, _)| *known == dimension) else { continue };
+        let off = (score - other).abs();
+        squares.push(off * off);
+        if widest.is_none_or(|(most, _)| off > most) {
+            widest = Some((off, dimension));
+        }
+    }
+    let (_, dimension) = widest?;
+    let values = (a.get(dimension)?, b.get(dimension)?);
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    Some((mean.sqrt(), (dimension, values.0, values.1)))
+}
+
+/// Somebody within the range of the survey.
+fn draw(sex: Sex, random: &mut Draw) -> Measurements {
+    loop {
+        let scores = DIMENSIONS.map(|dimension| (dimension, random.normal()));
+        let person = body::person(sex, &scores);
+        let is_ordinary = person.known().all(|(dimension, value)| {
+            let [least, greatest] = dimension.range();
+            (least..=greatest).contains(&value)
+        });
+        if is_ordinary && scores.iter().all(|(_, score)| score.abs() < EXTREME) {
+            return person;
+        }
+    }
+}
+
+/// To what a tape reads.
+fn rounded(person: &Measurements) -> Measurements {
+    let mut rounded = person.clone();
+    for (dimension, value) in person.known() {
+        let scale = if dimension == Dimension::Weight { 10.0 } else { 1000.0 };
+        rounded.set(dimension, (value * scale).round() / scale);
+    }
+    rounded
+}
+
+/// A person's dimensions in standard deviations of the survey.
+type Point = [f64; DIMENSIONS.len()];
+
+fn point(person: &Measurements) -> Point {
+    let scores = body::scores(person);
+    DIMENSIONS.map(|dimension| scores.iter().find(|(known, _)| *known == dimension).map_or(0.0, |(_, score)| *score))
+}
+
+fn off(a: &Point, b: &Point) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+}
+
+/// Groups points around as many middles (k-means [Lloyd 1982], begun as [Arthur and Vassilvitskii 2007] say); of each
+/// group the point nearest its mean, and how many it has.
+fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
+    let mut middles = seeds(points, count, random);
+    let mut of = vec![usize::MAX; points.len()];
+    for _ in 0..ROUNDS {
+        let next: Vec<usize> = points.iter().map(|point| nearest_middle(point, &middles)).collect();
+        if next == of {
+            break;
+        }
+        of = next;
+        for (number, middle) in middles.iter_mut().enumerate() {
+            let mut sum = Point::default();
+            let members = of.iter().zip(points).filter(|(group, _)| **group == number);
+            let mut size = 0.0;
+            for (_, point) in members {
+                sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x);
+                size += 1.0;
+            }
+            if size > 0.0 {
+                *middle = sum.map(|sum| sum / size);
+            }
+        }
+    }
+    let mut found = Vec::with_capacity(middles.len());
+    for (number, middle) in middles.iter().enumerate() {
+        let members: Vec<usize> = (0..points.len()).filter(|&k| of[k] == number).collect();
+        let best = members.iter().copied().min_by(|&a, &b| off(&points[a], middle).total_cmp(&off(&points[b], middle)));
+        found.extend(best.map(|best| (best, members.len())));
+    }
+    found
+}
+
+/// First middles: each point the likelier the farther it is from those before.
+fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
+    let mut middles: Vec<Point> = points.first().copied().into_iter().collect();
+    let mut far: Vec<f64> = points.iter().map(|point| middles.first().map_or(0.0, |first| off(point, first))).collect();
+    while middles.len() < count.min(points.len()) {
+        let mut left = random.share() * far.iter().sum::<f64>();
+        let chosen = far.iter().position(|far| {
+            left -= far;
+            left <= 0.0
+        });
+        let next = points[chosen.unwrap_or(points.len() - 1)];
+        far.iter_mut().zip(points).for_each(|(far, point)| *far = far.min(off(point, &next)));
+        middles.push(next);
+    }
+    middles
+}
+
+fn nearest_middle(point: &Point, middles: &[Point]) -> usize {
+    let far = |k: &usize| off(point, &middles[*k]);
+    (0..middles.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FEW: PopulationOptions = PopulationOptions { bodies: 12, people: 1500, seed: 1 };
+
+    #[test]
+    fn people_are_drawn_as_frequent_as_in_the_survey() {
+        let mut random = Draw::new(3);
+        let points: Vec<Point> = (0..4000).map(|_| point(&draw(Sex::Male, &mut random))).collect();
+        for k in 0..DIMENSIONS.len() {
+            let mean = points.iter().map(|p| p[k]).sum::<f64>() / 4000.0;
+            let sd = (points.iter().map(|p| (p[k] - mean).powi(2)).sum::<f64>() / 3999.0).sqrt();
+            assert!(mean.abs() < 0.06 && (sd - 1.0).abs() < 0.06, "{:?}: {mean} {sd}", DIMENSIONS[k]);
+        }
+        // Correlation of stature and weight, as the survey has it.
+        let both = points.iter().map(|p| p[0] * p[1]).sum::<f64>() / 4000.0;
+        assert!((both - 0.472).abs() < 0.05, "{both}");
+    }
+
+    #[test]
+    fn representatives_are_people_and_stand_for_everybody() {
+        let found = representatives(Sex::Female, &FEW);
+        assert_eq!(found, representatives(Sex::Female, &FEW), "the same seed, the same people");
+        assert_eq!(found.len(), FEW.bodies);
+        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        assert!(found[0].share < 0.25 && found[FEW.bodies - 1].share > 0.01, "{found:?}");
+        // Nobody is far from all of them: within the spread of one group.
+        let middles: Vec<Point> = found.iter().map(|one| point(&one.measurements)).collect();
+        let mut random = Draw::new(9);
+        let far: Vec<f64> = (0..500)
+            .map(|_| point(&draw(Sex::Female, &mut random)))
+            .map(|p| (off(&p, &middles[nearest_middle(&p, &middles)]) / 7.0).sqrt())
+            .collect();
+        let mean = far.iter().sum::<f64>() / 500.0;
+        assert!(mean < 0.75, "{mean}");
+    }
+
+    #[test]
+    fn of_very_many_everybody_stands_for_himself() {
+        let many = PopulationOptions { bodies: GROUPED + 1, people: 100, seed: 1 };
+        let found = representatives(Sex::Male, &many);
+        assert_eq!(found.len(), GROUPED + 1);
+        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        let mean =
+            found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>() / found.len() as f64;
+        assert!((mean - 1.756).abs() < 0.01, "{mean}");
+    }
+
+    #[test]
+    fn every_representative_can_be_a_body_of_a_study() {
+        let text = subjects_text(&representatives(Sex::Male, &FEW));
+        let table: toml::Table = text.parse().expect("TOML");
+        assert_eq!(table["subject"].as_array().map(Vec::len), Some(FEW.bodies));
+        for one in representatives(Sex::Male, &FEW) {
+            body::build(&one.measurements).expect("a person that can be");
+        }
+    }
+
+    #[test]
+    fn the_nearest_is_of_the_same_sex_and_alike() {
+        let of = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
+        assert_eq!(distance(&of(Sex::Male, 1.0), &of(Sex::Female, 1.0)), None);
+        let (same, _) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.0)).expect("alike");
+        let (far, widest) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.2)).expect("alike");
+        assert!(same == 0.0 && far > 1.0 && widest == (Dimension::ChestGirth, 1.0, 1.2), "{far} {widest:?}");
+    }
+}

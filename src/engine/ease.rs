@@ -1,0 +1,108 @@
+//! Ease of a garment on a body, before anything is draped.
+
+use body::{Body, Dimension, Girths, Joint};
+use fit::{Cuts, Ease};
+use geom::V3;
+use pattern::Style;
+use pattern::pom::{Stand, WornLength};
+use pattern::style::PathPart;
+
+/// Distance of the forearm's girth below the elbow, m.
+const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
+
+/// What a body has at a level of its clothes, m.
+pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
+    let dimension = match level {
+        "neck" => Dimension::NeckGirth,
+        "across_shoulder" => Dimension::AcrossShoulder,
+        "chest" | "bust" => Dimension::ChestGirth,
+        "underbust" => Dimension::UnderbustGirth,
+        "waist" => Dimension::WaistGirth,
+        "hip" => Dimension::HipGirth,
+        "thigh" => Dimension::ThighGirth,
+        "knee" => Dimension::KneeGirth,
+        "upper_arm" => Dimension::UpperArmGirth,
+        "forearm" => Dimension::ForearmGirth,
+        "wrist" => Dimension::WristGirth,
+        _ => return None,
+    };
+    girths.get(dimension)
+}
+
+/// Where a body has its levels.
+pub fn stand(body: &Body) -> Stand {
+    let mean = |pair: [V3; 2]| 0.5 * (pair[0] + pair[1]);
+    let levels = &body.levels;
+    let at = |joint: Joint| body.skeleton.at(joint);
+    let upper_arm_m = (at(Joint::ElbowRight) - body.landmarks.shoulder[0]).norm();
+    let lower_arm_m = (at(Joint::WristRight) - at(Joint::ElbowRight)).norm();
+    Stand {
+        side_neck_m: mean(body.landmarks.side_neck).z,
+        underbust_m: levels.underbust_m,
+        waist_m: levels.waist_m,
+        hip_m: levels.hip_m,
+        crotch_m: levels.crotch_m,
+        knee_m: 0.5 * (at(Joint::KneeRight).z + at(Joint::KneeLeft).z),
+        forearm_along_m: upper_arm_m + FOREARM_BELOW_ELBOW_M,
+        wrist_along_m: upper_arm_m + lower_arm_m,
+    }
+}
+
+/// Ease at every level that the garment covers, from the neck down: along the lines of its seam file, and where that has none, along
+/// those found by what its pieces are. A study's own cuts classify it when it is read.
+pub fn on(style: &Style, body: &Body) -> Vec<Ease> {
+    on_all(style, &[body]).pop().unwrap_or_default()
+}
+
+/// The same for several bodies: what the pieces are is found once.
+pub fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
+    let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
+    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, levels)| of(&levels, body)).collect()
+}
+
+fn of(levels: &[Length], body: &Body) -> Vec<Ease> {
+    let of_body = |level: &str| {
+        let height_m = levels.iter().find(|one| one.level == level).and_then(|one| one.height_m);
+        height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
+    };
+    fit::ease(levels.iter().map(|one| (one.level.as_str(), one.length_m)), of_body, &Cuts::default())
+}
+
+/// What a garment has at a level.
+pub struct Length {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Length of the pattern there, m.
+    pub length_m: f64,
+    /// Height above the floor at which the body is measured, m, where that is not where its level lies.
+    pub height_m: Option<f64>,
+    /// Where it lies on the cloth: of a girth that is measured by its half, that half.
+    pub path: Vec<PathPart>,
+}
+
+/// What a style has at every level that it covers of somebody who stands so: along the lines of its seam file first.
+pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
+    lengths_on(style, std::slice::from_ref(stand)).pop().unwrap_or_default()
+}
+
+fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
+    let stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
+    let of_file = || {
+        style.fit_levels.iter().map(|(level, path)| Length {
+            level: level.clone(),
+            length_m: style.path_length_m(path),
+            height_m: None,
+            path: path.clone(),
+        })
+    };
+    let found = |worn: WornLength| Length {
+        level: worn.level.to_owned(),
+        length_m: worn.length_m,
+        height_m: worn.height_m,
+        path: worn.path,
+    };
+    let on = |worn: Vec<WornLength>| {
+        of_file().chain(worn.into_iter().filter(|worn| !stated(worn.level)).map(found)).collect()
+    };
+    style.worn_lengths_on(stands).into_iter().map(on).collect()
+}

@@ -1,0 +1,391 @@
+//! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
+
+use fit::Simulator;
+use fit::target::TARGETS;
+use geom::units::mm;
+use spec::{Change, Inputs, JobSpec, Limits, Selection, Study};
+use store::owner::Watch;
+use store::queue::{self, Event};
+use store::{JobId, Result, Status, Store, StudyError, now_ms, read};
+use wardrobe::catalogue::revision::{self, By};
+
+/// Why a job runs, or why it need not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// Nothing like it was ever queued.
+    New,
+    /// An input changed since the latest earlier job of the same cell.
+    Changed {
+        /// The latest earlier job of that cell.
+        since: JobId,
+        /// Inputs that differ from that job's.
+        changes: Vec<Change>,
+    },
+    /// Queued or running already.
+    Waiting,
+    /// Failed or cancelled earlier with the same inputs.
+    Again(Status),
+    /// Has a result of the same inputs.
+    UpToDate(Status),
+}
+
+impl Why {
+    /// Whether the job is still to be run.
+    #[must_use]
+    pub fn will_run(&self) -> bool {
+        !matches!(self, Self::UpToDate(_))
+    }
+}
+
+impl std::fmt::Display for Why {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::New => f.write_str("new"),
+            Self::Changed { since, changes } => {
+                write!(f, "changed since job {since}: ")?;
+                f.write_str(&changes.iter().map(Change::to_string).collect::<Vec<_>>().join("; "))
+            }
+            Self::Waiting => f.write_str("queued already"),
+            Self::Again(status) => write!(f, "{} before, again", status.as_str().replace('_', " ")),
+            Self::UpToDate(status) => write!(f, "up to date ({})", status.as_str().replace('_', " ")),
+        }
+    }
+}
+
+/// A job of the queue for a specification.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Number of the job in the queue.
+    pub id: JobId,
+    /// What it does.
+    pub spec: JobSpec,
+    /// Why it runs, or need not.
+    pub why: Why,
+    /// Whether it was its cell's job before, too.
+    pub was_current: bool,
+}
+
+/// Stores a study and queues what is to be run of its jobs; failed and cancelled ones are queued again. What the study
+/// no longer has is no longer current.
+pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    let all = spec::jobs(study);
+    each_size_has_its_key(&all)?;
+    // Before it is said what becomes of each job: one that was given up for the processes that died over it is wanted anew
+    // by whoever starts a run.
+    queue::take_over(transaction, &mut Watch::default())?;
+    let study_id = store_study(transaction, study)?;
+    retire(transaction, study_id, &all)?;
+    let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();
+    let mut planned = Vec::with_capacity(specs.len());
+    for spec in specs {
+        let (id, why, was_current) = enqueue_one(transaction, study_id, &spec)?;
+        planned.push(Planned { id, spec, why, was_current });
+    }
+    chain(transaction, &planned)?;
+    Ok(planned)
+}
+
+/// Checks that no size would be given the result of another.
+fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
+    let mut size_of: BTreeMap<String, &JobSpec> = BTreeMap::new();
+    for spec in specs {
+        let JobSpec { garment, size, subject, .. } = spec;
+        let earlier = size_of.entry(spec.inputs.hash()).or_insert(spec);
+        if earlier.size != *size {
+            return Err(StudyError::stage("queue")(format!(
+                "{garment}: sizes `{}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued",
+                earlier.size
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Lets jobs that are to be run wait for those their garments come after, of the same run.
+fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
+    if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
+        return Ok(());
+    }
+    type Place<'a> = (&'a str, &'a str, Simulator);
+    let mut places: BTreeMap<Place<'_>, Vec<JobId>> = BTreeMap::new();
+    for Planned { id, spec, .. } in planned {
+        places.entry((&spec.garment, &spec.subject, spec.simulator)).or_default().push(*id);
+    }
+    for Planned { id, spec, why, .. } in planned.iter().filter(|job| job.why.will_run()) {
+        let before = spec.schedule.after.iter().filter_map(|garment| {
+            let place: Place<'_> = (garment, &spec.subject, spec.simulator);
+            places.get(&place)
+        });
+        let needs: Vec<JobId> = before.flatten().copied().collect();
+        queue::set_needs(transaction, *id, &needs)?;
+        if !needs.is_empty() && *why != Why::Waiting {
+            let numbers: Vec<String> = needs.iter().map(ToString::to_string).collect();
+            queue::log(transaction, *id, "info", &format!("waits for jobs {}", numbers.join(", ")))?;
+        }
+    }
+    Ok(())
+}
+
+/// Where a study file lies.
+fn home_of(study: &Study) -> PathBuf {
+    study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
+}
+
+/// The study file that the results of a study are kept for.
+fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
+    let path = connection.query_row("SELECT path FROM study WHERE name = ?", [name], |row| row.get::<_, String>(0));
+    Ok(path.optional()?.map(PathBuf::from))
+}
+
+/// Keeps the results of a study for its file in a new place from now on.
+///
+/// # Errors
+/// When the database is open read-only.
+pub fn move_home(store: &mut Store, study: &Study) -> Result<()> {
+    let path = home_of(study);
+    store.writer()?.execute("UPDATE study SET path = ? WHERE name = ?", params![path.to_string_lossy(), study.name])?;
+    Ok(())
+}
+
+/// Brings the study's own row and the order of its axes up to date.
+pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Result<i64> {
+    let path = home_of(study);
+    if let Some(stored) = stored_home(transaction, &study.name)?.filter(|stored| *stored != path && stored.exists()) {
+        return Err(StudyError::HomeTaken { name: study.name.clone(), stored, found: path });
+    }
+    let study_id = transaction.query_row(
+        "INSERT INTO study (name, path, tight_below_mm, loose_above_mm, updated_at) VALUES (?, ?, ?, ?, ?)
+            ON CONFLICT (name) DO UPDATE SET path = excluded.path, tight_below_mm = excluded.tight_below_mm,
+                loose_above_mm = excluded.loose_above_mm, updated_at = excluded.updated_at
+            RETURNING study_id",
+        params![
+            study.name,
+            path.to_string_lossy(),
+            mm(study.cuts.tight_below_m),
+            mm(study.cuts.loose_above_m),
+            now_ms()
+        ],
+        |row| row.get(0),
+    )?;
+    transaction.execute("DELETE FROM study_axis WHERE study_id = ?", [study_id])?;
+    let garments = study.worn().map(|garment| ("garment", &garment.name));
+    let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| ("size", &size.name));
+    let subjects = study.subjects.iter().map(|subject| ("subject", &subject.id));
+    for (position, (axis, name)) in garments.chain(sizes).chain(subjects).enumerate() {
+        transaction
+            .prepare_cached("INSERT OR IGNORE INTO study_axis (study_id, axis, name, position) VALUES (?, ?, ?, ?)")?
+            .execute(params![study_id, axis, name, position as i64])?;
+    }
+    transaction.execute("DELETE FROM study_sweep WHERE study_id = ?", [study_id])?;
+    for garment in &study.garments {
+        for (name, value) in &garment.swept {
+            transaction
+                .prepare_cached(
+                    "INSERT INTO study_sweep (study_id, garment, style, name, value) VALUES (?, ?, ?, ?, ?)",
+                )?
+                .execute(params![study_id, garment.name, garment.style, name, value])?;
+        }
+    }
+    store_targets(transaction, study_id, study)?;
+    Ok(study_id)
+}
+
+/// Stores what ease each garment of a study is to have.
+fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
+    transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
+    let mut statement = transaction.prepare_cached(
+        "INSERT INTO fit_target (study_id, garment, level, is_top, intended, least_mm, most_mm) VALUES (?, ?, ?, ?, ?, ?, ?)",
+    )?;
+    for garment in study.worn() {
+        let own = garment.target.own_m.keys().map(String::as_str);
+        let levels: BTreeSet<&str> = TARGETS.iter().map(|row| row.level).chain(own).collect();
+        for (level, is_top) in levels.into_iter().flat_map(|level| [(level, false), (level, true)]) {
+            let Some([least, most]) = garment.target.band_m(level, is_top).map(|band| band.map(mm)) else { continue };
+            let intended = garment.target.intended.as_str();
+            statement.execute(params![study_id, garment.name, level, is_top, intended, least, most])?;
+        }
+    }
+    Ok(())
+}
+
+/// Takes jobs and eases of cells that a study no longer has out of it; their results stay in the database.
+fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
+    let cells: BTreeSet<Cell> = specs.iter().map(Cell::of).collect();
+    let current: Vec<(JobId, Cell)> = transaction
+        .prepare_cached(
+            "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
+        )?
+        .query_map([study_id], |row| {
+            let cell = Cell(row.get(1)?, row.get(2)?, row.get(3)?, read::simulator(row, 4)?, row.get(5)?);
+            Ok((JobId(row.get(0)?), cell))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    for (id, _) in current.iter().filter(|(_, cell)| !cells.contains(cell)) {
+        supersede(transaction, *id)?;
+    }
+    let worn: BTreeSet<[&str; 3]> = specs.iter().map(|spec| [&*spec.garment, &*spec.size, &*spec.subject]).collect();
+    let eased: BTreeSet<[String; 3]> = transaction
+        .prepare_cached("SELECT garment, size, subject FROM ease WHERE study_id = ?")?
+        .query_map([study_id], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?
+        .collect::<rusqlite::Result<_>>()?;
+    for [garment, size, subject] in eased.iter().filter(|[g, s, who]| !worn.contains(&[&**g, &**s, &**who])) {
+        let sql = "DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?";
+        transaction.prepare_cached(sql)?.execute(params![study_id, garment, size, subject])?;
+    }
+    Ok(())
+}
+
+/// Garment, size, subject, simulator and repeat of a job.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Cell(String, String, String, Simulator, u32);
+
+impl Cell {
+    fn of(spec: &JobSpec) -> Self {
+        Self(spec.garment.clone(), spec.size.clone(), spec.subject.clone(), spec.simulator, spec.repeat)
+    }
+}
+
+fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why, bool)> {
+    let hash = spec.inputs.hash();
+    let same = transaction
+        .prepare_cached(
+            "SELECT job_id, status FROM job WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?
+                AND simulator = ? AND repeat = ? AND input_hash = ?",
+        )?
+        .query_row(
+            params![study_id, spec.garment, spec.size, spec.subject, spec.simulator.as_str(), spec.repeat, hash],
+            |row| Ok((JobId(row.get(0)?), read::status(row, 1)?)),
+        )
+        .optional()?;
+    let earlier = latest_of_cell(transaction, study_id, spec)?;
+    if let Some((id, status)) = same {
+        make_current(transaction, id, earlier)?;
+        set_limits(transaction, id, spec)?;
+        let why = match status {
+            Status::Done | Status::NotConverged => Why::UpToDate(status),
+            Status::Queued | Status::Running => Why::Waiting,
+            Status::Failed | Status::Cancelled => {
+                queue::apply(transaction, id, &Event::Retry, None)?;
+                Why::Again(status)
+            }
+        };
+        return Ok((id, why, earlier == Some(id)));
+    }
+    let why = match earlier {
+        Some(since) => Why::Changed { since, changes: spec.inputs.changes_since(&inputs_of(transaction, since)?) },
+        None => Why::New,
+    };
+    if let Some(old) = earlier {
+        supersede(transaction, old)?;
+    }
+    let id = insert(transaction, study_id, spec, &hash)?;
+    queue::log(transaction, id, "info", &format!("queued: {why}"))?;
+    Ok((id, why, false))
+}
+
+/// The current job of a specification's cell.
+fn latest_of_cell(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<Option<JobId>> {
+    let sql = "SELECT job_id FROM job WHERE study_id = ? AND garment = ? AND size = ? AND subject = ? AND simulator = ?
+        AND repeat = ? AND is_current";
+    let cell = params![study_id, spec.garment, spec.size, spec.subject, spec.simulator.as_str(), spec.repeat];
+    Ok(transaction.prepare_cached(sql)?.query_row(cell, |row| row.get(0).map(JobId)).optional()?)
+}
+
+/// Makes a job of earlier inputs its cell's current one.
+fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>) -> Result<()> {
+    if let Some(old) = current.filter(|&old| old != id) {
+        supersede(transaction, old)?;
+    }
+    transaction.prepare_cached("UPDATE job SET is_current = 1 WHERE job_id = ?")?.execute([id.0])?;
+    Ok(())
+}
+
+/// What a job may take, as its study says now.
+fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
+    let Limits { time_s, memory_mb } = spec.schedule.limits;
+    let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
+        WHERE job_id = ?3 AND (time_limit_s IS NOT ?1 OR memory_limit_mb IS NOT ?2)";
+    transaction.prepare_cached(sql)?.execute(params![time_s, memory_mb, id.0])?;
+    Ok(())
+}
+
+/// Takes a job out of its cell; what has not begun need not run any more, and nobody waits for it.
+fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
+    transaction.prepare_cached("DELETE FROM job_need WHERE needs = ?")?.execute([id.0])?;
+    transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
+    if queue::apply(transaction, id, &Event::Cancel, None)?.is_some() {
+        queue::log(transaction, id, "info", "cancelled: an input of the study changed")?;
+    }
+    Ok(())
+}
+
+fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
+    let (by, unit) = (By::Study, spec.unit.as_deref());
+    let subject = revision::subject(transaction, &spec.subject, &spec.person, by)?.id;
+    let style = revision::style(transaction, &spec.style, spec.seams.as_ref(), by)?.id;
+    let size = revision::size(transaction, (&spec.style, &spec.size), &spec.pattern, unit, by)?.id;
+    let fabric = revision::fabric(transaction, &spec.fabric, by)?.id;
+    transaction
+        .prepare_cached(
+            "INSERT INTO job (study_id, garment, size, subject, simulator, repeat, input_hash, priority, status, queued_at,
+                subject_id, style_id, size_id, fabric_id)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?)",
+        )?
+        .execute(params![
+            study_id,
+            spec.garment,
+            spec.size,
+            spec.subject,
+            spec.simulator.as_str(),
+            spec.repeat,
+            hash,
+            spec.schedule.priority,
+            now_ms(),
+            subject,
+            style,
+            size,
+            fabric
+        ])?;
+    let id = JobId(transaction.last_insert_rowid());
+    set_limits(transaction, id, spec)?;
+    let mut statement = transaction.prepare_cached("INSERT INTO job_input (job_id, name, value) VALUES (?, ?, ?)")?;
+    for (name, value) in spec.inputs.iter() {
+        statement.execute(params![id.0, name, value])?;
+    }
+    Ok(id)
+}
+
+/// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+///
+/// # Errors
+/// When there is no such job.
+pub fn why(store: &Store, id: JobId) -> Result<Why> {
+    read::job(store, id)?;
+    let sql =
+        "SELECT earlier.job_id FROM job JOIN job AS earlier USING (study_id, garment, size, subject, simulator, repeat)
+        WHERE job.job_id = ?1 AND earlier.job_id < ?1 ORDER BY earlier.job_id DESC LIMIT 1";
+    let earlier = store.reader.prepare_cached(sql)?.query_row([id.0], |row| row.get(0).map(JobId)).optional()?;
+    let Some(since) = earlier else { return Ok(Why::New) };
+    let changes = inputs_of(&store.reader, id)?.changes_since(&inputs_of(&store.reader, since)?);
+    Ok(Why::Changed { since, changes })
+}
+
+/// The inputs of a job, by name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn inputs(store: &Store, id: JobId) -> Result<Inputs> {
+    inputs_of(&store.reader, id)
+}
+
+/// The stored inputs of a job.
+pub(crate) fn inputs_of(connection: &Connection, id: JobId) -> Result<Inputs> {
+    let mut statement = connection.prepare_cached("SELECT name, value FROM job_input WHERE job_id = ?")?;
+    let inputs = statement.query_map([id.0], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(inputs.collect::<rusqlite::Result<_>>()?)
+}

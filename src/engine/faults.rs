@@ -1,0 +1,30 @@
+//! What can be wrong with a drape, in words.
+
+/// Deepest penetration of a drape that is good, mm.
+const PENETRATION_MM: f64 = 0.5;
+
+/// What can be wrong with a drape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// It had not come to rest.
+    Moves,
+    /// It lies inside the body.
+    Inside,
+    /// The cloth goes through itself.
+    Crosses,
+}
+
+/// What is wrong with a drape, in words.
+pub fn drape_faults(converged: bool, residual: f64, penetration_mm: f64, self_crossings: i64) -> Vec<(String, Fault)> {
+    let mut faults = Vec::new();
+    if !converged {
+        faults.push((format!("not converged: residual {residual:.4}"), Fault::Moves));
+    }
+    if penetration_mm > PENETRATION_MM {
+        faults.push((format!("{penetration_mm:.1} mm inside the body"), Fault::Inside));
+    }
+    if self_crossings > 0 {
+        faults.push((format!("the cloth crosses itself at {self_crossings} edges"), Fault::Crosses));
+    }
+    faults
+}

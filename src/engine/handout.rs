@@ -1,0 +1,320 @@
+//! Jobs as files: handed to whatever runs them, on any machine, and their results taken back.
+//!
+//! A job file holds all that a job is made from, a result file all that came of it; neither needs a database. Results are
+//! merged in one transaction, and merging them again changes nothing.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use base64::prelude::{BASE64_STANDARD, Engine};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
+use serde::{Deserialize, Serialize};
+
+use crate::enqueue::{self, Planned};
+use crate::isolated::{self, Clock, Teller};
+use crate::outcome::{self, Executor, Outcome, Provenance};
+use crate::pipeline::Pipeline;
+use crate::run::check_names;
+use sim::{Monitor, Progress};
+use spec::{JobSpec, Selection, Study};
+use store::cache::Cache;
+use store::owner::Owner;
+use store::queue::{self, Event};
+use store::{Access, JobId, Result, Status, Store, StudyError, evidence, now_ms, read};
+
+/// Layout of the files; raised when it changes.
+const FORMAT: u32 = 1;
+/// How a job file ends.
+const JOB: &str = ".job.json";
+/// How a result file ends.
+const RESULT: &str = ".result.json";
+
+/// A job, for another machine.
+#[derive(Serialize, Deserialize)]
+struct JobFile {
+    format: u32,
+    study: String,
+    provenance: Provenance,
+    spec: JobSpec,
+}
+
+/// What came of a job on another machine.
+#[derive(Serialize, Deserialize)]
+struct ResultFile {
+    format: u32,
+    study: String,
+    input_hash: String,
+    spec: JobSpec,
+    provenance: Provenance,
+    wall_ms: i64,
+    outcome: std::result::Result<Outcome, String>,
+    products: Vec<Product>,
+}
+
+/// A product of a stage as it is stored: packed.
+#[derive(Serialize, Deserialize)]
+struct Product {
+    hash: String,
+    kind: String,
+    packed: String,
+}
+
+/// A job that was handed out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandedOut {
+    /// The job as it was queued.
+    pub job: Planned,
+    /// Its file; `None` where it need not run.
+    pub file: Option<PathBuf>,
+}
+
+/// What merging did with the results it found.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Merged {
+    /// Jobs that have a result now.
+    pub stored: Vec<JobId>,
+    /// Jobs that failed elsewhere, and are failed here now.
+    pub failed: Vec<JobId>,
+    /// Jobs whose result was here already.
+    pub known: Vec<JobId>,
+    /// Jobs that a worker of this database runs right now: it will come to the same result.
+    pub running: Vec<JobId>,
+}
+
+/// What became of a job file that was run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ran {
+    /// The result file.
+    pub file: PathBuf,
+    /// Why the job failed, if it did.
+    pub error: Option<String>,
+}
+
+/// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file.
+///
+/// # Errors
+/// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
+pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
+    check_names(study, selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, selection)?;
+    transaction.commit()?;
+    std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
+    let provenance = Provenance::of(study.path.parent().unwrap_or(Path::new(".")));
+    let mut handed = Vec::with_capacity(planned.len());
+    for job in planned {
+        let mut file = None;
+        if job.why.will_run() {
+            // Cells may share all inputs, as variants of a sweep do where one simulator does not know the parameter.
+            let path = folder.join(format!("{}-{}{JOB}", job.id, &job.spec.inputs.hash()[..16]));
+            let (study, spec) = (study.name.clone(), job.spec.clone());
+            write_json(&path, &JobFile { format: FORMAT, study, provenance: provenance.clone(), spec })?;
+            file = Some(path);
+        }
+        handed.push(HandedOut { job, file });
+    }
+    Ok(handed)
+}
+
+/// Merges result files, and those in folders, in one transaction. What has a result here keeps it.
+///
+/// # Errors
+/// When the database is open read-only, or a file is no result of a job of this database: nothing is then stored.
+pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() { files.extend(results_in(path)?) } else { files.push(path.clone()) }
+    }
+    let owner = Owner::new();
+    let mut merged = Merged::default();
+    let transaction = store::write(store.writer()?)?;
+    let mut studies = BTreeSet::new();
+    for path in &files {
+        studies.insert(merge_one(&transaction, path, &owner, &mut merged)?);
+    }
+    transaction.commit()?;
+    for study in &studies {
+        evidence::update_evidence(store, study)?;
+    }
+    Ok(merged)
+}
+
+/// Runs a job file within its limits and writes its result beside it, or where it is wanted. A job that fails has a result
+/// that says why. With a database the products of the stages stay there, the process ends with the one that started it,
+/// and says how far it is on standard output.
+///
+/// # Errors
+/// When the job file cannot be read, or the result cannot be written.
+pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> Result<Ran> {
+    let job: JobFile = read_json(path, "job")?;
+    if database.is_some() {
+        isolated::end_with_parent();
+    }
+    isolated::keep_to(&job.spec.schedule.limits)?;
+    let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
+    let scratch = folder.path().join("job.sqlite");
+    let connection = store::open(&scratch, Access::Create)?;
+    let began = Instant::now();
+    // Versions of the stages are this program's: a result of other ones is refused where it is merged.
+    let spec = job.spec.with_inputs();
+    let clock = Clock::start(&spec.schedule.limits);
+    let mut teller = Teller { clock, is_heard: database.is_some(), last: None };
+    let pipeline = Pipeline::over(Cache::new(database.map_or(scratch, Path::to_owned)));
+    let outcome = match pipeline.execute(&spec, &mut teller) {
+        Err(StudyError::Interrupted) => Err(teller.clock.error()),
+        outcome => outcome,
+    };
+    let outcome = outcome.map_err(|error| error.to_string());
+    let error = outcome.as_ref().err().cloned();
+    let result = ResultFile {
+        format: FORMAT,
+        study: job.study,
+        input_hash: spec.inputs.hash(),
+        spec,
+        provenance: Provenance { git: job.provenance.git, ..Provenance::here() },
+        wall_ms: began.elapsed().as_millis() as i64,
+        outcome,
+        products: products(&connection)?,
+    };
+    let file = output.map_or_else(|| result_of(path), Path::to_owned);
+    write_json(&file, &result)?;
+    Ok(Ran { file, error })
+}
+
+/// Writes a job file for a process that this one starts; where it is made does not go along.
+pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
+    let (study, provenance) = (String::new(), Provenance::default());
+    write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
+}
+
+/// What came of a job, from its result file.
+pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
+    let result: ResultFile = read_json(path, "result")?;
+    result.outcome.map_err(|message| StudyError::Elsewhere { message })
+}
+
+/// Where the result of a job file is written.
+pub(crate) fn result_of(job: &Path) -> PathBuf {
+    let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
+}
+
+/// The result files of a folder, by name.
+pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
+        let path = entry.map_err(StudyError::io(folder))?.path();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(RESULT)) {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Everything that the stages stored.
+fn products(connection: &Connection) -> Result<Vec<Product>> {
+    let mut statement = connection.prepare("SELECT hash, kind, bytes FROM artefact ORDER BY hash")?;
+    let product = |row: &rusqlite::Row<'_>| {
+        let bytes: Vec<u8> = row.get(2)?;
+        Ok(Product { hash: row.get(0)?, kind: row.get(1)?, packed: BASE64_STANDARD.encode(bytes) })
+    };
+    let products = statement.query_map([], product)?.collect::<rusqlite::Result<_>>()?;
+    Ok(products)
+}
+
+/// Merges one result file; the name of its study.
+fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
+    let result: ResultFile = read_json(path, "result")?;
+    let spec = &result.spec;
+    let refuse = |message: String| StudyError::stage("merge")(format!("{}: {message}", path.display()));
+    if spec.inputs.hash() != result.input_hash {
+        return Err(refuse("its inputs are not those it was made from".into()));
+    }
+    let sql = "SELECT job_id, status FROM job JOIN study USING (study_id) WHERE study.name = ? AND garment = ?
+        AND size = ? AND subject = ? AND simulator = ? AND repeat = ? AND input_hash = ?";
+    let cell = params![
+        result.study,
+        spec.garment,
+        spec.size,
+        spec.subject,
+        spec.simulator.as_str(),
+        spec.repeat,
+        result.input_hash
+    ];
+    let found = transaction
+        .prepare_cached(sql)?
+        .query_row(cell, |row| Ok((JobId(row.get(0)?), read::status(row, 1)?)))
+        .optional()?;
+    let (id, status) = found.ok_or_else(|| {
+        let (study, garment, size, subject) = (&result.study, &spec.garment, &spec.size, &spec.subject);
+        refuse(format!(
+            "this database has no such job: {garment} {size} on {subject} of study {study}; was it made by another version \
+            of the program?"
+        ))
+    })?;
+    match status {
+        Status::Done | Status::NotConverged => merged.known.push(id),
+        Status::Running => merged.running.push(id),
+        Status::Failed if result.outcome.is_err() => merged.known.push(id),
+        Status::Failed | Status::Cancelled | Status::Queued => {
+            if status != Status::Queued {
+                queue::apply(transaction, id, &Event::Retry, None)?;
+            }
+            queue::apply(transaction, id, &Event::Claim(owner.as_str()), None)?;
+            take_products(transaction, &result.products)?;
+            let outcome = result.outcome.map_err(|message| StudyError::Elsewhere { message });
+            let is_failed = outcome.is_err();
+            outcome::finish_in(transaction, id, spec, owner.as_str(), &outcome, &result.provenance)?;
+            let sql = "UPDATE job SET wall_ms = ? WHERE job_id = ?";
+            transaction.prepare_cached(sql)?.execute((result.wall_ms, id.0))?;
+            queue::log(transaction, id, "info", &format!("merged; made on {}", result.provenance.machine))?;
+            if is_failed { merged.failed.push(id) } else { merged.stored.push(id) }
+        }
+    }
+    Ok(result.study)
+}
+
+/// Stores products that are not here yet.
+fn take_products(transaction: &Transaction<'_>, products: &[Product]) -> Result<()> {
+    let sql = "INSERT OR IGNORE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
+    let mut statement = transaction.prepare_cached(sql)?;
+    for product in products {
+        let packed = BASE64_STANDARD.decode(&product.packed).map_err(StudyError::stage("merge"))?;
+        statement.execute(params![product.hash, product.kind, packed, now_ms()])?;
+    }
+    Ok(())
+}
+
+/// Reads one of the files.
+fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'static str) -> Result<T> {
+    #[derive(Deserialize)]
+    struct Head {
+        format: u32,
+    }
+    let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+    let refuse = |found: String| StudyError::stage(what)(format!("{}: {found}", path.display()));
+    let head: Head =
+        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {what} file: {error}")))?;
+    if head.format != FORMAT {
+        return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
+    }
+    serde_json::from_slice(&bytes).map_err(|error| refuse(error.to_string()))
+}
+
+/// Writes a file that is there whole or not at all, whenever the program ends.
+fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let bytes = serde_json::to_vec(value).map_err(StudyError::stage("store"))?;
+    let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));
+    std::fs::write(&part, bytes).map_err(StudyError::io(&part))?;
+    std::fs::File::open(&part).and_then(|file| file.sync_all()).map_err(StudyError::io(&part))?;
+    std::fs::rename(&part, path).map_err(StudyError::io(path))
+}
+
+/// A run whose progress nobody watches.
+pub struct Untold;
+
+impl Monitor for Untold {
+    fn progress(&mut self, _: &Progress) {}
+}

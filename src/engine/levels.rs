@@ -1,0 +1,198 @@
+//! How a drape sits on its body: cross sections, balance, folds and pressure, measured and written.
+
+use rusqlite::{Transaction, params};
+use serde::{Deserialize, Serialize};
+
+use body::Body;
+use fit::Simulator;
+use fit::reach::{self, Drawn};
+use fit::worn::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
+use geom::units::mm;
+use geom::{Surface, V3, hull};
+use pattern::style::PathPart;
+use pattern::{Garment, MaterialLine, Style};
+use sim::sewn::Sewn;
+use sim::{Drape, Fabric};
+use store::{JobId, Result, StudyError};
+
+/// Square centimetres in a square metre.
+pub(crate) const CM2: f64 = 1e4;
+
+/// Body and cloth at a level.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Level {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Height above the floor, m.
+    pub height_m: f64,
+    /// What a tape reads of trunk or limb, m.
+    pub body_girth_m: f64,
+    /// Length of the cloth's outlines, m.
+    pub cloth_length_m: f64,
+    /// Area of trunk or limb, m2.
+    pub body_area_m2: f64,
+    /// Area between skin and cloth, m2.
+    pub air_m2: f64,
+    /// Gap in [`DIRECTIONS`] directions from the front towards the subject's right, m; `None` where there is no cloth.
+    pub gaps_m: Vec<Option<f64>>,
+}
+
+impl Level {
+    /// Girths, areas and gaps of a section.
+    pub fn of(section: &Section) -> Self {
+        Self {
+            level: section.site.level.clone(),
+            height_m: section.site.height_m(),
+            body_girth_m: hull::tape_girth(&section.skin.points),
+            cloth_length_m: section.cloth_length_m(),
+            body_area_m2: section.body_area_m2(),
+            air_m2: section.air_m2(),
+            gaps_m: section.gaps(DIRECTIONS).into_iter().map(|angle| angle.gap_m).collect(),
+        }
+    }
+}
+
+/// What presses on a region of the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pressing {
+    /// Name of the region, such as `lower_legs`.
+    pub region: String,
+    /// Area that is pressed, m2.
+    pub area_m2: f64,
+    /// Mean over that area, kPa.
+    pub mean_kpa: f64,
+    /// What 1 % of it exceeds, kPa.
+    pub most_kpa: f64,
+}
+
+/// How a drape sits on its body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WornOn {
+    /// Cross sections at the levels that the garment covers.
+    pub levels: Vec<Level>,
+    /// Balance of hem, waist edge and side seams.
+    pub hang: Hang,
+    /// Folds, the longest first.
+    pub folds: Vec<Fold>,
+    /// Pressure by region; of FEM-GS, which alone brings cloth and body into balance.
+    pub pressing: Vec<Pressing>,
+    /// How far openings were drawn; of a drape that was carried into another pose.
+    #[serde(default)]
+    pub drawn: Vec<Drawn>,
+}
+
+impl WornOn {
+    /// Measures a drape.
+    ///
+    /// # Errors
+    /// When a triangle of the pattern mesh has no area, or the body no surface.
+    pub(crate) fn of(
+        body: &Body,
+        style: &Style,
+        (garment, fabric): (&Garment, &Fabric),
+        drape: &Drape,
+        simulator: Simulator,
+    ) -> Result<Self> {
+        let sewn = Sewn::new(garment, fabric, &drape.positions).map_err(StudyError::stage("measure"))?;
+        let cut = |site: Site| Section::cut(site, &body.mesh, &sewn.mesh).filter(|section| !section.cloth.is_empty());
+        let surface = Surface::new(&body.mesh).map_err(StudyError::stage("measure"))?;
+        let gap_m: Vec<f64> = sewn.mesh.positions.iter().map(|p| surface.signed_distance(p)).collect();
+        let tension_n_m = sewn.welded(&sewn.tensions_n_m());
+        let worn = worn::Worn { cloth: &sewn.mesh, gap_m: &gap_m, tension_n_m: &tension_n_m };
+        let pressed = match simulator {
+            Simulator::Fem => worn::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa()),
+            Simulator::Hybrid => Vec::new(),
+        };
+        let pressing = |one: worn::Pressed| Pressing {
+            region: one.region.as_str().to_owned(),
+            area_m2: one.area_m2,
+            mean_kpa: one.mean_kpa,
+            most_kpa: one.most_kpa,
+        };
+        let drawn = drape.kept.iter().flat_map(|kept| reach::drawn(garment, kept, &drape.positions));
+        Ok(Self {
+            levels: worn::sites(body).into_iter().filter_map(cut).map(|section| Level::of(&section)).collect(),
+            hang: hang(style, garment, &drape.positions),
+            folds: worn::folds(&worn),
+            pressing: pressed.into_iter().map(pressing).collect(),
+            drawn: drawn.collect(),
+        })
+    }
+}
+
+/// The balance of a drape.
+pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
+    let lines = style.hang_lines();
+    let paths: Vec<&[PathPart]> =
+        [&lines.hem, &lines.waist].into_iter().chain(&lines.side_seams).map(Vec::as_slice).collect();
+    let place = |run: &MaterialLine| -> Vec<V3> { run.points.iter().map(|point| point.at(positions)).collect() };
+    let laid = style.laid(garment, &paths).into_iter();
+    let mut placed = laid.map(|runs| runs.iter().flatten().map(place).collect::<Vec<_>>());
+    let (hem, waist) = (placed.next().unwrap_or_default(), placed.next().unwrap_or_default());
+    worn::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
+}
+
+/// Writes how a drape sits.
+pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> Result<()> {
+    let mut section = transaction.prepare_cached("INSERT INTO section VALUES (?, ?, ?, ?, ?, ?, ?)")?;
+    let mut gap = transaction.prepare_cached("INSERT INTO section_gap VALUES (?, ?, ?, ?)")?;
+    for level in &worn.levels {
+        let [height_mm, girth_mm, cloth_mm] = [level.height_m, level.body_girth_m, level.cloth_length_m].map(mm);
+        let [body_cm2, air_cm2] = [level.body_area_m2, level.air_m2].map(|area| area * CM2);
+        section.execute(params![id.0, level.level, height_mm, girth_mm, cloth_mm, body_cm2, air_cm2])?;
+        for (number, gap_m) in level.gaps_m.iter().enumerate() {
+            let angle_deg = number as f64 * 360.0 / DIRECTIONS as f64;
+            gap.execute(params![id.0, level.level, angle_deg, gap_m.map(mm)])?;
+        }
+    }
+    let mut balance = transaction.prepare_cached("INSERT INTO balance VALUES (?, ?, ?, ?)")?;
+    for (quantity, value, unit) in quantities(&worn.hang) {
+        balance.execute(params![id.0, quantity, value, unit])?;
+    }
+    let mut drawn = transaction.prepare_cached("INSERT INTO drawn VALUES (?, ?, ?, ?)")?;
+    for one in &worn.drawn {
+        drawn.execute(params![id.0, one.opening, mm(one.mean_m), mm(one.most_m)])?;
+    }
+    let mut fold = transaction.prepare_cached("INSERT INTO fold VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")?;
+    for (number, one) in (1_i64..).zip(&worn.folds) {
+        let kind = if one.is_drag { "drag_line" } else { "fold" };
+        let side_deg = one.middle.x.atan2(one.middle.y).to_degrees().rem_euclid(360.0);
+        let [length_mm, height_mm, radius_mm] = [one.length_m, one.middle.z, one.radius_m].map(mm);
+        let angle_deg = one.from_vertical_rad.to_degrees();
+        fold.execute(params![
+            id.0,
+            number,
+            kind,
+            length_mm,
+            angle_deg,
+            height_mm,
+            side_deg,
+            radius_mm,
+            one.tension_n_m
+        ])?;
+    }
+    let mut pressure = transaction.prepare_cached("INSERT INTO pressure VALUES (?, ?, ?, ?, ?)")?;
+    for one in &worn.pressing {
+        pressure.execute(params![id.0, one.region, one.area_m2 * CM2, one.mean_kpa, one.most_kpa])?;
+    }
+    Ok(())
+}
+
+/// The numbers of a balance with their units: heights above the floor, differences, angles.
+pub fn quantities(hang: &Hang) -> Vec<(String, f64, &'static str)> {
+    let mut found = Vec::new();
+    for (edge, sides) in [("hem", hang.hem), ("waist", hang.waist)] {
+        let Some(Sides { front_m, back_m, right_m, left_m }) = sides else { continue };
+        for (side, height_m) in [("front", front_m), ("back", back_m), ("right", right_m), ("left", left_m)] {
+            found.extend(height_m.map(|height_m| (format!("{edge}_{side}"), mm(height_m), "mm")));
+        }
+        let differences = [("front_over_back", front_m.zip(back_m)), ("right_over_left", right_m.zip(left_m))];
+        for (name, pair) in differences {
+            found.extend(pair.map(|(one, other)| (format!("{edge}_{name}"), mm(one - other), "mm")));
+        }
+    }
+    for (side, lean_rad) in ["right", "left"].into_iter().zip(hang.lean_rad) {
+        found.extend(lean_rad.map(|lean| (format!("side_seam_lean_{side}"), lean.to_degrees(), "deg")));
+    }
+    found
+}

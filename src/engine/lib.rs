@@ -1,0 +1,56 @@
+//! The engine: jobs are queued, claimed and worked on. [`pipeline`] turns one job into one result; [`workers`] claim
+//! jobs; [`isolated`] gives a job with limits a process of its own; [`handout`] and [`slurm`] let other machines work.
+//!
+//! # Examples
+//! ```
+//! use spec::{Selection, new_study::write_quickstart};
+//! use wardrobe::catalogue;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let folder = tempfile::tempdir()?;
+//! write_quickstart(folder.path())?;
+//! let mut store = catalogue::open(&folder.path().join("toile.sqlite"), false)?;
+//! let study = engine::run::load_study(&store, folder.path())?;
+//!
+//! // Nothing is simulated yet: `run::start` does that.
+//! let fem = Selection { simulators: vec!["fem".into()], ..Selection::default() };
+//! let planned = engine::run::plan(&mut store, &study, &fem)?;
+//! assert_eq!(planned.len(), 6);
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod actions;
+pub mod attempt;
+pub mod carry;
+pub mod compose;
+pub mod ease;
+pub mod enqueue;
+pub mod faults;
+pub mod handout;
+pub mod isolated;
+pub mod layers;
+pub mod levels;
+pub mod outcome;
+pub mod pipeline;
+pub mod reach;
+pub mod run;
+pub mod slurm;
+#[cfg(test)]
+mod tests;
+pub mod workers;
+
+pub use actions::why_no_retry;
+pub use attempt::{
+    Attempt, AttemptLayer, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt,
+    fabric as fabric_named,
+};
+pub use compose::{NewStudy, PatternSource, Wearable, wearables};
+pub use enqueue::{Planned, Why};
+pub use handout::{HandedOut, Merged, Ran, run_job};
+pub use levels::{Level, Pressing, WornOn};
+pub use outcome::{Executor, Measured, MeasuredPoint, Outcome};
+pub use pipeline::Pipeline;
+pub use reach::{Reached, ReachedAt, ReachedOpening};
+pub use run::{Run, RunOptions};
+pub use slurm::{SlurmOptions, SlurmRun};

@@ -1,0 +1,126 @@
+//! What a movement does to a garment: it is carried from the pose that it was draped in to another, and measured in both.
+
+use serde::Serialize;
+
+use crate::carry::carry;
+use crate::faults::drape_faults;
+use crate::layers::Garb;
+use body::{Body, Pose};
+use fit::{reach, worn};
+use geom::units::mm;
+use pattern::Garment;
+use sim::sewn::Sewn;
+use sim::{Drape, Fabric, Monitor};
+use spec::Parameters;
+use store::{Result, StudyError};
+
+/// Share of a piece that its greatest tension leaves out: single vertices say little.
+const LEFT_OUT: f64 = 0.01;
+
+/// How far an opening was drawn into the garment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns say it: a mean and a greatest value along the opening")]
+pub struct ReachedOpening {
+    pub opening: String,
+    pub drawn_mm: f64,
+    pub drawn_most_mm: f64,
+}
+
+/// A quantity before and after the movement, at a piece of the garment or a region of the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns say it: a place, and the quantity there in both poses")]
+pub struct ReachedAt {
+    pub place: String,
+    pub before: f64,
+    pub after: f64,
+}
+
+/// A garment in the pose that was reached.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reached {
+    /// That pose.
+    pub pose: String,
+    /// Hem, cuffs, neckline and other closed free edges.
+    pub opening: Vec<ReachedOpening>,
+    /// Tension in warp or weft that 1 % of each piece exceeds, N/m.
+    pub tension_n_m: Vec<ReachedAt>,
+    /// Pressure that 1 % of the pressed area of each region of the body exceeds, kPa.
+    pub pressure_kpa: Vec<ReachedAt>,
+    /// Rms force over mean vertex weight.
+    pub residual: f64,
+    /// Deepest point inside the body, mm.
+    pub penetration_max_mm: f64,
+    /// Edges that pierce the garment's own cloth.
+    pub self_crossings: usize,
+    /// What is wrong with the drape; empty where it is good.
+    pub problems: Vec<String>,
+}
+
+/// What changes as a body moves from one pose into another with a garment on; the body and the drape there.
+///
+/// # Errors
+/// As [`carry`].
+pub(crate) fn reached(
+    upright: &Body,
+    poses: [Pose; 2],
+    (garb, drape): (&Garb, &Drape),
+    monitor: &mut dyn Monitor,
+) -> Result<(Reached, Body, Drape)> {
+    let parameters = Parameters::default();
+    let ([_, to], garment, fabric) = (poses, garb.meshes.finest()?, &garb.fabric);
+    let (bodies, after) = carry(upright, poses, (garment, fabric), (drape, &parameters), monitor)?;
+    let [first, .., last] = &bodies[..] else { return Err(StudyError::stage("body")("no pose to go to")) };
+    let kept = after.kept.as_deref().unwrap_or_default();
+    let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|one| ReachedOpening {
+        opening: one.opening,
+        drawn_mm: mm(one.mean_m),
+        drawn_most_mm: mm(one.most_m),
+    });
+    let (before, loaded) = (loads(first, (garment, fabric), drape)?, loads(last, (garment, fabric), &after)?);
+    let depth_mm = mm(after.penetration_max_m);
+    let faults = drape_faults(after.converged, after.residual, depth_mm, after.self_crossings as i64);
+    let reached = Reached {
+        pose: to.to_string(),
+        opening: opening.collect(),
+        tension_n_m: paired(before.tension_n_m, &loaded.tension_n_m),
+        pressure_kpa: paired(before.pressure_kpa, &loaded.pressure_kpa),
+        residual: after.residual,
+        penetration_max_mm: depth_mm,
+        self_crossings: after.self_crossings,
+        problems: faults.into_iter().map(|(says, _)| format!("{to}: {says}")).collect(),
+    };
+    Ok((reached, last.clone(), after))
+}
+
+/// What a drape does to cloth and body, by place.
+struct Loads {
+    tension_n_m: Vec<(String, f64)>,
+    pressure_kpa: Vec<(String, f64)>,
+}
+
+fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> Result<Loads> {
+    let sewn = Sewn::new(garment, fabric, &drape.positions).map_err(StudyError::stage("measure"))?;
+    let tensions = sewn.tensions_n_m();
+    let greatest = |own: &[f64]| {
+        let mut sorted = own.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(((sorted.len() as f64) * (1.0 - LEFT_OUT)) as usize).copied().unwrap_or(0.0)
+    };
+    let pressed = worn::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa());
+    let pieces = garment.pieces.iter();
+    Ok(Loads {
+        tension_n_m: pieces.map(|piece| (piece.id.clone(), greatest(&tensions[piece.vertices.clone()]))).collect(),
+        pressure_kpa: pressed.into_iter().map(|one| (one.region.as_str().to_owned(), one.most_kpa)).collect(),
+    })
+}
+
+/// The same quantity before and after, by place; what is at neither place counts as 0 there.
+fn paired(before: Vec<(String, f64)>, after: &[(String, f64)]) -> Vec<ReachedAt> {
+    let at = |values: &[(String, f64)], place: &str| {
+        values.iter().find(|(of, _)| of == place).map_or(0.0, |(_, value)| *value)
+    };
+    let new = after.iter().filter(|(place, _)| !before.iter().any(|(of, _)| of == place));
+    let places: Vec<String> = before.iter().chain(new).map(|(place, _)| place.clone()).collect();
+    let pair = |place: String| ReachedAt { before: at(&before, &place), after: at(after, &place), place };
+    places.into_iter().map(pair).collect()
+}

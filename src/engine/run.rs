@@ -1,0 +1,257 @@
+//! Starting a run of a study: checked, queued, and worked on in the background.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+use crate::enqueue::Planned;
+use crate::isolated::Isolated;
+use crate::outcome::{Executor, Provenance};
+use crate::pipeline::Pipeline;
+use crate::{ease, enqueue, outcome, workers};
+use body::Body;
+use pattern::Style;
+use spec::{Selection, Study, patterns};
+use store::{Access, Live, Problem, Result, Store, StudyError, evidence};
+use wardrobe::catalogue;
+
+/// What to run, and how.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Which jobs of the study.
+    pub selection: Selection,
+    /// Worker threads, one simulation each; by default as many as there are cores.
+    pub workers: Option<usize>,
+    /// Where the run may be watched.
+    pub live: Arc<Live>,
+}
+
+/// A run in the background. Dropping it stops it: what runs goes back into the queue.
+pub struct Run {
+    /// Name of the study.
+    pub study: String,
+    /// Its jobs, with the reason for each.
+    pub planned: Arc<Vec<Planned>>,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Result<()>>>,
+}
+
+impl Run {
+    /// Asks the workers to stop; running jobs go back into the queue. Returns at once.
+    pub fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether all workers are done.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    /// Waits for the workers.
+    ///
+    /// # Errors
+    /// When the database failed; failed jobs are not errors here.
+    pub fn join(mut self) -> Result<()> {
+        self.wait()
+    }
+
+    fn wait(&mut self) -> Result<()> {
+        match self.thread.take().map(JoinHandle::join) {
+            None => Ok(()),
+            Some(Ok(result)) => result,
+            Some(Err(panic)) => std::panic::resume_unwind(panic),
+        }
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        self.stop();
+        // An error was for whoever joins; here nobody listens.
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+/// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
+pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
+    let study = Study::load(path, &catalogue::known(Some(&store.reader))?)?;
+    check_patterns(&study)?;
+    Ok(study)
+}
+
+/// What a run of a study would do; nothing is written.
+///
+/// # Errors
+/// When the database is open read-only or a selection names what the study does not have.
+pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    check_names(study, selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, selection);
+    transaction.rollback()?;
+    planned
+}
+
+/// Queues a study and starts working on it with the real pipeline.
+///
+/// # Errors
+/// When the database is open read-only or a selection names what the study does not have.
+pub fn start(store: &mut Store, study: &Study, options: &RunOptions) -> Result<Run> {
+    let pipeline = Arc::new(Pipeline::new(store.path()));
+    let (database, of_study, stages) = (store.path().to_owned(), study.clone(), pipeline.clone());
+    // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
+    let aside = move || drop(store_ease(&database, &of_study, &stages));
+    let executor = Arc::new(Isolated::new(store.path(), pipeline));
+    launch(store, study, options, executor, aside)
+}
+
+/// Finds the ease of every size of a study on every subject, and stores it.
+///
+/// # Errors
+/// When the database is open read-only, or a body or a pattern cannot be made.
+pub fn update_ease(store: &mut Store, study: &Study) -> Result<()> {
+    store.writer()?;
+    store_ease(store.path(), study, &Pipeline::new(store.path()))
+}
+
+/// [`start`] with any executor.
+///
+/// # Errors
+/// When the database is open read-only or a selection names what the study does not have.
+pub fn start_with(
+    store: &mut Store,
+    study: &Study,
+    options: &RunOptions,
+    executor: Arc<dyn Executor + Send>,
+) -> Result<Run> {
+    launch(store, study, options, executor, || ())
+}
+
+/// Queues a study and works on it in a thread, beside `aside`.
+fn launch(
+    store: &mut Store,
+    study: &Study,
+    options: &RunOptions,
+    executor: Arc<dyn Executor + Send>,
+    aside: impl FnOnce() + Send + 'static,
+) -> Result<Run> {
+    check_names(study, &options.selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = Arc::new(enqueue::enqueue(&transaction, study, &options.selection)?);
+    transaction.commit()?;
+
+    let stop = Arc::new(AtomicBool::new(false));
+    let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+    let (database, jobs, stopped) = (store.path().to_owned(), planned.clone(), stop.clone());
+    let live = options.live.clone();
+    let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+    // What was the study's before needs nothing beside it: all of that was found with its results.
+    let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
+    let name = study.name.clone();
+    let work = move || {
+        if is_settled {
+            // A run that was killed may not have come to judge its last results.
+            return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
+        }
+        let provenance = Provenance::of(&folder);
+        thread::scope(|scope| {
+            scope.spawn(aside);
+            let work = workers::Work { study: &name, jobs: &jobs };
+            workers::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
+        })
+    };
+    let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
+    Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
+}
+
+/// Subjects whose eases are stored together.
+const TOGETHER: usize = 100;
+
+/// Finds the ease of every size of a study on every subject, and stores it. A subject's body is made once for all its garments.
+fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
+    let mut connection = store::open(database, Access::Write)?;
+    let transaction = store::write(&mut connection)?;
+    let study_id = enqueue::store_study(&transaction, study)?;
+    transaction.commit()?;
+    let worn = worn_styles(study)?;
+    for subjects in study.subjects.chunks(TOGETHER) {
+        let models = subjects.iter().map(|subject| pipeline.worn_body(subject)).collect::<Result<Vec<_>>>()?;
+        let mut found = Vec::new();
+        for worn in &worn {
+            let own = || subjects.iter().zip(&models).filter(|(one, _)| worn.subjects.contains(one.id.as_str()));
+            let bodies: Vec<&Body> = own().map(|(_, model)| &model.body).collect();
+            let eases = ease::on_all(&worn.style, &bodies);
+            found.extend(own().zip(eases).map(|((subject, _), eases)| (worn, subject, eases)));
+        }
+        let transaction = store::write(&mut connection)?;
+        for (worn, subject, eases) in &found {
+            outcome::write_ease(&transaction, study_id, [worn.garment, worn.size, &subject.id], eases)?;
+        }
+        transaction.commit()?;
+    }
+    let transaction = store::write(&mut connection)?;
+    evidence::refresh(&transaction, &study.name)?;
+    Ok(transaction.commit()?)
+}
+
+/// A size with those who wear it.
+struct WornStyle<'a> {
+    garment: &'a str,
+    size: &'a str,
+    style: Style,
+    subjects: BTreeSet<&'a str>,
+}
+
+/// Every size of a study.
+fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
+    let mut worn = Vec::new();
+    for garment in &study.garments {
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+        for size in &garment.sizes {
+            let style = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+            let subjects = garment.subjects.iter().map(String::as_str).collect();
+            worn.push(WornStyle { garment: &garment.name, size: &size.name, style, subjects });
+        }
+    }
+    Ok(worn)
+}
+
+/// Refuses a study with a pattern that cannot be sewn, before anything is written for it.
+fn check_patterns(study: &Study) -> Result<()> {
+    let mut problems = Vec::new();
+    for garment in &study.garments {
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+        for size in &garment.sizes {
+            if let Err(error) = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
+                let message = format!("garment {}, size {}: {error}", garment.name, size.name);
+                problems.push(Problem::of(&study.path, message));
+            }
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(StudyError::File(problems)) }
+}
+
+/// Refuses a selection with a name that the study does not have.
+pub(crate) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
+    let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
+    let axes: [(&'static str, &[String], Vec<&str>); 4] = [
+        ("simulator", &selection.simulators, study.simulators.iter().map(|simulator| simulator.as_str()).collect()),
+        ("size", &selection.sizes, sizes.collect()),
+        ("subject", &selection.subjects, study.subjects.iter().map(|subject| subject.id.as_str()).collect()),
+        ("garment", &selection.garments, study.worn().map(|garment| garment.name.as_str()).collect()),
+    ];
+    for (what, wanted, known) in axes {
+        let mut seen = BTreeSet::new();
+        let known: Vec<&str> = known.into_iter().filter(|name| seen.insert(*name)).collect();
+        if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
+            let known = known.into_iter().map(str::to_owned).collect();
+            return Err(StudyError::NotFound { what, name: name.clone(), known });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,322 @@
+//! A study on a Slurm cluster: its jobs as arrays of tasks, their results merged as they come.
+//!
+//! Everything that must outlive this program lies in one folder that all nodes see: job files, result files, and the
+//! numbers of the arrays that were submitted. Started again, a run takes up what is there.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::enqueue::Planned;
+use crate::handout::{self, HandedOut, Merged, result_of};
+use spec::{Selection, Study};
+use store::{JobId, Result, Store, StudyError};
+
+/// Tasks of one array: Slurm's own limit is 1001 where nobody raised it.
+const ARRAY: usize = 1000;
+/// Times a task is submitted before it is given up.
+const TRIES: u32 = 3;
+/// File with the numbers of the arrays that were submitted.
+const SUBMITTED: &str = "submitted";
+
+/// How long a cluster may keep silent before a run gives up waiting: its controller is restarted in less.
+const SILENCE: Duration = Duration::from_secs(600);
+/// What Slurm says of jobs that ended long ago.
+const FORGOTTEN: &str = "Invalid job id";
+
+/// States of a task that Slurm still works on.
+const ACTIVE: [&str; 9] = [
+    "PENDING",
+    "RUNNING",
+    "CONFIGURING",
+    "COMPLETING",
+    "SUSPENDED",
+    "REQUEUED",
+    "REQUEUE_HOLD",
+    "RESIZING",
+    "STAGE_OUT",
+];
+
+/// How a study is handed to Slurm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SlurmOptions {
+    /// Folder that all nodes see.
+    pub folder: PathBuf,
+    /// Tasks at once; as many as Slurm likes where nothing is said.
+    pub tasks: Option<usize>,
+    /// More options of `sbatch`: `--time=10`, `--mem=2G`, `--partition=short`.
+    pub sbatch: Vec<String>,
+}
+
+/// A study on its way through Slurm.
+pub struct SlurmRun {
+    /// Jobs of the study, with the reason for each.
+    pub planned: Vec<Planned>,
+    options: SlurmOptions,
+    name: String,
+    /// Job files without a result, and how often each was submitted.
+    open: BTreeMap<JobId, (PathBuf, u32)>,
+    /// Arrays that were submitted.
+    arrays: Vec<String>,
+    /// Since when Slurm has not said what it does with them.
+    silent_since: Option<Instant>,
+}
+
+/// What Slurm does with the arrays.
+#[derive(Debug, PartialEq, Eq)]
+enum Activity {
+    /// It works on one of them.
+    Active,
+    /// It works on none.
+    Ended,
+    /// It does not say, and why.
+    Unknown(String),
+}
+
+impl Activity {
+    /// Of states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
+    fn of(states: &str) -> Self {
+        let is_active = |line: &str| line.split_whitespace().next().is_some_and(|state| ACTIVE.contains(&state));
+        if states.lines().any(is_active) { Self::Active } else { Self::Ended }
+    }
+}
+
+/// Hands the jobs of a study to Slurm; [`SlurmRun::step`] does the rest.
+///
+/// # Errors
+/// Those of [`handout::hand_out`].
+pub fn start_slurm(
+    store: &mut Store,
+    study: &Study,
+    selection: &Selection,
+    options: &SlurmOptions,
+) -> Result<SlurmRun> {
+    let folder = std::path::absolute(&options.folder).map_err(StudyError::io(&options.folder))?;
+    let handed = handout::hand_out(store, study, selection, &folder)?;
+    let mut open = BTreeMap::new();
+    for HandedOut { job, file } in &handed {
+        open.extend(file.iter().map(|file| (job.id, (file.clone(), 0))));
+    }
+    let arrays = std::fs::read_to_string(folder.join(SUBMITTED)).unwrap_or_default();
+    Ok(SlurmRun {
+        planned: handed.into_iter().map(|handed| handed.job).collect(),
+        options: SlurmOptions { folder, ..options.clone() },
+        name: study.name.clone(),
+        open,
+        arrays: arrays.lines().map(str::to_owned).collect(),
+        silent_since: None,
+    })
+}
+
+impl SlurmRun {
+    /// Takes results back, and submits what has none and is with nobody; whether all jobs have ended. To be called every
+    /// second or so.
+    ///
+    /// # Errors
+    /// When Slurm cannot be asked, or a job was given up.
+    pub fn step(&mut self, store: &mut Store) -> Result<bool> {
+        // Asked before the results are looked for: a task that ends in between is then found in the next step.
+        let activity = self.activity();
+        self.merge(store)?;
+        if self.open.is_empty() {
+            self.forget()?;
+            return Ok(true);
+        }
+        match activity {
+            Activity::Ended => self.submit()?,
+            Activity::Active => self.silent_since = None,
+            Activity::Unknown(why) => self.wait_for_an_answer(&why)?,
+        }
+        Ok(false)
+    }
+
+    /// Goes on waiting while Slurm does not say what it does, for some time.
+    fn wait_for_an_answer(&mut self, why: &str) -> Result<()> {
+        let since = self.silent_since.get_or_insert_with(Instant::now);
+        if since.elapsed() < SILENCE {
+            return Ok(());
+        }
+        let arrays = self.arrays.join(", ");
+        Err(StudyError::stage("slurm")(format!(
+            "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
+             start again to go on waiting, nothing is submitted twice"
+        )))
+    }
+
+    /// Takes the arrays out of Slurm.
+    ///
+    /// # Errors
+    /// When Slurm cannot be asked.
+    pub fn cancel(&mut self) -> Result<()> {
+        if !self.arrays.is_empty() {
+            slurm("scancel", &self.arrays, None)?;
+        }
+        self.forget()
+    }
+
+    /// The numbers of the arrays that were submitted.
+    #[must_use]
+    pub fn arrays(&self) -> &[String] {
+        &self.arrays
+    }
+
+    fn merge(&mut self, store: &mut Store) -> Result<()> {
+        let there: Vec<PathBuf> =
+            self.open.values().map(|(file, _)| result_of(file)).filter(|file| file.exists()).collect();
+        if there.is_empty() {
+            return Ok(());
+        }
+        let Merged { stored, failed, known, running } = handout::merge(store, &there)?;
+        for id in stored.iter().chain(&failed).chain(&known).chain(&running) {
+            self.open.remove(id);
+        }
+        // They are in the database now.
+        for file in there {
+            std::fs::remove_file(&file).map_err(StudyError::io(&file))?;
+        }
+        Ok(())
+    }
+
+    /// What Slurm does with the arrays: asked of the queue, else of the accounts, else of each array. A queue that does not answer says
+    /// nothing of them: to submit them again would run them twice.
+    fn activity(&self) -> Activity {
+        if self.arrays.is_empty() {
+            return Activity::Ended;
+        }
+        let jobs = format!("--jobs={}", self.arrays.join(","));
+        let queue = slurm("squeue", &["--noheader".to_owned(), "--format=%T".to_owned(), jobs.clone()], None);
+        let silent = match queue {
+            Ok(states) => return Activity::of(&states),
+            Err(error) => error.to_string(),
+        };
+        let accounts =
+            ["--noheader", "--parsable2", "--allocations", "--format=State", jobs.as_str()].map(str::to_owned);
+        if let Ok(states) = slurm("sacct", &accounts, None)
+            && !states.trim().is_empty()
+        {
+            return Activity::of(&states);
+        }
+        let shown: Vec<String> = self.arrays.iter().filter_map(|array| states_of(array)).collect();
+        if !shown.is_empty() {
+            return Activity::of(&shown.join("\n"));
+        }
+        // Ended jobs are forgotten after some minutes.
+        if silent.contains(FORGOTTEN) { Activity::Ended } else { Activity::Unknown(silent) }
+    }
+
+    fn submit(&mut self) -> Result<()> {
+        if let Some((file, _)) = self.open.values().find(|(_, tries)| *tries >= TRIES) {
+            let why = self.arrays.last().map(|array| last_words(array)).unwrap_or_default();
+            let message = format!("{} was submitted {TRIES} times and has no result; {why}", file.display());
+            return Err(StudyError::stage("slurm")(message));
+        }
+        self.arrays.clear();
+        let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
+        let folder = &self.options.folder;
+        let open: Vec<&PathBuf> = self.open.values().map(|(file, _)| file).collect();
+        for (number, files) in open.chunks(ARRAY).enumerate() {
+            let list = folder.join(format!("tasks-{number}"));
+            let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
+            std::fs::write(&list, lines).map_err(StudyError::io(&list))?;
+            let at_once = self.options.tasks.map_or_else(String::new, |tasks| format!("%{tasks}"));
+            let mut arguments = vec![
+                "--parsable".to_owned(),
+                format!("--job-name=toile-{}", self.name),
+                format!("--array=1-{}{at_once}", files.len()),
+                format!("--chdir={}", folder.display()),
+                format!("--output={}", folder.join("task-%A_%a.log").display()),
+            ];
+            arguments.extend(self.options.sbatch.iter().cloned());
+            let script = format!(
+                "#!/bin/sh\nexec {} job run \"$(sed -n \"$SLURM_ARRAY_TASK_ID\"p {})\"\n",
+                quoted(&program),
+                quoted(&list)
+            );
+            let answer = slurm("sbatch", &arguments, Some(&script))?;
+            // NUMBER, or NUMBER;CLUSTER.
+            self.arrays.extend(answer.trim().split(';').next().map(str::to_owned));
+        }
+        let file = folder.join(SUBMITTED);
+        std::fs::write(&file, self.arrays.join("\n")).map_err(StudyError::io(&file))?;
+        self.open.values_mut().for_each(|(_, tries)| *tries += 1);
+        Ok(())
+    }
+
+    fn forget(&mut self) -> Result<()> {
+        self.arrays.clear();
+        let file = self.options.folder.join(SUBMITTED);
+        if file.exists() { std::fs::remove_file(&file).map_err(StudyError::io(&file)) } else { Ok(()) }
+    }
+}
+
+/// What Slurm says of the last task of an array: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
+fn last_words(array: &str) -> String {
+    let text = slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None);
+    let text = text.unwrap_or_default();
+    let told = text.lines().last().unwrap_or_default().split_whitespace();
+    let words: Vec<&str> =
+        told.filter(|word| ["JobState=", "Reason=", "ExitCode="].iter().any(|key| word.starts_with(key))).collect();
+    words.join(" ")
+}
+
+/// States of the tasks of an array, one a line, as `scontrol` shows them.
+fn states_of(array: &str) -> Option<String> {
+    let text =
+        slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None).ok()?;
+    let states: Vec<&str> = text.split_whitespace().filter_map(|word| word.strip_prefix("JobState=")).collect();
+    (!states.is_empty()).then(|| states.join("\n"))
+}
+
+/// Runs one of Slurm's programs.
+fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
+    let fail = |message: String| StudyError::stage("slurm")(format!("{program}: {message}"));
+    let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };
+    let mut child = Command::new(program)
+        .args(arguments)
+        .stdin(stdin)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| fail(format!("{error}; is Slurm installed here?")))?;
+    if let Some((text, mut pipe)) = input.zip(child.stdin.take()) {
+        std::io::Write::write_all(&mut pipe, text.as_bytes()).map_err(|error| fail(error.to_string()))?;
+    }
+    let output = child.wait_with_output().map_err(|error| fail(error.to_string()))?;
+    if !output.status.success() {
+        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// A path as one word of a shell.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.to_string_lossy().replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_one_word_of_a_shell() {
+        let path = Path::new("/my disk/Anna's $HOME");
+        let output = Command::new("sh").arg("-c").arg(format!("printf %s {}", quoted(path))).output();
+        assert_eq!(String::from_utf8_lossy(&output.expect("a shell").stdout), path.to_string_lossy());
+    }
+
+    #[test]
+    fn what_slurm_says_of_tasks_is_understood() {
+        let check = |states: &str, expect: Activity| assert_eq!(Activity::of(states), expect, "{states:?}");
+        check("", Activity::Ended);
+        check("COMPLETED\nCANCELLED by 1000\n", Activity::Ended);
+        check("COMPLETED\nRUNNING\n", Activity::Active);
+        check("PENDING", Activity::Active);
+    }
+
+    #[test]
+    fn without_slurm_that_is_said() {
+        let error = slurm("no-such-program", &[], None).expect_err("it is not there").to_string();
+        assert!(error.contains("is Slurm installed here?"), "{error}");
+    }
+}

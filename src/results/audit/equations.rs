@@ -1,0 +1,59 @@
+//! Equations of the text that cannot be what they are said to be, tried on numbers.
+
+use nalgebra::{Unit, Vector3};
+
+use crate::audit::Finding;
+
+/// Equality up to rounding.
+const EXACT: f64 = 1e-9;
+
+/// Tries the printed equations (4.8), (4.9) and (4.20).
+pub(super) fn check() -> (usize, Vec<Finding>) {
+    (3, [rotation(), axis(), average()].into_iter().flatten().collect())
+}
+
+/// (4.8) turns a vector about an axis: the turned vector must be as long as the vector.
+fn rotation() -> Option<Finding> {
+    let axis = Vector3::z_axis();
+    let v = Vector3::new(1.0, 0.0, 1.0);
+    let angle: f64 = 0.5;
+    let (sin, cos) = angle.sin_cos();
+    let printed = v * cos + axis.cross(&v) * sin + axis.into_inner() * (axis.dot(&v) * sin * (1.0 - cos));
+    let rodrigues = v * cos + axis.cross(&v) * sin + axis.into_inner() * (axis.dot(&v) * (1.0 - cos));
+    let grows = |turned: &Vector3<f64>| turned.norm() / v.norm();
+    ((grows(&printed) - 1.0).abs() > EXACT).then(|| Finding {
+        kind: "equation",
+        place: "equation (4.8)".into(),
+        stated: format!("length times {:.4} for (1, 0, 1) by 0.5 rad about z", grows(&printed)),
+        recomputed: format!("times {:.4} without the last sine", grows(&rodrigues)),
+        says: "Rodrigues's formula has k (k.v) (1 - cos t) as its last term, without sin t".into(),
+    })
+}
+
+/// (4.9) is the axis of that rotation: it must have length 1.
+fn axis() -> Option<Finding> {
+    let (from, to): (Vector3<f64>, _) = (Vector3::x(), Unit::new_normalize(Vector3::new(1.0, 1.0, 0.0)).into_inner());
+    let cross = from.cross(&to);
+    let sine = cross.norm() / (from.norm() * to.norm());
+    let printed = cross / (cross.norm() * sine);
+    ((printed.norm() - 1.0).abs() > EXACT).then(|| Finding {
+        kind: "equation",
+        place: "equation (4.9)".into(),
+        stated: format!("axis of length {:.4} for vectors 45 degrees apart", printed.norm()),
+        recomputed: format!("{:.4} without the sine", (cross / cross.norm()).norm()),
+        says: "divides by sin(alpha) and by |v0 x vt|: one of them is too many".into(),
+    })
+}
+
+/// (4.20) is a mean of n numbers: of equal numbers it must be that number.
+fn average() -> Option<Finding> {
+    let n = 6_u32;
+    let printed = (0..=n).map(|_| 1.0).sum::<f64>() / f64::from(n);
+    ((printed - 1.0).abs() > EXACT).then(|| Finding {
+        kind: "equation",
+        place: "equation (4.20)".into(),
+        stated: format!("mean of six ones {printed:.4}"),
+        recomputed: "1.0000 when the sum starts at 1".into(),
+        says: "the sum runs from 0 to n, n + 1 terms, and is divided by n".into(),
+    })
+}

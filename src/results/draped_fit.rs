@@ -1,0 +1,287 @@
+//! How a garment sits, size by size: its fit card beside what is measured on its drapes.
+
+use serde::Serialize;
+
+use crate::fit_card::{FitCard, fit_cards};
+use fit::Simulator;
+use store::{JobId, Result, Store};
+
+/// Difference of a hem's heights below which it hangs level, mm: what the eye does not see on a moving person.
+const LEVEL_MM: f64 = 5.0;
+
+/// A number of a garment's balance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Balance {
+    /// What, such as `hem_front`.
+    pub quantity: String,
+    /// Value of the quantity, in `unit`.
+    pub value: f64,
+    /// `mm` or `deg`.
+    pub unit: String,
+}
+
+/// Pressure on a region of the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RegionPressure {
+    /// Name of the region, such as `lower_legs`.
+    pub region: String,
+    /// Area that is pressed, cm2.
+    pub area_cm2: f64,
+    /// Mean over that area, kPa.
+    pub mean_kpa: f64,
+    /// What 1 % of it exceeds, kPa.
+    pub most_kpa: f64,
+    /// The same, mmHg.
+    pub most_mmhg: f64,
+}
+
+/// A line in which cloth stands off the skin.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FoldLine {
+    /// `fold` or `drag_line`.
+    pub kind: String,
+    /// Extent in its own direction, mm.
+    pub length_mm: f64,
+    /// Angle from the vertical, degrees.
+    pub from_vertical_deg: f64,
+    /// Height of its middle above the floor, mm.
+    pub height_mm: f64,
+    /// Where its middle lies, degrees from the front towards the subject's right.
+    pub side_deg: f64,
+}
+
+/// A point of measure, flat and worn.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WornPoint {
+    /// Name of the point of measure.
+    pub point: String,
+    /// Flat on the pieces, mm.
+    pub flat_mm: f64,
+    /// More than the size before, mm.
+    pub step_mm: Option<f64>,
+    /// On the drape, mm.
+    pub draped_mm: Option<f64>,
+}
+
+/// The gap at a level, mm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelGap {
+    /// Level of the body, such as `waist`.
+    pub level: String,
+    /// Least gap; below 0 where cloth lies inside the body.
+    pub least_gap_mm: Option<f64>,
+    /// Mean over all directions that meet cloth.
+    pub mean_gap_mm: Option<f64>,
+    /// Greatest of all directions that meet cloth.
+    pub greatest_gap_mm: Option<f64>,
+}
+
+/// How far an opening was drawn as the body moved, mm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrawnOpening {
+    /// Name of the measurement along it.
+    pub opening: String,
+    /// Mean along it; below 0 away from the garment.
+    pub drawn_mm: f64,
+    /// Greatest along it.
+    pub drawn_most_mm: f64,
+}
+
+/// What is measured on the drape of one size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeWorn {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Job whose drape is measured.
+    pub job: JobId,
+    /// Gaps at the levels of the body.
+    pub gaps: Vec<LevelGap>,
+    /// How level it hangs: hem, waist edge and side seams.
+    pub balance: Vec<Balance>,
+    /// Pressure by region; none of Hybrid-GS.
+    pub pressure: Vec<RegionPressure>,
+    /// Folds, the longest first.
+    pub folds: Vec<FoldLine>,
+    /// Points of measure.
+    pub points: Vec<WornPoint>,
+    /// Openings, where the body moved with the garment on.
+    pub drawn: Vec<DrawnOpening>,
+}
+
+impl SizeWorn {
+    /// A number of its balance.
+    #[must_use]
+    pub fn balance_of(&self, quantity: &str) -> Option<f64> {
+        self.balance.iter().find(|one| one.quantity == quantity).map(|one| one.value)
+    }
+
+    /// By how much its hem is higher in front than behind, mm, and that in words; `None` where it is not measured.
+    #[must_use]
+    pub fn hem_tilt(&self) -> Option<(f64, &'static str)> {
+        let off = self.balance_of("hem_front_over_back")?;
+        let words = match off {
+            off if off.abs() < LEVEL_MM => "level",
+            off if off > 0.0 => "higher in front",
+            _ => "lower in front",
+        };
+        Some((off, words))
+    }
+
+    /// How its hem hangs, in words; `None` where it is not measured.
+    #[must_use]
+    pub fn hem_words(&self) -> Option<String> {
+        let ((off, words), front) = (self.hem_tilt()?, self.balance_of("hem_front")?);
+        let tilt =
+            if off.abs() < LEVEL_MM { words.to_owned() } else { format!("{:.0} mm {words} than behind", off.abs()) };
+        Some(format!("{tilt}, {front:.0} mm above the floor in front"))
+    }
+}
+
+impl FoldLine {
+    /// Direction and side in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let way = match self.from_vertical_deg {
+            a if a < 25.0 => "upright",
+            a if a > 65.0 => "across",
+            _ => "slanting",
+        };
+        let sides = [
+            "in front",
+            "at the right front",
+            "at the right",
+            "at the right back",
+            "behind",
+            "at the left back",
+            "at the left",
+            "at the left front",
+        ];
+        let side = ((self.side_deg / 45.0).round() as usize) % sides.len();
+        format!("{way} {}", sides[side])
+    }
+}
+
+/// How a garment sits on a subject.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GarmentWorn {
+    /// Which size to wear, and the ease of all.
+    pub card: FitCard,
+    /// Whose drapes are measured: FEM-GS, or Hybrid-GS where that alone has any.
+    pub simulator: Option<Simulator>,
+    /// Its sizes that have a drape, in order.
+    pub sizes: Vec<SizeWorn>,
+}
+
+/// Returns how the garments of a study sit on its subjects: their fit cards beside what is measured on their drapes. Only
+/// a garment or a subject where one is asked for.
+///
+/// # Errors
+/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of what is asked for.
+pub fn worn(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<GarmentWorn>> {
+    let cards = fit_cards(store, study, garment, subject)?.into_iter();
+    cards.map(|card| garment_worn(store, study, card)).collect()
+}
+
+fn garment_worn(store: &Store, study: &str, card: FitCard) -> Result<GarmentWorn> {
+    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+        let drapes = drapes(store, study, &card, simulator)?.into_iter();
+        let sizes = drapes.map(|(size, job)| size_worn(store, size, job)).collect::<Result<Vec<_>>>()?;
+        if !sizes.is_empty() {
+            return Ok(GarmentWorn { card, simulator: Some(simulator), sizes });
+        }
+    }
+    Ok(GarmentWorn { card, simulator: None, sizes: Vec::new() })
+}
+
+/// The sizes of a card that a simulator has draped, in order.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) -> Result<Vec<(String, JobId)>> {
+    let mut found = Vec::new();
+    for size in &card.sizes {
+        let job = drape_of(store, study, card, &size.size, simulator)?;
+        found.extend(job.map(|job| (size.size.clone(), job)));
+    }
+    Ok(found)
+}
+
+/// The current result of a size; of several repeats the first.
+fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: Simulator) -> Result<Option<JobId>> {
+    let sql =
+        "SELECT job_id FROM v_metrics WHERE study = ? AND garment = ? AND subject = ? AND size = ? AND simulator = ?
+        ORDER BY repeat LIMIT 1";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut rows = statement.query((study, &card.garment, &card.subject, size, simulator.as_str()))?;
+    Ok(rows.next()?.map(|row| row.get(0)).transpose()?.map(JobId))
+}
+
+fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
+    let gaps = "SELECT level, least_gap_mm, mean_gap_mm, greatest_gap_mm FROM v_section_level WHERE job_id = ? ORDER BY height_mm DESC";
+    let points = "SELECT point, flat_mm, step_mm, draped_mm FROM v_pom WHERE job_id = ? ORDER BY position";
+    let drawn = "SELECT opening, mean_mm, most_mm FROM drawn WHERE job_id = ? ORDER BY opening";
+    Ok(SizeWorn {
+        size,
+        job,
+        gaps: rows(store, gaps, job, |row| {
+            Ok(LevelGap {
+                level: row.get(0)?,
+                least_gap_mm: row.get(1)?,
+                mean_gap_mm: row.get(2)?,
+                greatest_gap_mm: row.get(3)?,
+            })
+        })?,
+        balance: rows(
+            store,
+            "SELECT quantity, value, unit FROM balance WHERE job_id = ? ORDER BY quantity",
+            job,
+            |row| Ok(Balance { quantity: row.get(0)?, value: row.get(1)?, unit: row.get(2)? }),
+        )?,
+        pressure: rows(
+            store,
+            "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC",
+            job,
+            |row| {
+                Ok(RegionPressure {
+                    region: row.get(0)?,
+                    area_cm2: row.get(1)?,
+                    mean_kpa: row.get(2)?,
+                    most_kpa: row.get(3)?,
+                    most_mmhg: row.get(4)?,
+                })
+            },
+        )?,
+        folds: rows(
+            store,
+            "SELECT kind, length_mm, from_vertical_deg, height_mm, side_deg FROM fold WHERE job_id = ? ORDER BY number",
+            job,
+            |row| {
+                Ok(FoldLine {
+                    kind: row.get(0)?,
+                    length_mm: row.get(1)?,
+                    from_vertical_deg: row.get(2)?,
+                    height_mm: row.get(3)?,
+                    side_deg: row.get(4)?,
+                })
+            },
+        )?,
+        points: rows(store, points, job, |row| {
+            Ok(WornPoint { point: row.get(0)?, flat_mm: row.get(1)?, step_mm: row.get(2)?, draped_mm: row.get(3)? })
+        })?,
+        drawn: rows(store, drawn, job, |row| {
+            Ok(DrawnOpening { opening: row.get(0)?, drawn_mm: row.get(1)?, drawn_most_mm: row.get(2)? })
+        })?,
+    })
+}
+
+/// The rows that a query has of a job.
+fn rows<T>(
+    store: &Store,
+    sql: &str,
+    job: JobId,
+    read: impl FnMut(&rusqlite::Row<'_>) -> rusqlite::Result<T>,
+) -> Result<Vec<T>> {
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement.query_map([job.0], read)?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}

@@ -1,0 +1,166 @@
+//! How the jobs of a study ended: without a fault, with which, or why not at all.
+
+use rusqlite::Row;
+use serde::Serialize;
+
+use engine::faults::drape_faults;
+use fit::Simulator;
+use pattern::size_order;
+use store::{Result, Status, Store};
+
+/// How one job of a study ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Dressed {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Size of it.
+    pub size: String,
+    /// Who wears it.
+    pub subject: String,
+    /// `fem` or `hybrid`.
+    pub simulator: String,
+    /// State of its job.
+    pub status: Status,
+    /// What is wrong with its drape; empty where it is good.
+    pub faults: Vec<String>,
+    /// Why there is no drape.
+    pub refused: Option<String>,
+    /// Error indicator, where there is a drape.
+    pub ei: Option<f64>,
+    /// Vertices of its mesh.
+    pub vertices: Option<i64>,
+    /// How deep it lies inside the body, mm. By Hybrid-GS that is no fault: what is too small lies inside by design.
+    pub inside_mm: Option<f64>,
+    /// Greatest length by which a girth of the body exceeds that of the garment, mm.
+    pub shortfall_mm: Option<f64>,
+    /// Time of its job, ms.
+    pub wall_ms: Option<i64>,
+}
+
+/// How the jobs of one simulator ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tally {
+    /// `fem` or `hybrid`.
+    pub simulator: String,
+    /// All jobs that ended.
+    pub ended: usize,
+    /// Drapes without a fault.
+    pub good: usize,
+    /// Drapes with one.
+    pub faulty: usize,
+    /// Jobs without a drape.
+    pub refused: usize,
+    /// Mean EI of all drapes.
+    pub mean_ei: Option<f64>,
+    /// Median time of a job, s.
+    pub median_s: Option<f64>,
+    /// Time of the slowest, s.
+    pub slowest_s: Option<f64>,
+}
+
+/// How the current jobs of a study ended, garments and subjects by name, sizes from the smallest.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
+    let sql = "SELECT job.garment, job.size, job.subject, job.simulator, job.status, job.error, job.wall_ms, m.ei,
+            m.vertices, m.converged, m.residual, m.penetration_max_mm, m.self_crossings,
+            (SELECT max(shortfall_mm) FROM v_gap WHERE v_gap.job_id = job.job_id)
+        FROM v_jobs AS job LEFT JOIN v_metrics AS m USING (job_id)
+        WHERE job.study = ? AND job.is_current
+        ORDER BY job.garment, job.size, job.subject, job.simulator, job.repeat";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut rows = statement.query_map([study], dressed_row)?.collect::<rusqlite::Result<Vec<Dressed>>>()?;
+    for garment in rows.chunk_by_mut(|a, b| a.garment == b.garment) {
+        size_order::sort(garment, |one| &one.size);
+    }
+    Ok(rows)
+}
+
+fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
+    let status: String = row.get(4)?;
+    let ei: Option<f64> = row.get(7)?;
+    let simulator: String = row.get(3)?;
+    let inside_mm: Option<f64> = row.get(11)?;
+    let depth_mm = inside_mm.filter(|_| simulator == Simulator::Fem.as_str()).unwrap_or(0.0);
+    let faults = match ei {
+        Some(_) => drape_faults(row.get(9)?, row.get(10)?, depth_mm, row.get(12)?),
+        None => Vec::new(),
+    };
+    let shortfall_mm: Option<f64> = row.get(13)?;
+    Ok(Dressed {
+        garment: row.get(0)?,
+        size: row.get(1)?,
+        subject: row.get(2)?,
+        simulator,
+        status: Status::from_name(&status).unwrap_or(Status::Failed),
+        faults: faults.into_iter().map(|(fault, _)| fault).collect(),
+        refused: row.get(5)?,
+        ei,
+        vertices: row.get(8)?,
+        inside_mm,
+        shortfall_mm: shortfall_mm.filter(|mm| *mm > 0.0),
+        wall_ms: row.get(6)?,
+    })
+}
+
+/// Sums up by simulator.
+#[must_use]
+pub fn tally(all: &[Dressed]) -> Vec<Tally> {
+    let mut simulators: Vec<&str> = all.iter().map(|one| one.simulator.as_str()).collect();
+    simulators.sort_unstable();
+    simulators.dedup();
+    simulators.into_iter().map(|simulator| of_simulator(simulator, all)).collect()
+}
+
+fn of_simulator(simulator: &str, all: &[Dressed]) -> Tally {
+    let ended: Vec<&Dressed> = all.iter().filter(|one| one.simulator == simulator && one.status.is_final()).collect();
+    let eis: Vec<f64> = ended.iter().filter_map(|one| one.ei).collect();
+    let faulty = ended.iter().filter(|one| !one.faults.is_empty()).count();
+    let mut times: Vec<i64> = ended.iter().filter_map(|one| one.wall_ms).collect();
+    times.sort_unstable();
+    let seconds = |ms: &i64| *ms as f64 / 1e3;
+    Tally {
+        simulator: simulator.to_owned(),
+        ended: ended.len(),
+        good: eis.len() - faulty,
+        faulty,
+        refused: ended.len() - eis.len(),
+        mean_ei: (!eis.is_empty()).then(|| eis.iter().sum::<f64>() / eis.len() as f64),
+        median_s: times.get(times.len() / 2).map(seconds),
+        slowest_s: times.last().map(seconds),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tally_counts_what_ended_and_how() {
+        let one = |faults: &[&str], ei: Option<f64>, status, wall_ms| Dressed {
+            garment: "g".into(),
+            size: "one".into(),
+            subject: "s".into(),
+            simulator: "fem".into(),
+            status,
+            faults: faults.iter().map(|fault| (*fault).to_owned()).collect(),
+            refused: None,
+            ei,
+            vertices: None,
+            inside_mm: None,
+            shortfall_mm: None,
+            wall_ms,
+        };
+        let all = [
+            one(&[], Some(0.01), Status::Done, Some(1000)),
+            one(&["crosses"], Some(0.03), Status::Done, Some(3000)),
+            one(&[], None, Status::Failed, Some(2000)),
+            one(&[], None, Status::Queued, None),
+        ];
+        let [fem] = &tally(&all)[..] else { panic!("one simulator") };
+        assert_eq!((fem.ended, fem.good, fem.faulty, fem.refused), (3, 1, 1, 1));
+        assert_eq!((fem.mean_ei, fem.median_s, fem.slowest_s), (Some(0.02), Some(2.0), Some(3.0)));
+        assert!(tally(&[]).is_empty());
+    }
+}

@@ -1,0 +1,121 @@
+//! The body of a subject of the catalogue: built once, kept like any product of the pipeline, measured and drawn.
+
+use std::sync::Arc;
+
+use image::{GenericImage, RgbaImage};
+
+use body::{Dimension, Girths, Mass};
+use engine::pipeline::{self, Model};
+use render::{self, Camera, Frame, Layer, Material, Scene, View};
+use store::cache::{self, Cache};
+use store::{Result, StageKind, Store, StudyError, SubjectId};
+use wardrobe::catalogue;
+
+/// Room around a body in its picture, m.
+const MARGIN_M: f64 = 0.12;
+
+/// A subject's body, ready to be shown.
+pub struct Figure {
+    model: Arc<Model>,
+    scene: Scene,
+}
+
+/// The body of a revision of a subject, to be shown.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
+    let (_, model) = model(store, id)?;
+    let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
+    let scene = scene.map_err(StudyError::stage("render"))?;
+    Ok(Figure { model, scene })
+}
+
+/// Name and body of a revision of a subject: from the cache, or built now and kept there unless the database is open read-only.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
+    let (name, person) = (catalogue::subject_revision(store, id)?.name, catalogue::person(store, id)?);
+    let hash = pipeline::body_inputs(&name, &person).stage_hash(StageKind::Body);
+    let make = || Ok(Model { body: person.body()? });
+    let model = if store.is_readonly() {
+        Arc::new(cache::stored(&store.reader, &hash).or_else(|_| make())?)
+    } else {
+        Cache::new(store.path().to_owned()).get(StageKind::Body, &hash, make)?.0
+    };
+    Ok((name, model))
+}
+
+impl Figure {
+    /// What the tape reads on the body.
+    #[must_use]
+    pub fn girths(&self) -> &Girths {
+        &self.model.body.girths
+    }
+
+    /// What is read on the body for a key of a subject: the tape, or the weight of its volume.
+    #[must_use]
+    pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
+        if key == Dimension::Weight.key() {
+            return Some(Mass::of(girths.volume_l(), None).mass_from_volume_kg);
+        }
+        girths.written(key)
+    }
+
+    /// The body from the front and from the side, at one scale, side by side; transparent around it.
+    ///
+    /// # Errors
+    /// When the picture is too small or too large.
+    pub fn picture(&self, width: u32, height: u32) -> Result<RgbaImage> {
+        let mesh = &self.model.body.mesh;
+        let (low, high) = mesh.bounds().ok_or_else(|| StudyError::stage("render")("the body has no vertices"))?;
+        let size = high - low;
+        // Across: the front, then the side, each with a margin; x points sideways, y to the front, z up.
+        let across = [size.x + MARGIN_M, size.y + MARGIN_M];
+        let all = across[0] + across[1];
+        let (width, height) = (width.max(2), height.max(1));
+        let height_m = (size.z + MARGIN_M).max(all * f64::from(height) / f64::from(width));
+        let frame = Frame { centre: (low + high) / 2.0, height_m };
+        let left = ((f64::from(width) * across[0] / all) as u32).clamp(1, width - 1);
+        let mut whole = RgbaImage::new(width, height);
+        for (view, at, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
+            let picture = render::cutout(&self.scene, &Camera::new(view, frame), across, height);
+            let picture = picture.map_err(StudyError::stage("render"))?;
+            whole.copy_from(&picture, at, 0).map_err(StudyError::stage("render"))?;
+        }
+        Ok(whole)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use store::sql;
+    use wardrobe::Mode;
+
+    #[test]
+    fn a_subject_is_built_once_measured_and_drawn() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        let mut store = catalogue::open(&path, false).expect("a new database");
+        let given = [("sex", "f"), ("stature_mm", "1650")].map(|(key, text)| (key.to_owned(), text.to_owned()));
+        catalogue::save_subject(&mut store, Mode::Add, "anna", &given).expect("possible");
+        let id = catalogue::subjects(&store).expect("readable")[0].id;
+        let count = |store: &Store| sql::query(store, "SELECT count(*) FROM artefact").expect("valid").rows;
+        let before = count(&store);
+        let readonly = catalogue::open(&path, true).expect("there");
+        let girths = figure(&readonly, id).expect("built").girths().clone();
+        assert_eq!(count(&store), before, "nothing is kept of a read-only store");
+        let built = figure(&store, id).expect("built");
+        assert_ne!(count(&store), before);
+        assert_eq!(*built.girths(), girths);
+        assert!((Figure::reading(&girths, "stature_mm").expect("read") - 1650.0).abs() < 5.0);
+        let picture = built.picture(120, 160).expect("drawn");
+        let is_body = |x: u32, y: u32| picture.get_pixel(x, y)[3] > 0;
+        let columns: Vec<u32> = (0..120).filter(|&x| (30..110).any(|y| is_body(x, y))).collect();
+        let gaps = columns.windows(2).filter(|pair| pair[1] > pair[0] + 1).count();
+        assert!(columns.len() > 30 && gaps >= 1, "front and side stand apart: {columns:?}");
+        assert!(figure(&store, SubjectId(999)).is_err());
+    }
+}

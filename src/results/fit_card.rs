@@ -1,0 +1,474 @@
+//! Fit cards: which size a subject wears of a garment, and how it and the two beside it sit at every level.
+
+use rusqlite::Row;
+use serde::Serialize;
+
+use fit::target::{is_within_reach, weight_m};
+use geom::units::from_mm;
+use store::{Result, Store, StudyError};
+
+/// How one size sits at one level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelSits {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// Length of the pattern there, mm.
+    pub pattern_girth_mm: f64,
+    /// Length of the body there, mm.
+    pub body_girth_mm: f64,
+    /// Pattern less body, mm.
+    pub ease_mm: f64,
+    /// Least and greatest ease that is meant, mm; `None` where none is.
+    pub target_mm: Option<[f64; 2]>,
+    /// How far outside that the ease lies, mm: negative where too tight.
+    pub off_mm: Option<f64>,
+    /// How far round the body its drape covers the level, degrees, where that is not all round: the hem hangs above it elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covered_deg: Option<f64>,
+}
+
+/// Least departure from a target that counts, mm: below it, it is none when it is written.
+const DEPARTURE_MM: f64 = 0.5;
+
+/// Where an ease lies beside its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sits {
+    /// Below the target: too little ease.
+    Tight,
+    /// Within the target.
+    AsMeant,
+    /// Above the target: too much ease.
+    Loose,
+}
+
+impl LevelSits {
+    /// Where its ease lies beside its target; `None` where none is meant, and where the drape does not cover it all round.
+    #[must_use]
+    pub fn sits(&self) -> Option<Sits> {
+        self.off_mm.filter(|_| self.covered_deg.is_none()).map(|off| match off {
+            off if off <= -DEPARTURE_MM => Sits::Tight,
+            off if off >= DEPARTURE_MM => Sits::Loose,
+            _ => Sits::AsMeant,
+        })
+    }
+
+    /// How far outside its target it lies, mm; never below 0.
+    #[must_use]
+    pub fn departure_mm(&self) -> f64 {
+        self.off_mm.map_or(0.0, f64::abs)
+    }
+
+    /// What is to be said of it.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let by_mm = self.departure_mm();
+        if let Some(covered_deg) = self.covered_deg {
+            return format!("covered {covered_deg:.0} of 360 degrees");
+        }
+        match self.sits() {
+            None => "as designed".to_owned(),
+            Some(Sits::Tight) if self.ease_mm < 0.0 => format!("tight by {by_mm:.0} mm, smaller than the body"),
+            Some(Sits::Tight) => format!("tight by {by_mm:.0} mm"),
+            Some(Sits::Loose) => format!("loose by {by_mm:.0} mm"),
+            Some(Sits::AsMeant) => "as meant".to_owned(),
+        }
+    }
+}
+
+/// How one size sits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeSits {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// 1 of the size to wear, 2 of the next best.
+    pub place: Option<i64>,
+    /// The level that lies farthest from its target, what is too tight counting double.
+    pub worst_level: Option<String>,
+    /// Every level that it covers, from the neck down.
+    pub levels: Vec<LevelSits>,
+}
+
+impl SizeSits {
+    /// What its worst level counts, m, of those that its drape covers all round; none where no such level has a target.
+    fn judge(&mut self) -> Option<f64> {
+        let all = self.levels.iter().filter(|level| level.covered_deg.is_none());
+        let weighed = all.filter_map(|level| Some((level, weight_m(from_mm(level.off_mm?)))));
+        let worst = weighed.reduce(|worst, next| if next.1 > worst.1 { next } else { worst });
+        self.worst_level = worst.map(|(level, _)| level.level.clone());
+        worst.map(|(_, weight_m)| weight_m)
+    }
+
+    /// The level that is worst, where any has a target.
+    #[must_use]
+    pub fn worst(&self) -> Option<&LevelSits> {
+        self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
+    }
+
+    /// Whether it may be worn: its worst level lies no farther from its target than a grade step, what is too tight counting
+    /// double. So does a size without any target.
+    #[must_use]
+    pub fn is_within_reach(&self) -> bool {
+        let weight_m = self.worst().and_then(|level| level.off_mm).map(|off| weight_m(from_mm(off)));
+        weight_m.is_none_or(is_within_reach)
+    }
+
+    /// What stands beside its name: `wear`, `nearest` where no size fits; `None` of those that are not to be worn.
+    #[must_use]
+    pub fn mark(&self) -> Option<&'static str> {
+        let mark = if self.is_within_reach() { "wear" } else { "nearest" };
+        (self.place == Some(1)).then_some(mark)
+    }
+
+    /// What is worst with it.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
+        worst.map_or("every level as meant".to_owned(), |level| {
+            format!("{} {}", level.level.replace('_', " "), level.words())
+        })
+    }
+}
+
+/// How a garment sits on a subject.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FitCard {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Who wears it.
+    pub subject: String,
+    /// Fit that is meant, as the study file has it; `None` where it says none.
+    pub intended: Option<String>,
+    /// Its sizes, in order.
+    pub sizes: Vec<SizeSits>,
+}
+
+impl FitCard {
+    /// Takes in where drapes do not cover a level all round, and judges by the other levels where there are any such.
+    fn take(&mut self, bare: &[Bare]) {
+        let own = bare.iter().filter(|bare| bare.garment == self.garment && bare.subject == self.subject);
+        let mut is_other = false;
+        for Bare { size, level, bare_deg, .. } in own {
+            let of_size = self.sizes.iter_mut().filter(|one| one.size == *size).flat_map(|one| &mut one.levels);
+            for known in of_size.filter(|known| known.level == *level) {
+                known.covered_deg = Some(360.0 - bare_deg);
+                is_other = true;
+            }
+        }
+        if !is_other {
+            return;
+        }
+        let mut weights: Vec<(usize, f64)> = Vec::new();
+        for (number, size) in self.sizes.iter_mut().enumerate() {
+            size.place = None;
+            weights.extend(size.judge().map(|weight_m| (number, weight_m)));
+        }
+        // Of two alike the smaller stays before.
+        weights.sort_by(|a, b| a.1.total_cmp(&b.1));
+        for (place, (number, _)) in (1..).zip(weights) {
+            self.sizes[number].place = Some(place);
+        }
+    }
+
+    /// The size to wear; `None` where no level has a target.
+    #[must_use]
+    pub fn to_wear(&self) -> Option<&SizeSits> {
+        self.sizes.iter().find(|size| size.place == Some(1))
+    }
+
+    /// The size to wear and the two beside it, at an end of the range the next two; all of them where none is to wear.
+    #[must_use]
+    pub fn beside(&self) -> &[SizeSits] {
+        let last = self.sizes.len().saturating_sub(BESIDE);
+        match self.sizes.iter().position(|size| size.place == Some(1)) {
+            Some(at) => {
+                let first = at.saturating_sub(1).min(last);
+                &self.sizes[first..(first + BESIDE).min(self.sizes.len())]
+            }
+            None => &self.sizes,
+        }
+    }
+
+    /// The levels that any size covers, from the neck down.
+    #[must_use]
+    pub fn levels(&self) -> Vec<&str> {
+        let mut found: Vec<&str> =
+            self.sizes.iter().flat_map(|size| &size.levels).map(|one| one.level.as_str()).collect();
+        found.sort_by_key(|level| (order(level), *level));
+        found.dedup();
+        found
+    }
+
+    /// What to wear, and what is worst with it; the nearest size, where none fits.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        let told = |size: &SizeSits| match size.is_within_reach() {
+            true => format!("wear {}: {}", size.size, size.words()),
+            false => format!("{NONE_FITS}; nearest is {}: {}", size.size, size.words()),
+        };
+        self.to_wear().map_or("no level has a target".to_owned(), told)
+    }
+
+    /// Why the size to wear is the one: what is worst with it, and with those beside it.
+    #[must_use]
+    pub fn reasons(&self) -> String {
+        let own = self.to_wear().map(|size| match size.is_within_reach() {
+            true => size.words(),
+            false => format!("{NONE_FITS}, it is the nearest: {}", size.words()),
+        });
+        let others = self.beside().iter().filter(|size| size.place != Some(1));
+        let others = others.map(|size| format!("{}: {}", size.size, size.words()));
+        own.into_iter().chain(others).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// What is said where the size to wear is none to wear.
+const NONE_FITS: &str = "no size fits";
+
+/// Sizes that stand side by side on a card.
+const BESIDE: usize = 3;
+
+/// Levels from the neck down, arms after the trunk.
+const ORDER: [&str; 13] = [
+    "neck",
+    "across_shoulder",
+    "bust",
+    "chest",
+    "underbust",
+    "waist",
+    "hip",
+    "thigh",
+    "knee",
+    "calf",
+    "upper_arm",
+    "forearm",
+    "wrist",
+];
+
+fn order(level: &str) -> usize {
+    ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
+}
+
+/// Returns how the garments of a study sit on its subjects, and in which size; only a garment or a subject where one is
+/// asked for.
+///
+/// # Errors
+/// [`StudyError::NotFound`] when the study has no ease of what is asked for.
+pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
+    let mut cards = all_fit_cards(store, study)?;
+    keep(&mut cards, "garment", garment, |card| &card.garment)?;
+    keep(&mut cards, "subject", subject, |card| &card.subject)?;
+    Ok(cards)
+}
+
+/// All fit cards of a study, garments and subjects in its order.
+fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
+    let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
+            ease_mm, least_mm, most_mm, off_mm, worst_level
+        FROM v_fit LEFT JOIN v_size USING (study, garment, size, subject)
+        WHERE study = :study
+        ORDER BY
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'garment' AND study_axis.name = v_fit.garment),
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'subject' AND study_axis.name = v_fit.subject),
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'size' AND study_axis.name = v_fit.size)";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement.query_map(rusqlite::named_params! { ":study": study }, read)?;
+    let mut cards: Vec<FitCard> = Vec::new();
+    for row in rows {
+        let Found { garment, subject, size, place, intended, level, worst_level } = row?;
+        if cards.last().is_none_or(|card| card.garment != garment || card.subject != subject) {
+            cards.push(FitCard { garment, subject, intended: None, sizes: Vec::new() });
+        }
+        let Some(card) = cards.last_mut() else { continue };
+        card.intended = card.intended.take().or(intended);
+        if card.sizes.last().is_none_or(|last| last.size != size) {
+            card.sizes.push(SizeSits { size, place, worst_level, levels: Vec::new() });
+        }
+        if let Some(last) = card.sizes.last_mut() {
+            last.levels.push(level);
+            last.levels.sort_by_key(|level| order(&level.level));
+        }
+    }
+    let bare = bare(store, study)?;
+    cards.iter_mut().for_each(|card| card.take(&bare));
+    Ok(cards)
+}
+
+/// A level that the drape of a size does not cover all round.
+struct Bare {
+    garment: String,
+    subject: String,
+    size: String,
+    level: String,
+    /// How far round the body there is no cloth, degrees.
+    bare_deg: f64,
+}
+
+/// Where a drape leaves so little of a level bare, degrees, it covers it: one direction of a section may lie between two.
+const LEAST_BARE_DEG: f64 = 15.0;
+
+/// The levels of a study that a drape does not cover all round, by FEM-GS where it has draped a size: directions of a section
+/// without cloth, where the hem of that side hangs above the level. Elsewhere another limb is in the way.
+fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
+    let sql = "WITH drape AS (
+            SELECT job_id, garment, subject, size, row_number() OVER (
+                PARTITION BY garment, subject, size ORDER BY simulator = 'hybrid', repeat
+            ) AS rank
+            FROM v_metrics WHERE study = ?1
+        )
+        SELECT garment, subject, size, level, 10.0 * count(*) AS bare_deg
+        FROM drape JOIN section USING (job_id) JOIN section_gap USING (job_id, level)
+            JOIN balance ON balance.job_id = drape.job_id
+                AND quantity = CASE CAST((angle_deg + 45) / 90 AS INTEGER) % 4
+                    WHEN 0 THEN 'hem_front' WHEN 1 THEN 'hem_right' WHEN 2 THEN 'hem_back' ELSE 'hem_left' END
+        WHERE rank = 1 AND gap_mm IS NULL AND height_mm < value
+        GROUP BY garment, subject, size, level HAVING bare_deg > ?2";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement.query_map((study, LEAST_BARE_DEG), |row| {
+        Ok(Bare {
+            garment: row.get(0)?,
+            subject: row.get(1)?,
+            size: row.get(2)?,
+            level: row.get(3)?,
+            bare_deg: row.get(4)?,
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Keeps the cards of a name, where one is asked for.
+fn keep(cards: &mut Vec<FitCard>, what: &'static str, name: Option<&str>, of: fn(&FitCard) -> &String) -> Result<()> {
+    let Some(name) = name else { return Ok(()) };
+    let mut known: Vec<String> = cards.iter().map(|card| of(card).clone()).collect();
+    known.sort();
+    known.dedup();
+    if !known.iter().any(|known| known == name) {
+        return Err(StudyError::NotFound { what, name: name.to_owned(), known });
+    }
+    cards.retain(|card| of(card) == name);
+    Ok(())
+}
+
+/// A row of the view.
+struct Found {
+    garment: String,
+    subject: String,
+    size: String,
+    place: Option<i64>,
+    intended: Option<String>,
+    level: LevelSits,
+    worst_level: Option<String>,
+}
+
+fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
+    let target: [Option<f64>; 2] = [row.get(9)?, row.get(10)?];
+    Ok(Found {
+        garment: row.get(0)?,
+        subject: row.get(1)?,
+        size: row.get(2)?,
+        place: row.get(3)?,
+        intended: row.get(4)?,
+        level: LevelSits {
+            level: row.get(5)?,
+            pattern_girth_mm: row.get(6)?,
+            body_girth_mm: row.get(7)?,
+            ease_mm: row.get(8)?,
+            target_mm: target[0].zip(target[1]).map(|(least, most)| [least, most]),
+            off_mm: row.get(11)?,
+            covered_deg: None,
+        },
+        worst_level: row.get(12)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn size(size: &str, place: i64, worst: &str, eases_mm: &[(&str, f64, f64)]) -> SizeSits {
+        let level = |(level, ease_mm, off_mm): &(&str, f64, f64)| LevelSits {
+            level: (*level).to_owned(),
+            pattern_girth_mm: 900.0 + ease_mm,
+            body_girth_mm: 900.0,
+            ease_mm: *ease_mm,
+            target_mm: Some([ease_mm - off_mm, ease_mm - off_mm + 50.0]),
+            off_mm: Some(*off_mm),
+            covered_deg: None,
+        };
+        let levels = eases_mm.iter().map(level).collect();
+        SizeSits { size: size.to_owned(), place: Some(place), worst_level: Some(worst.to_owned()), levels }
+    }
+
+    #[test]
+    fn a_level_that_is_not_covered_all_round_does_not_decide() {
+        let check = |bare: &[(&str, &str, f64)], verdict: &str, hip_of_s: &str| {
+            let sizes = vec![
+                size("S", 2, "hip", &[("chest", 60.0, 0.0), ("hip", 30.0, -10.0), ("upper_arm", 200.0, 8.0)]),
+                size("M", 1, "upper_arm", &[("chest", 118.0, 0.0), ("hip", 90.0, 0.0), ("upper_arm", 219.0, 19.0)]),
+            ];
+            let mut card = FitCard { garment: "top".into(), subject: "a".into(), intended: None, sizes };
+            let bare: Vec<Bare> = bare
+                .iter()
+                .map(|(size, level, bare_deg)| Bare {
+                    garment: "top".into(),
+                    subject: "a".into(),
+                    size: (*size).to_owned(),
+                    level: (*level).to_owned(),
+                    bare_deg: *bare_deg,
+                })
+                .collect();
+            card.take(&bare);
+            assert_eq!((card.verdict().as_str(), card.sizes[0].levels[1].words().as_str()), (verdict, hip_of_s));
+        };
+        check(&[], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
+        let both = [("S", "hip", 140.0), ("M", "hip", 90.0)];
+        check(&both, "wear S: upper arm loose by 8 mm", "covered 220 of 360 degrees");
+        check(&both[1..], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
+        check(&[("S", "upper_arm", 20.0)], "wear M: upper arm loose by 19 mm", "tight by 10 mm");
+    }
+
+    #[test]
+    fn a_card_says_what_to_wear_and_what_is_worst() {
+        let card = FitCard {
+            garment: "tshirt".into(),
+            subject: "v".into(),
+            intended: Some("regular".into()),
+            sizes: vec![
+                size("S", 3, "hip", &[("chest", 18.0, -32.0), ("hip", -50.0, -90.0)]),
+                size("M", 2, "hip", &[("chest", 78.0, 0.0), ("hip", 10.0, -30.0)]),
+                size("L", 1, "chest", &[("chest", 138.0, 18.0), ("hip", 70.0, 0.0)]),
+                size("XL", 4, "chest", &[("chest", 198.0, 78.0), ("hip", 130.0, 10.0)]),
+                size("XXL", 5, "chest", &[("chest", 258.0, 138.0), ("hip", 190.0, 70.0)]),
+            ],
+        };
+        assert_eq!(card.verdict(), "wear L: chest loose by 18 mm");
+        let reasons = "chest loose by 18 mm; M: hip tight by 30 mm; XL: chest loose by 78 mm";
+        assert_eq!(card.reasons(), reasons);
+        assert_eq!(card.beside().iter().map(|size| size.size.as_str()).collect::<Vec<_>>(), ["M", "L", "XL"]);
+        let marks: Vec<Option<&str>> = card.sizes.iter().map(SizeSits::mark).collect();
+        assert_eq!(marks, [None, None, Some("wear"), None, None]);
+        let at_end = FitCard { sizes: card.sizes[..3].to_vec(), ..card.clone() };
+        assert_eq!(at_end.beside().len(), 3, "at an end the next two");
+        assert_eq!(card.levels(), ["chest", "hip"]);
+        let worst = |at: usize| card.sizes[at].worst().map(|level| (level.level.as_str(), level.words()));
+        assert_eq!(worst(0), Some(("hip", "tight by 90 mm, smaller than the body".to_owned())));
+        assert_eq!(worst(1), Some(("hip", "tight by 30 mm".to_owned())));
+    }
+
+    #[test]
+    fn where_no_size_fits_the_nearest_is_told() {
+        let check = |off_mm: f64, verdict: &str, mark: &str| {
+            let sizes = vec![size("40", 1, "waist", &[("chest", 78.0, 0.0), ("waist", 140.0 + off_mm, off_mm)])];
+            let card = FitCard { garment: "top".into(), subject: "a".into(), intended: None, sizes };
+            assert_eq!((card.verdict().as_str(), card.sizes[0].mark()), (verdict, Some(mark)));
+            assert_eq!(card.reasons().starts_with("no size fits, it is the nearest: "), mark == "nearest");
+        };
+        check(0.0, "wear 40: every level as meant", "wear");
+        check(59.0, "wear 40: waist loose by 59 mm", "wear");
+        check(121.0, "no size fits; nearest is 40: waist loose by 121 mm", "nearest");
+        check(-29.0, "wear 40: waist tight by 29 mm", "wear");
+        check(-31.0, "no size fits; nearest is 40: waist tight by 31 mm", "nearest");
+    }
+}

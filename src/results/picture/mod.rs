@@ -1,0 +1,336 @@
+//! Pictures of results: the stored body and drape, rendered.
+
+mod cloth;
+mod maps;
+mod order;
+
+pub use cloth::Cloth;
+pub use maps::Map;
+pub use order::{Order, Shot, Zoom, pictures, turntable};
+
+use std::collections::BTreeMap;
+
+use image::RgbaImage;
+
+use engine::pipeline::{Meshes, Model};
+use fit::Simulator;
+use geom::units::mm;
+use geom::{Surface, TriMesh};
+use pattern::Garment;
+use pattern::garment::Role;
+use render::export::{MeshFormat, Part};
+use render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
+use sim::sewn::Sewn;
+use sim::{self, Drape, Fabric};
+use store::{JobId, Result, StageKind, Store, StudyError, Value, cache, read, sql};
+use wardrobe::catalogue::read_fabric;
+
+/// How far from a level of the body cloth still counts as at it, m.
+const NEAR_M: f64 = 0.02;
+/// How far within the body cloth still shows on a gap map, m.
+const WITHIN_M: f64 = 0.05;
+
+/// Layers of a scene; what is worn under the cloth comes after it.
+const BODY: usize = 0;
+const CLOTH: usize = 1;
+
+/// Results that are kept ready: those of a comparison, so that turning them stays quick.
+const SCENES_KEPT: usize = 3;
+
+/// From where a drape is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Look {
+    /// Angle about the vertical from the front towards the subject's right, degrees.
+    pub azimuth_deg: i32,
+    /// Enlargement of the picture about its middle, percent.
+    pub zoom_pct: u32,
+    /// How far the picture's middle lies above the garment's, percent of half its height.
+    pub rise_pct: i32,
+}
+
+impl Look {
+    /// The camera that has some meshes as large as they can be, times the enlargement.
+    pub(crate) fn camera<'a>(self, of: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
+        let mut frame = Frame::enclosing(of, aspect(width, height));
+        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
+        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
+        Camera { azimuth_deg: f64::from(self.azimuth_deg), ..Camera::new(View::Front, frame) }
+    }
+}
+
+/// A result made ready for pictures: lit once, shown from anywhere.
+struct Stage {
+    scene: Scene,
+    /// Body and cloth.
+    meshes: [TriMesh; 2],
+}
+
+/// A stored result: the body and the garment on it.
+pub(crate) struct Dressed {
+    simulator: Simulator,
+    /// How far the garment shown has come.
+    stage: sim::Stage,
+    pub garment: Garment,
+    fabric: Fabric,
+    /// Heights of the body's levels, m.
+    levels: BTreeMap<&'static str, f64>,
+    pub body: TriMesh,
+    pub cloth: TriMesh,
+    /// The garments under it, in an outfit.
+    under: Vec<TriMesh>,
+    /// The garment as earlier stages left it, where the simulator tells them apart.
+    earlier: Vec<sim::Staged>,
+}
+
+impl Dressed {
+    /// The lit scene of the pop-up, where there is one.
+    pub fn popup_scene(&self) -> Option<Result<Scene>> {
+        let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
+        let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(&cloth, Material::popup())];
+        Some(Scene::new(layers).map_err(StudyError::stage("render")))
+    }
+
+    /// The same with the garment as a stage left it; `None` where the simulator keeps no such stage.
+    fn at(mut self, stage: sim::Stage) -> Option<Self> {
+        if stage != self.stage {
+            let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
+            self.cloth.positions = self.earlier.swap_remove(place).positions;
+            self.stage = stage;
+        }
+        Some(self)
+    }
+
+    /// The cloth in its simulator's colour, yellow before the drape.
+    fn material(&self) -> Material {
+        match (self.stage, self.simulator) {
+            (sim::Stage::Sewn | sim::Stage::Popup, _) => Material::popup(),
+            (sim::Stage::Drape, Simulator::Fem) => Material::fem(),
+            (sim::Stage::Drape, Simulator::Hybrid) => Material::hybrid(),
+        }
+    }
+
+    /// The cloth under a map: its wrong side, which has no values, in grey.
+    fn material_under(&self, map: Map) -> Material {
+        let own = self.material();
+        if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
+    }
+
+    /// The sewn cloth.
+    pub fn sewn(&self) -> Result<Sewn<'_>> {
+        Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).map_err(StudyError::stage("render"))
+    }
+
+    /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
+    pub fn values(&self, map: Map) -> Result<Vec<f64>> {
+        let positions = &self.cloth.positions;
+        Ok(match map {
+            Map::Plain | Map::Check => vec![],
+            Map::Stretch => self.sewn()?.stretches_pct(),
+            Map::Tension => self.sewn()?.tensions_n_m(),
+            Map::Chi => maps::chis(&self.garment, positions),
+            // Only FEM-GS brings cloth and body into balance.
+            Map::Pressure if (self.simulator, self.stage) != (Simulator::Fem, sim::Stage::Drape) => {
+                vec![f64::NAN; positions.len()]
+            }
+            Map::Pressure => self.sewn()?.pressures_kpa(),
+            Map::Gap => {
+                // The field that contact asks ends a few centimetres off the body; a gap may be wider.
+                let surface = |mesh| Surface::new(mesh).map_err(StudyError::stage("render"));
+                let skin = surface(&self.body)?;
+                let layers = self.under.iter().map(surface).collect::<Result<Vec<_>>>()?;
+                let gap_m = |p| {
+                    let bare_m = skin.signed_distance(p);
+                    layers.iter().fold(bare_m, |least, layer| least.min(layer.nearest_within(p, least.max(0.0)).0))
+                };
+                positions.iter().map(|p| mm(gap_m(p))).collect()
+            }
+        })
+    }
+
+    /// The lit scene of a map, the body a dress form.
+    pub fn scene(&self, map: Map) -> Result<Scene> {
+        self.scene_in(map, &[], None)
+    }
+
+    /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
+    fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
+        let (form, paint) = self.look(map, cloths, skin)?;
+        let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
+        let under = self.under.iter().map(|cloth| Layer::new(cloth, Material::under()));
+        Scene::new(own.into_iter().chain(under).collect()).map_err(StudyError::stage("render"))
+    }
+
+    /// Shows another map in a scene of this result, which need not be lit again.
+    pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
+        let (form, paint) = self.look(map, &[], None)?;
+        let painted = scene.paint(BODY, form, Paint::Plain);
+        let painted = painted.and_then(|()| scene.paint(CLOTH, self.material_under(map), paint));
+        painted.map_err(StudyError::stage("render"))
+    }
+
+    /// How the body and the cloth look.
+    fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
+        let values = self.values(map)?;
+        let bare = skin.map_or_else(Material::form, Material::skin);
+        let cut = |cloths: &[Cloth]| {
+            cloth::print(cloths, &self.garment, &self.fabric, self.material().front).map(Paint::Printed)
+        };
+        Ok(match map.scale() {
+            None if map == Map::Check => (bare, cut(&[Cloth::CHECK])?),
+            None if !cloths.is_empty() => (bare, cut(cloths)?),
+            None => (bare, Paint::Plain),
+            Some(scale) => {
+                let form = Material::form_under_map();
+                // A garment that does not reach round the body lies within it: the gap map shows by how much.
+                let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
+                (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
+            }
+        })
+    }
+}
+
+/// Mean tension, N/m, of a result's cloth around the trunk within [`NEAR_M`] of a body level; `None` where that level of
+/// the body is not known or no cloth lies there.
+pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
+    let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
+    let tensions = worn.values(Map::Tension)?;
+    let trunk = worn.garment.pieces.iter().filter(|p| !matches!(p.role, Role::SleeveRight | Role::SleeveLeft));
+    let near = trunk
+        .flat_map(|piece| piece.vertices.clone())
+        .filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
+    let near: Vec<f64> = near.map(|v| tensions[v]).collect();
+    Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
+}
+
+/// Width over height of a picture.
+fn aspect(width: u32, height: u32) -> f64 {
+    f64::from(width.max(1)) / f64::from(height.max(1))
+}
+
+/// Results last shown, kept lit so that other views of them come quickly.
+#[derive(Default)]
+pub struct Scenes {
+    /// The latest last.
+    kept: Vec<Kept>,
+}
+
+/// A result that is kept lit.
+struct Kept {
+    job: JobId,
+    map: Map,
+    stage: Stage,
+}
+
+impl Scenes {
+    /// Returns a picture of a result from any side, the garment as large as it can be times the look's own enlargement.
+    /// The body is cut off where it goes beyond the picture, and the ground is transparent. For small pictures.
+    ///
+    /// # Errors
+    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+    pub fn look(
+        &mut self,
+        store: &Store,
+        job: JobId,
+        look: Look,
+        [width, height]: [u32; 2],
+        map: Map,
+    ) -> Result<RgbaImage> {
+        let kept = match self.kept.iter().position(|kept| kept.job == job && kept.map == map) {
+            Some(place) => self.kept.remove(place),
+            None => Kept { job, map, stage: stage(store, job, map)? },
+        };
+        if self.kept.len() == SCENES_KEPT {
+            self.kept.remove(0);
+        }
+        let camera = look.camera(&kept.stage.meshes[1..], width, height);
+        let picture = render::cutout(&kept.stage.scene, &camera, width, height);
+        self.kept.push(kept);
+        picture.map_err(StudyError::stage("render"))
+    }
+}
+
+/// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
+/// map colours it and leaves its values in the formats that can hold them.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+pub fn mesh_file(store: &Store, id: JobId, format: MeshFormat, map: Map) -> Result<Vec<u8>> {
+    let dressed = dressed(store, id)?;
+    let values = dressed.values(map)?;
+    let plain = |mesh: &TriMesh, material: Material| vec![material.front; mesh.positions.len()];
+    let scale = map.scale();
+    let colours = match &scale {
+        Some(scale) => values.iter().map(|value| scale.colour(*value)).collect(),
+        None => plain(&dressed.cloth, dressed.material()),
+    };
+    let label = scale.map(|scale| format!("{}, {}", scale.label, scale.unit));
+    let garment = Part {
+        name: "garment",
+        mesh: &dressed.cloth,
+        colours,
+        places: Some(&dressed.garment.rest),
+        values: label.as_deref().map(|label| (label, values.as_slice())),
+    };
+    let colours = plain(&dressed.body, Material::form());
+    let body = Part { name: "body", mesh: &dressed.body, colours, places: None, values: None };
+    Ok(format.write(&[body, garment]))
+}
+
+fn stage(store: &Store, id: JobId, map: Map) -> Result<Stage> {
+    let dressed = dressed(store, id)?;
+    let scene = dressed.scene(map)?;
+    Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
+}
+
+/// A result as stored.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
+    let job = read::job(store, id)?;
+    let model: Model = product(store, id, StageKind::Body)?;
+    let Meshes(mut meshes) = product(store, id, StageKind::Mesh)?;
+    let drape: Drape = product(store, id, StageKind::Drape)?;
+    let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
+    let garment = meshes
+        .pop()
+        .filter(fits)
+        .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
+    let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+    let fabric = fabric_of(store, id)?;
+    let at = &model.body.levels;
+    let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
+    let levels = BTreeMap::from(levels);
+    let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
+    let under = read::layers_under(store, id)?.into_iter().filter_map(|layer| worn(store, layer).ok()).collect();
+    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier })
+}
+
+/// The draped cloth of a job.
+fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
+    let Meshes(meshes) = product(store, id, StageKind::Mesh)?;
+    let drape: Drape = product(store, id, StageKind::Drape)?;
+    let triangles = meshes.last().map(|garment| garment.triangles.clone()).unwrap_or_default();
+    Ok(TriMesh { positions: drape.positions, triangles })
+}
+
+/// The fabric a job was simulated in.
+fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
+    let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
+    match table.rows.first().and_then(|row| row.first()) {
+        Some(Value::Integer(fabric)) => read_fabric(&store.reader, *fabric),
+        _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
+    }
+}
+
+/// A stored product of a job's stage.
+pub(crate) fn product<T: cache::Artefact>(store: &Store, id: JobId, stage: StageKind) -> Result<T> {
+    let used = read::stages(store, id)?.into_iter().find(|used| used.stage == stage.as_str());
+    let missing = || StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] };
+    cache::stored(&store.reader, &used.ok_or_else(missing)?.hash)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod tests;

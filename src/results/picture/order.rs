@@ -1,0 +1,163 @@
+//! Pictures to order: several results and views on one sheet, close-ups, turntables, in any cloth.
+
+use image::RgbaImage;
+
+use crate::picture::{self, Cloth, Dressed, Map};
+use geom::TriMesh;
+use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
+use sim::Stage;
+use store::{JobId, Result, Store, StudyError, read};
+
+/// Time of one turn of a turntable, ms.
+const TURN_MS: u32 = 6000;
+/// A close-up: angle, enlargement and height of its middle, as in [`Zoom`].
+const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
+
+/// How close a picture is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Zoom {
+    /// Enlargement of the garment, percent; at 100 it fills the picture.
+    pub zoom_pct: u32,
+    /// How far the picture's middle lies above the garment's, percent of half its height.
+    pub rise_pct: i32,
+}
+
+/// One picture of a result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shot {
+    /// From one of the four sides.
+    View(View),
+    /// From near, so that the cloth shows.
+    CloseUp,
+    /// An angle about the vertical from the front towards the subject's right, degrees.
+    Turned(f64),
+}
+
+impl Shot {
+    fn name(self) -> String {
+        match self {
+            Self::View(view) => view.as_str().to_owned(),
+            Self::CloseUp => "close-up".to_owned(),
+            Self::Turned(degrees) => format!("{degrees}°"),
+        }
+    }
+}
+
+/// What a picture shows.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// Its shots, each a picture of its own.
+    pub shots: Vec<Shot>,
+    /// How far the garment has come, each a picture of its own: before and after.
+    pub stages: Vec<Stage>,
+    /// What colours the cloth.
+    pub map: Map,
+    /// What the garment is cut from, on a plain map.
+    pub cloths: Vec<Cloth>,
+    /// Colour of the skin; a dress form without.
+    pub skin: Option<Rgb>,
+    /// How close; body and garment as a whole without.
+    pub zoom: Option<Zoom>,
+    /// Pixels across and down of each shot.
+    pub size: (u32, u32),
+}
+
+impl Order {
+    fn aspect(&self) -> f64 {
+        f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1))
+    }
+
+    /// The camera of a shot: `whole` and `garments` are what to enclose.
+    fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
+        let close = |Zoom { zoom_pct, rise_pct }: Zoom| {
+            let mut frame = garments;
+            frame.centre.z += f64::from(rise_pct) / 100.0 * frame.height_m / 2.0;
+            frame.height_m *= 100.0 / f64::from(zoom_pct.max(1));
+            frame
+        };
+        let frame = self.zoom.map_or(whole, close);
+        match shot {
+            Shot::View(view) => Camera::new(view, frame),
+            Shot::Turned(azimuth_deg) => Camera { azimuth_deg, ..Camera::new(View::Front, frame) },
+            Shot::CloseUp => {
+                let (azimuth_deg, zoom) = CLOSE_UP;
+                Camera { azimuth_deg, ..Camera::new(View::Front, close(self.zoom.unwrap_or(zoom))) }
+            }
+        }
+    }
+
+    fn draw(&self, scene: &Scene, camera: &Camera) -> Result<RgbaImage> {
+        let mut picture =
+            render::render(scene, camera, self.size.0, self.size.1).map_err(StudyError::stage("render"))?;
+        if let Some(scale) = self.map.scale() {
+            render::draw_legend(&mut picture, &scale).map_err(StudyError::stage("render"))?;
+        }
+        Ok(picture)
+    }
+
+    /// What all pictures enclose: bodies and garments, and the garments alone.
+    fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
+        let cloth = || dressed.iter().map(|worn| &worn.cloth);
+        let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
+        [Frame::enclosing(all, self.aspect()), Frame::enclosing(cloth(), self.aspect())]
+    }
+}
+
+/// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
+/// a file that is no image.
+pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
+    let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
+    let worn: Vec<(JobId, Stage)> = worn.collect();
+    let dressed = worn.iter().map(|(id, stage)| dressed_at(store, *id, *stage)).collect::<Result<Vec<_>>>()?;
+    let [whole, garments] = order.frames(&dressed);
+    let mut cells = Vec::new();
+    for ((id, stage), worn) in worn.iter().zip(&dressed) {
+        let scene = worn.scene_in(order.map, &order.cloths, order.skin)?;
+        let job = read::job(store, *id)?;
+        let before = if *stage == Stage::Drape { String::new() } else { format!(" {}", stage.as_str()) };
+        for shot in &order.shots {
+            let picture = order.draw(&scene, &order.camera(*shot, whole, garments))?;
+            let simulator = job.simulator.as_str();
+            let label = format!("{} {}, {}, {simulator}{before}, {}", job.garment, job.size, job.subject, shot.name());
+            cells.push(Cell { picture, label });
+        }
+    }
+    let columns = match (order.shots.len(), order.stages.len()) {
+        (1, 1) => ids.len().min(4),
+        (1, stages) => stages,
+        (shots, _) => shots,
+    };
+    let picture = match cells.as_slice() {
+        [one] => render::png(&one.picture),
+        _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
+    };
+    picture.map_err(StudyError::stage("render"))
+}
+
+/// A result as a stage of its simulation left it.
+fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
+    let worn = picture::dressed(store, id)?;
+    let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
+    let known: Vec<String> = known.map(|stage| stage.as_str().to_owned()).collect();
+    let name = format!("{} of job {id}", stage.as_str());
+    worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
+}
+
+/// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.
+///
+/// # Errors
+/// As [`pictures`].
+pub fn turntable(store: &Store, id: JobId, order: &Order, pictures: u32) -> Result<Vec<u8>> {
+    let dressed = [picture::dressed(store, id)?];
+    let [whole, garments] = order.frames(&dressed);
+    let scene = dressed[0].scene_in(order.map, &order.cloths, order.skin)?;
+    let turned = (0..pictures).map(|k| {
+        let shot = Shot::Turned(360.0 * f64::from(k) / f64::from(pictures));
+        order.draw(&scene, &order.camera(shot, whole, garments))
+    });
+    let frames = turned.collect::<Result<Vec<_>>>()?;
+    render::animated_png(&frames, TURN_MS / pictures.max(1)).map_err(StudyError::stage("render"))
+}

@@ -1,0 +1,336 @@
+//! A garment seen while its seams are edited: sewn and draped coarsely on a body that is kept ready, in colours that tell its pieces and
+//! seams apart.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use crate::figure;
+use crate::picture::Look;
+use engine::faults::drape_faults;
+use engine::pipeline::{Meshes, Model};
+use fit::measure;
+use geom::units::mm;
+use geom::{DistanceField, TriMesh, V3};
+use pattern::check::{Finding, FindingKind};
+use pattern::{Garment, Role};
+use render::{self, Layer, Material, Rgb, Scene, View};
+use sim::fem::{self, Params};
+use sim::placement::{Bend, place};
+use sim::{Drape, Fabric, Monitor, Progress, SimError};
+use spec::bodies::{LengthUnit, Sex};
+use spec::file::read_body;
+use spec::patterns;
+use spec::versions::FIELD_SPACING_M;
+use store::{Result, Store, StudyError, SubjectId};
+use wardrobe::seams::workpiece::Workpiece;
+
+/// Edge length of the cloth that is looked at, and of cloth that is tried on, m.
+const EDGE_M: f64 = 0.030;
+const FINE_EDGE_M: f64 = 0.015;
+/// Residual at which a drape can be looked at, and steps after the sewing that end it at the latest.
+const SEEN: f64 = 2.0;
+const MOST_STEPS: u32 = 40;
+/// Greatest displacement of a vertex in a step of sewing and gap at which seams are welded, m, and relative tolerance
+/// of a linear solve. A garment that is looked at may be pulled about, and is sewn in half the time.
+const CLAMP_M: f64 = 0.020;
+const WELD_GAP_M: f64 = 0.010;
+const TOLERANCE: f64 = 0.2;
+/// Size of each view on a sheet, pixels.
+const VIEW: [u32; 2] = [480, 640];
+/// Half the width of the lines along seams and along edges that are in none, m.
+const SEAM_M: f64 = 0.004;
+const FREE_M: f64 = 0.007;
+
+/// Cloth of fronts, of backs, and of what is neither.
+const CLOTHS: [Rgb; 3] = [Rgb(0x9c, 0xcf, 0xb5), Rgb(0x58, 0x9a, 0xa8), Rgb(0xd8, 0xc0, 0x8a)];
+/// Seams, over and over, in the order of the workbench's five colours; and edges that are in none.
+const SEAMS: [Rgb; 5] =
+    [Rgb(0x1f, 0x8a, 0x3c), Rgb(0xa8, 0x3a, 0xa8), Rgb(0x12, 0x9c, 0xac), Rgb(0xb8, 0x4a, 0x2a), Rgb(0x2f, 0x55, 0xc8)];
+const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
+
+/// A body ready to be dressed again and again.
+pub struct Mannequin {
+    /// Name of the subject whose body it is.
+    pub name: String,
+    model: Arc<Model>,
+    field: DistanceField,
+}
+
+impl Mannequin {
+    /// Of a file: measurements or a mesh, in a unit and of a sex where that cannot be told from it; and what had to be guessed.
+    ///
+    /// # Errors
+    /// When the file cannot be used.
+    pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
+        let (body, notes) = read_body(file, unit, sex)?;
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok((Self::of((name, Arc::new(Model { body })))?, notes))
+    }
+
+    fn of((name, model): (String, Arc<Model>)) -> Result<Self> {
+        let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+        Ok(Self { name, model, field })
+    }
+}
+
+/// The body of a revision of a subject, ready to be dressed.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
+    Mannequin::of(figure::model(store, id)?)
+}
+
+/// How carefully a garment is draped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Care {
+    /// To be looked at: coarsely, and not wholly to rest.
+    Glance,
+    /// To be trusted: as a study does by default.
+    Trial,
+}
+
+/// How far a garment came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hung {
+    /// It hangs on the body, nearly at rest.
+    Draped,
+    /// It could not be sewn up and draped: as it was when that failed.
+    Undone,
+    /// Its pieces could not even be placed round the body.
+    Not,
+}
+
+/// A garment on a body, coarsely.
+pub struct Preview {
+    /// How far it came.
+    pub hung: Hung,
+    /// Why it came no farther, and what is to be seen on it.
+    pub remarks: Vec<String>,
+    shown: Vec<TriMesh>,
+    scene: Scene,
+}
+
+impl Mannequin {
+    /// Sews a size and drapes it on the body in a cloth. `is_stale` is asked between steps; true ends the work.
+    ///
+    /// # Errors
+    /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
+    pub fn dressed_in(
+        &self,
+        piece: &Workpiece,
+        cloth: &Fabric,
+        care: Care,
+        is_stale: &dyn Fn() -> bool,
+    ) -> Result<Preview> {
+        let style = patterns::read_style(&piece.pattern, piece.seams.as_ref(), Some(&piece.size), piece.unit)?;
+        let meshes = match care {
+            Care::Glance => Meshes(vec![style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?]),
+            Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
+        };
+        let garment = meshes.finest()?;
+        let (hung, positions, mut remarks) = hang(&meshes, self, cloth, care, is_stale)?;
+        let free = free_edges(garment, &piece.open_edges());
+        if !free.is_empty() {
+            remarks.push("red edges are in no seam".to_owned());
+        }
+        let is_left_out = |finding: &Finding| finding.kind == FindingKind::UnusedPiece;
+        let findings = piece.findings(&style)?.into_iter();
+        let left_out: Vec<String> = findings.filter(is_left_out).map(|finding| finding.place).collect();
+        if !left_out.is_empty() {
+            remarks.push(format!("not sewn in: {}", left_out.join(", ")));
+        }
+        let positions = positions.unwrap_or_default();
+        let pieces = if hung == Hung::Not { vec![] } else { layers(garment, &positions, &free) };
+        let mut all = vec![Layer::new(&self.model.body.mesh, Material::form())];
+        all.extend(pieces.iter().map(|(mesh, material)| Layer::new(mesh, *material)));
+        let scene = Scene::new(all).map_err(StudyError::stage("render"))?;
+        let shown = match hung {
+            Hung::Not => vec![self.model.body.mesh.clone()],
+            _ => vec![TriMesh { positions, triangles: garment.triangles.clone() }],
+        };
+        Ok(Preview { hung, remarks, shown, scene })
+    }
+}
+
+impl Preview {
+    /// The garment from four sides, as a PNG file.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn sheet(&self) -> Result<Vec<u8>> {
+        let camera = |view: View| {
+            let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
+            look.camera(&self.shown, VIEW[0], VIEW[1])
+        };
+        render::from_all_sides(&self.scene, camera, VIEW).map_err(StudyError::stage("render"))
+    }
+
+    /// The garment from any side, as large as it can be.
+    ///
+    /// # Errors
+    /// When the picture is too small or too large.
+    pub fn picture(&self, look: Look, width: u32, height: u32) -> Result<RgbaImage> {
+        let camera = look.camera(&self.shown, width, height);
+        render::cutout(&self.scene, &camera, width, height).map_err(StudyError::stage("render"))
+    }
+}
+
+/// Looks at a simulation until its cloth can be shown.
+struct Glance<'a> {
+    seen: Option<Vec<V3>>,
+    sewn_at: Option<u32>,
+    is_enough: bool,
+    care: Care,
+    is_stale: &'a dyn Fn() -> bool,
+}
+
+impl Monitor for Glance<'_> {
+    fn progress(&mut self, progress: &Progress) {
+        if progress.phase == "sew" || self.care == Care::Trial {
+            return;
+        }
+        let step = progress.step;
+        let sewn_at = *self.sewn_at.get_or_insert(step.iteration);
+        self.is_enough = step.residual <= SEEN || step.iteration - sewn_at >= MOST_STEPS;
+    }
+
+    fn cancelled(&self) -> bool {
+        self.is_enough || (self.is_stale)()
+    }
+
+    fn tries_again(&self) -> bool {
+        self.care == Care::Trial
+    }
+
+    fn wants_snapshot(&mut self) -> bool {
+        true
+    }
+
+    fn snapshot(&mut self, positions: &[V3]) {
+        self.seen = Some(positions.to_vec());
+    }
+}
+
+/// Positions of a garment on a body, how far it came, and what is to be said of it.
+fn hang(
+    meshes: &Meshes,
+    on: &Mannequin,
+    cloth: &Fabric,
+    care: Care,
+    is_stale: &dyn Fn() -> bool,
+) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
+    let garment = meshes.finest()?;
+    let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
+    if care == Care::Glance {
+        (params.sewing.sewing_clamp_m, params.sewing.weld_gap_m) = (CLAMP_M, WELD_GAP_M);
+        params.step.linear_tolerance = TOLERANCE;
+    }
+    let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, care, is_stale };
+    let body = &on.model.body;
+    match fem::simulate(body, &on.field, &meshes.0, cloth, &params, &mut glance) {
+        Ok(drape) if care == Care::Trial => Ok((Hung::Draped, Some(drape.positions.clone()), told(garment, &drape))),
+        Ok(drape) => Ok((Hung::Draped, Some(drape.positions), vec![])),
+        Err(SimError::Cancelled) if glance.is_enough => Ok((Hung::Draped, glance.seen, vec![])),
+        Err(SimError::Cancelled) => Err(StudyError::Interrupted),
+        Err(error) => {
+            // What was seen of a coarser mesh has other vertices.
+            let seen = glance.seen.filter(|seen| seen.len() == garment.rest.len());
+            let placed = || place(body, garment, &Bend::default()).ok();
+            let positions = seen.or_else(placed);
+            let hung = if positions.is_some() { Hung::Undone } else { Hung::Not };
+            Ok((hung, positions, vec![error.to_string()]))
+        }
+    }
+}
+
+/// What a drape that is to be trusted comes to.
+fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
+    let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
+    let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);
+    let mut told: Vec<String> = faults.into_iter().map(|(fault, _)| fault).collect();
+    if told.is_empty() {
+        told.push("at rest".to_owned());
+    }
+    let metrics = measure::metrics(&measure::measure(garment, &drape.positions));
+    told.extend(metrics.map(|metrics| format!("EI {:.4}", metrics.ei)));
+    told
+}
+
+/// Sides of boundary triangles that are in no seam, and of no edge that is meant to be open.
+fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
+    let mut held: BTreeSet<[usize; 2]> = BTreeSet::new();
+    let mut hold = |[a, b]: [usize; 2]| held.insert([a.min(b), a.max(b)]);
+    for side in garment.seams.iter().flat_map(|seam| seam.stitches().flatten().collect::<Vec<_>>()) {
+        hold(side);
+    }
+    for piece in &garment.pieces {
+        let is_open = |name: &String| open.iter().any(|one| *one == format!("{}.{name}", piece.id));
+        for (_, line) in piece.edges.iter().filter(|(name, _)| is_open(name)) {
+            for side in line.windows(2) {
+                hold([side[0], side[1]]);
+            }
+        }
+    }
+    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for [a, b, c] in &garment.triangles {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            *faces.entry([*p.min(q), *p.max(q)]).or_default() += 1;
+        }
+    }
+    faces.into_iter().filter(|(side, count)| *count == 1 && !held.contains(side)).map(|(side, _)| side).collect()
+}
+
+/// Cloth by piece, lines along seams and free edges.
+fn layers(garment: &Garment, positions: &[V3], free: &[[usize; 2]]) -> Vec<(TriMesh, Material)> {
+    let mut layers: Vec<(TriMesh, Material)> = Vec::new();
+    for (kind, colour) in CLOTHS.into_iter().enumerate() {
+        let of_kind = garment.pieces.iter().filter(|piece| cloth_of(piece.role) == kind);
+        let triangles: Vec<[usize; 3]> =
+            of_kind.flat_map(|piece| garment.triangles[piece.triangles.clone()].to_vec()).collect();
+        layers.push((TriMesh { positions: positions.to_vec(), triangles }, Material::cloth(colour)));
+    }
+    let line = |colour: Rgb| Material { seams: false, ..Material::cloth(colour) };
+    for (k, colour) in SEAMS.into_iter().enumerate() {
+        let of_colour = garment.seams.iter().skip(k).step_by(SEAMS.len());
+        let sides = of_colour.flat_map(|seam| seam.stitches().flatten().collect::<Vec<_>>());
+        layers.push((rods(positions, sides, SEAM_M), line(colour)));
+    }
+    layers.push((rods(positions, free.iter().copied(), FREE_M), line(FREE)));
+    layers.retain(|(mesh, _)| !mesh.triangles.is_empty());
+    layers
+}
+
+/// Which cloth a piece is shown in.
+fn cloth_of(role: Role) -> usize {
+    use Role::{Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight};
+    match role {
+        Front | BodiceFront | Role::SkirtFront | LegFrontLeft | LegFrontRight => 0,
+        Back | BodiceBack | Role::SkirtBack | LegBackLeft | LegBackRight => 1,
+        _ => 2,
+    }
+}
+
+/// Square rods along sides, half as wide as `half_m`.
+fn rods(positions: &[V3], sides: impl Iterator<Item = [usize; 2]>, half_m: f64) -> TriMesh {
+    let mut mesh = TriMesh { positions: vec![], triangles: vec![] };
+    for [a, b] in sides.map(|side| side.map(|v| positions[v])) {
+        let Some(along) = (b - a).try_normalize(1e-9) else { continue };
+        let across = along.cross(&if along.z.abs() < 0.9 { V3::z() } else { V3::x() }).normalize();
+        let up = along.cross(&across);
+        let first = mesh.positions.len();
+        for end in [a, b] {
+            for [s, t] in [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]] {
+                mesh.positions.push(end + half_m * (s * across + t * up));
+            }
+        }
+        for k in 0..4 {
+            let [p, q, r, s] = [k, (k + 1) % 4, 4 + k, 4 + (k + 1) % 4].map(|v| first + v);
+            mesh.triangles.extend([[p, q, r], [q, s, r]]);
+        }
+    }
+    mesh
+}

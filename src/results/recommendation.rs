@@ -1,0 +1,121 @@
+//! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
+
+use crate::fit_card::{FitCard, fit_cards};
+use crate::picture::{self, tension_near};
+use fit::{self, Simulator};
+use store::{EaseRow, JobFilter, JobId, JobRow, PUBLISHED, RecommendationRow, Result, Store, StudyError, read};
+
+/// Every size of a garment on a subject, and the one to wear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeAnswer {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the subject in the study.
+    pub subject: String,
+    /// The size to wear.
+    pub wear: String,
+    /// Why this one and not the others.
+    pub reason: String,
+    /// All sizes, in order of the study file.
+    pub sizes: Vec<SizeOn>,
+}
+
+/// One size on the subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeOn {
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Levels of the body at which the garment has a girth.
+    pub levels: Vec<LevelFit>,
+    /// Which picture a customer should see.
+    pub shown: &'static str,
+}
+
+/// A garment at one level of the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LevelFit {
+    /// Ease of the size on the subject, with the fit class that it means.
+    pub ease: EaseRow,
+    /// Mean greatest tension of the FEM-GS drape near that height, N/m; `None` without such a drape.
+    pub tension_n_m: Option<f64>,
+}
+
+/// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
+///
+/// # Errors
+/// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
+pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
+    if study == PUBLISHED {
+        let known = read::studies(store)?.into_iter().map(|study| study.name).collect();
+        return Err(StudyError::NotFound { what: "study with pattern girths", name: study.to_owned(), known });
+    }
+    let eases = read::ease(store, study)?;
+    let names = |name: fn(&EaseRow) -> &String| -> Vec<String> {
+        let mut names: Vec<String> = eases.iter().map(|ease| name(ease).clone()).collect();
+        names.sort();
+        names.dedup();
+        names
+    };
+    let (subjects, garments) = (names(|ease| &ease.subject), names(|ease| &ease.garment));
+    if !subjects.iter().any(|name| name == subject) {
+        return Err(StudyError::NotFound { what: "subject", name: subject.to_owned(), known: subjects });
+    }
+    if let Some(garment) = garment.filter(|garment| !garments.iter().any(|name| name == garment)) {
+        return Err(StudyError::NotFound { what: "garment", name: garment.to_owned(), known: garments });
+    }
+    let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+    let recommended = read::recommendations(store, study)?;
+    let cards = fit_cards(store, study, None, None)?;
+    let mut answers = Vec::new();
+    for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
+        let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
+        answers.extend(size_answer(store, &of, &jobs, &recommended, &cards)?);
+    }
+    Ok(answers)
+}
+
+/// The answer for one garment and subject, given its eases; `None` where there are none.
+fn size_answer(
+    store: &Store,
+    eases: &[&EaseRow],
+    jobs: &[JobRow],
+    answers: &[RecommendationRow],
+    cards: &[FitCard],
+) -> Result<Option<SizeAnswer>> {
+    let Some(first) = eases.first() else { return Ok(None) };
+    let mut sizes: Vec<SizeOn> = Vec::new();
+    for of_size in eases.chunk_by(|a, b| a.size == b.size) {
+        let worn = match drape_of(of_size[0], jobs) {
+            Some(id) => Some(picture::dressed(store, id)?),
+            None => None,
+        };
+        let mut levels = Vec::new();
+        for ease in of_size {
+            let tension_n_m = worn.as_ref().map(|worn| tension_near(worn, &ease.level)).transpose()?.flatten();
+            levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
+        }
+        sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
+    }
+    let (garment, subject) = (first.garment.clone(), first.subject.clone());
+    let card = cards.iter().find(|card| card.garment == garment && card.subject == subject);
+    let worn = card.and_then(|card| Some((card.to_wear()?.size.clone(), card.reasons())));
+    Ok(worn.map(|(wear, reason)| SizeAnswer { garment, subject, wear, reason, sizes }))
+}
+
+/// Which picture of a size a customer should see, given the eases of that size.
+fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
+    let Some(decides) = of_size.iter().find(|ease| ease.decides).or(of_size.first()) else { return "" };
+    let answer = answers.iter().find(|row| row.garment == decides.garment && row.class == decides.fit.class);
+    let recommended = answer.map_or_else(|| decides.fit.class.rule_says(), |row| row.recommended);
+    fit::shown(recommended, decides.fit.undersized).words()
+}
+
+/// The FEM-GS result of an ease's size on its subject.
+fn drape_of(ease: &EaseRow, jobs: &[JobRow]) -> Option<JobId> {
+    let is_it = |job: &&JobRow| {
+        (&job.garment, &job.size, &job.subject) == (&ease.garment, &ease.size, &ease.subject)
+            && job.simulator == Simulator::Fem
+            && job.status.has_result()
+    };
+    jobs.iter().find(is_it).map(|job| job.id)
+}

@@ -1,0 +1,254 @@
+//! One run of a simulation in full: where it came from, what it was made of, its numbers; two of them side by side; and
+//! the same again from what is stored.
+
+use std::path::Path;
+
+use rusqlite::{OptionalExtension, Row};
+
+use engine::handout::Untold;
+use engine::{Executor, Outcome, Pipeline, enqueue};
+use geom::units::{from_mm, mm};
+use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
+use store::cache::Cache;
+use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, StageRow, Store, StudyError, SubjectId, read};
+use wardrobe::catalogue::{self, read_fabric, read_style};
+
+/// Where a result was made.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct ProvenanceRow {
+    /// Version of the program.
+    pub program_version: String,
+    /// Commit of the repository of its study.
+    pub git_commit: Option<String>,
+    /// Whether that had uncommitted changes.
+    pub git_dirty: Option<bool>,
+    /// Name of the machine that ran the job.
+    pub machine: String,
+    /// Seed of the start that the job drew.
+    pub seed: i64,
+}
+
+/// Everything that is stored of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The job as lists show it.
+    pub job: JobRow,
+    /// Every value it was made from.
+    pub inputs: Inputs,
+    /// Products of the stages.
+    pub stages: Vec<StageRow>,
+    /// Where it was made; once there is a result.
+    pub provenance: Option<ProvenanceRow>,
+    /// Its numbers; once there is a result.
+    pub metrics: Option<MetricsRow>,
+    /// Measurements of the result, at every stage; empty without a result.
+    pub chi: Vec<ChiRow>,
+}
+
+/// A measurement of two results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChiPair {
+    /// Number of the measurement in the style (`#1`).
+    pub no: u32,
+    /// Name of the measurement in the style.
+    pub name: String,
+    /// Pattern length and garment length in each result, m; `None` where a result has no such measurement.
+    pub lengths_m: [Option<(f64, f64)>; 2],
+}
+
+impl ChiPair {
+    /// L3D / L2D in each result.
+    #[must_use]
+    pub fn chi(&self) -> [Option<f64>; 2] {
+        self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
+    }
+
+    /// Whether both are there and no bit of their lengths differs.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        let bits = |lengths: Option<(f64, f64)>| lengths.map(|(l2d, l3d)| [l2d.to_bits(), l3d.to_bits()]);
+        self.lengths_m[0].is_some() && bits(self.lengths_m[0]) == bits(self.lengths_m[1])
+    }
+}
+
+/// Two runs side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Inputs that differ, before and after.
+    pub inputs: Vec<Change>,
+    /// Numbers of both results; `None` where there is none.
+    pub metrics: [Option<MetricsRow>; 2],
+    /// Measurements of both, by number.
+    pub chi: Vec<ChiPair>,
+}
+
+/// A run made again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rerun {
+    /// Inputs of today's program that differ from the stored ones: versions of its stages.
+    pub inputs: Vec<Change>,
+    /// Measurements as stored and as found now.
+    pub chi: Vec<ChiPair>,
+    /// EI as stored and as found now.
+    pub ei: [f64; 2],
+}
+
+/// Everything that is stored of a run.
+///
+/// # Errors
+/// When there is no such job.
+pub fn record(store: &Store, id: JobId) -> Result<Record> {
+    let sql = "SELECT program_version, git_commit, git_dirty, machine, seed FROM provenance WHERE job_id = ?";
+    let row = |row: &Row<'_>| {
+        Ok(ProvenanceRow {
+            program_version: row.get(0)?,
+            git_commit: row.get(1)?,
+            git_dirty: row.get(2)?,
+            machine: row.get(3)?,
+            seed: row.get(4)?,
+        })
+    };
+    Ok(Record {
+        job: read::job(store, id)?,
+        inputs: enqueue::inputs(store, id)?,
+        stages: read::stages(store, id)?,
+        provenance: store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?,
+        metrics: read::metrics(store, id)?,
+        chi: read::chi(store, id)?,
+    })
+}
+
+/// Two runs side by side.
+///
+/// # Errors
+/// When one of the jobs does not exist.
+pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison> {
+    let [a, b] = [record(store, before)?, record(store, after)?];
+    Ok(Comparison {
+        inputs: b.inputs.changes_since(&a.inputs),
+        metrics: [a.metrics, b.metrics],
+        chi: paired(&a.chi, &b.chi),
+    })
+}
+
+/// Makes a run again from its stored inputs, nothing of it from the cache. What is stored stays as it is.
+///
+/// # Errors
+/// When it has no result yet, its body is a scan that was not stored, or a stage refuses.
+pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
+    let metrics = read::metrics(store, id)?.ok_or_else(|| StudyError::NotFound {
+        what: "result of job",
+        name: id.to_string(),
+        known: vec![],
+    })?;
+    let spec = stored_spec(store, id)?;
+    let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
+    let scratch = folder.path().join("again.sqlite");
+    drop(store::open(&scratch, Access::Create)?);
+    let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Untold)?;
+    Ok(Rerun {
+        inputs: spec.inputs.changes_since(&enqueue::inputs(store, id)?),
+        chi: paired(&read::chi(store, id)?, &rows_of(&outcome)),
+        ei: [metrics.ei, outcome.metrics.ei],
+    })
+}
+
+/// Whether a study's report was last written from this database, as the page that has this time (ms since 1970).
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) -> Result<bool> {
+    let sql = "SELECT EXISTS (SELECT 1 FROM study_report JOIN study USING (study_id)
+        WHERE name = ? AND page = ? AND written_at = ?)";
+    let page = page.to_string_lossy();
+    Ok(store.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
+}
+
+/// Remembers the page that a study's report was just written to, and its time (ms since 1970).
+///
+/// # Errors
+/// When the database is open read-only.
+pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: i64) -> Result<()> {
+    let sql = "INSERT OR REPLACE INTO study_report (study_id, page, written_at)
+        SELECT study_id, ?, ? FROM study WHERE name = ?";
+    store.writer()?.execute(sql, (page.to_string_lossy(), written_ms, study))?;
+    Ok(())
+}
+
+/// What a job does, from what the database has of it.
+pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
+    let job = read::job(store, id)?;
+    let inputs = enqueue::inputs(store, id)?;
+    let refuse = |message: String| StudyError::stage("rerun")(message);
+    let edge_mm: f64 = inputs
+        .iter()
+        .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
+        .ok_or_else(|| refuse(format!("job {id} has no mesh.edge_length_mm")))?;
+    let keys = "SELECT subject_id, style_id, size_id, fabric_id FROM job WHERE job_id = ?";
+    let keys: [i64; 4] = store
+        .reader
+        .prepare_cached(keys)?
+        .query_row([id.0], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?;
+    let (style, seams, size, unit) = read_style(&store.reader, keys[1], keys[2])?;
+    let person = catalogue::person(store, SubjectId(keys[0]))?;
+    let is_scan = |(name, _): (&str, &str)| name.starts_with("subject.") && name.ends_with(".scan");
+    if person.scan.is_none() && inputs.iter().any(is_scan) {
+        return Err(refuse("its body is a scan, of which an older program kept nothing; run its study again".into()));
+    }
+    if inputs.iter().any(|(name, _)| name == "outfit.id") {
+        return Err(refuse("it is a layer of an outfit, which is draped as a whole; run its study again".into()));
+    }
+    if inputs.iter().any(|(name, _)| name == CARRIED_FROM) {
+        return Err(refuse("its body carried it from another pose; run its study again".into()));
+    }
+    let spec = JobSpec {
+        garment: job.garment,
+        style,
+        size: job.size,
+        subject: job.subject,
+        simulator: job.simulator,
+        repeat: job.repeat,
+        person,
+        pattern: size,
+        unit,
+        seams,
+        fabric: read_fabric(&store.reader, keys[3])?,
+        edge_length_m: from_mm(edge_mm),
+        parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
+        schedule: Schedule::default(),
+        outfit: None,
+        dressed: None,
+        inputs: Inputs::default(),
+    };
+    Ok(spec.with_inputs())
+}
+
+/// The measurements of an outcome as they would be read back: millimetres are what is stored.
+fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
+    let stored = |length_m: f64| from_mm(mm(length_m));
+    let row = |m: &engine::Measured| ChiRow {
+        stage: m.stage.as_str().to_owned(),
+        no: m.chi.no,
+        name: m.name.clone(),
+        is_girth: m.kind == pattern::MeasurementKind::ClosedGirth,
+        is_free_edge: m.is_free_edge,
+        is_controlled: m.is_controlled,
+        l2d_m: stored(m.chi.l2d_m),
+        l3d_m: stored(m.chi.l3d_m),
+    };
+    outcome.measured.iter().map(row).collect()
+}
+
+/// The measurements of two results by number, each at its last stage.
+fn paired(a: &[ChiRow], b: &[ChiRow]) -> Vec<ChiPair> {
+    let mut numbers: Vec<u32> = a.iter().chain(b).map(|row| row.no).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let of = |rows: &[ChiRow], no: u32| rows.iter().rfind(|row| row.no == no).cloned();
+    let pair = |no| {
+        let both = [of(a, no), of(b, no)];
+        let name = both.iter().flatten().next().map(|row| row.name.clone()).unwrap_or_default();
+        ChiPair { no, name, lengths_m: both.map(|row| row.map(|row| (row.l2d_m, row.l3d_m))) }
+    };
+    numbers.into_iter().map(pair).collect()
+}

@@ -1,0 +1,202 @@
+//! Fit sheets: how a garment sits on a subject in its sizes, for the fit report.
+
+use crate::draped_fit::{GarmentWorn, SizeWorn};
+use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
+use crate::section::{self, CutAt};
+use geom::units::signed_tenths;
+use pattern::pom::Point;
+use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
+use store::{Result, Store};
+
+/// The fit sheets of a study.
+pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
+    worn.iter().map(|one| sheet(store, one)).collect()
+}
+
+fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
+    let card = &one.card;
+    let beside = card.beside();
+    let worn = |size: &SizeSits| one.sizes.iter().find(|worn| worn.size == size.size);
+    let drapes: Vec<Option<&SizeWorn>> = beside.iter().map(worn).collect();
+    let jobs: Vec<_> = one.sizes.iter().map(|size| size.job).collect();
+    let wear = card.to_wear().map(|size| size.size.as_str());
+    let charts = section::drawn(store, &jobs, &CutAt::Levels, wear)?;
+    let size = |size: &SizeSits| FitSize {
+        size: size.size.clone(),
+        is_to_wear: size.place == Some(1),
+        fits: size.is_within_reach(),
+        words: size.words(),
+    };
+    let names: Vec<String> = beside.iter().map(|size| size.size.clone()).collect();
+    let mut tables = vec![ease(card, beside, &names)];
+    if drapes.iter().any(Option::is_some) {
+        tables.push(hang(&drapes, &names));
+        tables.push(points(&drapes, &names));
+    }
+    Ok(FitSheet {
+        garment: card.garment.clone(),
+        subject: card.subject.clone(),
+        intended: card.intended.clone().unwrap_or_default(),
+        verdict: card.verdict(),
+        drape: wear.and_then(|wear| one.sizes.iter().find(|size| size.size == wear)).map_or_else(String::new, told),
+        sizes: beside.iter().map(size).collect(),
+        simulator: one.simulator,
+        tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
+        sections: charts.into_iter().map(|(_, chart)| chart).collect(),
+    })
+}
+
+/// How a drape hangs and presses, in words.
+fn told(size: &SizeWorn) -> String {
+    let hem = size.hem_words().map(|words| format!("Hem {words}."));
+    let most = size.pressure.first().map(|most| {
+        let region = most.region.replace('_', " ");
+        format!("Presses most at the {region}, {:.2} kPa.", most.most_kpa)
+    });
+    hem.into_iter().chain(most).collect::<Vec<_>>().join(" ")
+}
+
+/// The points of measure that any drape has, and how each is measured.
+pub(super) fn definitions(worn: &[GarmentWorn]) -> Vec<Fact> {
+    let has = |point: &Point| {
+        let mut points = worn.iter().flat_map(|one| &one.sizes).flat_map(|size| &size.points);
+        points.any(|one| one.point == point.as_str())
+    };
+    let fact = |point: Point| Fact { name: point.as_str().replace('_', " "), value: point.definition().to_owned() };
+    Point::ALL.into_iter().filter(has).map(fact).collect()
+}
+
+fn plain(text: impl Into<String>) -> FitCell {
+    FitCell { text: text.into(), ..FitCell::default() }
+}
+
+/// A whole number with a true minus, never before 0.
+fn whole(value: f64) -> String {
+    format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
+}
+
+/// A whole number with its sign.
+fn signed(value: f64) -> String {
+    if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
+}
+
+/// Ease at every level beside what is meant.
+fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
+    let row = |level: &str| {
+        let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
+        let all: Vec<Option<LevelSits>> = sizes.iter().map(of).collect();
+        let known = all.iter().flatten().next();
+        let target = known.and_then(|one| one.target_mm);
+        let body = known.map_or(String::new(), |one| format!("{:.0}", one.body_girth_mm));
+        let target = target.map_or(String::new(), |[least, most]| format!("{} to {}", whole(least), whole(most)));
+        let cell = |one: &Option<LevelSits>| {
+            one.as_ref().map_or_else(FitCell::default, |one| FitCell {
+                text: signed(one.ease_mm),
+                note: one.words(),
+                verdict: one.sits().map(|sits| match sits {
+                    Sits::Tight => FitVerdict::Tight,
+                    Sits::Loose => FitVerdict::Loose,
+                    Sits::AsMeant => FitVerdict::AsMeant,
+                }),
+            })
+        };
+        let cells = [plain(body), plain(target)].into_iter().chain(all.iter().map(cell)).collect();
+        FitRow { name: level.replace('_', " "), cells }
+    };
+    FitTable {
+        caption: "Ease: garment less body, mm".to_owned(),
+        columns: ["body", "target"].map(str::to_owned).into_iter().chain(names.iter().cloned()).collect(),
+        rows: card.levels().into_iter().map(row).collect(),
+    }
+}
+
+/// Balance, pressure, folds and gaps of the drapes.
+fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
+    let mut rows = Vec::new();
+    let mut add = |name: &str, of: &dyn Fn(&SizeWorn) -> Option<(String, String)>| {
+        let cell = |size: &Option<&SizeWorn>| {
+            let told = size.and_then(of);
+            told.map_or_else(FitCell::default, |(text, note)| FitCell { text, note, verdict: None })
+        };
+        let cells: Vec<FitCell> = sizes.iter().map(cell).collect();
+        if cells.iter().any(|cell| !cell.text.is_empty()) {
+            rows.push(FitRow { name: name.to_owned(), cells });
+        }
+    };
+    let height =
+        |quantity: &'static str| move |size: &SizeWorn| size.balance_of(quantity).map(|mm| (whole(mm), String::new()));
+    add("hem above the floor, in front, mm", &height("hem_front"));
+    add("hem above the floor, behind, mm", &height("hem_back"));
+    add("hem, front over back, mm", &|size| {
+        let (off, words) = size.hem_tilt()?;
+        Some((signed(off), words.to_owned()))
+    });
+    add("hem, right over left, mm", &|size| Some((signed(size.balance_of("hem_right_over_left")?), String::new())));
+    add("waist edge, front over back, mm", &|size| {
+        Some((signed(size.balance_of("waist_front_over_back")?), String::new()))
+    });
+    add("side seam lean, right and left, degrees", &|size| {
+        let [right, left] = ["side_seam_lean_right", "side_seam_lean_left"].map(|quantity| size.balance_of(quantity));
+        let words = if right? + left? > 0.0 { "forwards going down" } else { "backwards going down" };
+        Some((format!("{:.1}, {:.1}", right?.abs(), left?.abs()), words.to_owned()))
+    });
+    add("greatest pressure, kPa", &|size| {
+        let most = size.pressure.first()?;
+        let (region, mmhg) = (most.region.replace('_', " "), most.most_mmhg);
+        Some((
+            format!("{:.2}", most.most_kpa),
+            format!("{region}, {mmhg:.1} mmHg; mean there {:.2} kPa", most.mean_kpa),
+        ))
+    });
+    add("folds and drag lines", &|size| {
+        let longest = size.folds.first();
+        let words = longest.map(|fold| format!("the longest {:.0} mm, {}", fold.length_mm, fold.words()));
+        Some((size.folds.len().to_string(), words.unwrap_or_default()))
+    });
+    for opening in names_among(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
+        add(&format!("drawn by the movement: {opening}, mm"), &|size| {
+            let one = size.drawn.iter().find(|one| one.opening == opening)?;
+            Some((signed(one.drawn_mm), format!("{} at most", signed(one.drawn_most_mm))))
+        });
+    }
+    for level in names_among(sizes, |size| size.gaps.iter().map(|gap| gap.level.as_str()).collect()) {
+        add(&format!("mean gap at the {}, mm", level.replace('_', " ")), &|size| {
+            let gap = size.gaps.iter().find(|gap| gap.level == level)?;
+            let words = gap.least_gap_mm.zip(gap.greatest_gap_mm);
+            let words =
+                words.map_or(String::new(), |(least, greatest)| format!("{} to {}", whole(least), whole(greatest)));
+            Some((whole(gap.mean_gap_mm?), words))
+        });
+    }
+    FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }
+}
+
+/// Names that any size has, each once, in their order.
+fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> Vec<&'a str>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in sizes.iter().flatten().flat_map(|size| of(size)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Points of measure, flat and worn.
+fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
+    let row = |point: Point| {
+        let name = point.as_str();
+        let cell = |size: &Option<&SizeWorn>| {
+            let found = size.and_then(|size| size.points.iter().find(|one| one.point == name));
+            found.map_or_else(FitCell::default, |one| {
+                let worn = one.draped_mm.map(|mm| format!("worn {mm:.1}"));
+                let step = one.step_mm.map(|mm| format!("step {}", signed_tenths(mm)).replace('-', "\u{2212}"));
+                let note = worn.into_iter().chain(step).collect::<Vec<_>>().join(", ");
+                FitCell { text: format!("{:.1}", one.flat_mm), note, verdict: None }
+            })
+        };
+        FitRow { name: name.replace('_', " "), cells: sizes.iter().map(cell).collect() }
+    };
+    let rows = Point::ALL.into_iter().map(row).filter(|row| row.cells.iter().any(|cell| !cell.text.is_empty()));
+    FitTable { caption: "Points of measure, flat, mm".to_owned(), columns: names.to_vec(), rows: rows.collect() }
+}

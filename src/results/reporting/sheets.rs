@@ -1,0 +1,120 @@
+//! The sheets beside a report: all try-ons of a garment and size on one picture.
+
+use std::collections::BTreeMap;
+
+use image::imageops;
+
+use crate::reporting::runs::PICTURE;
+use render::{self, Cell, RenderError, View};
+use report::FileNames;
+use report::data::RawLink;
+use store::{JobRow, Result, StudyError};
+
+/// Longest side of a sheet, without labels, pixels.
+const SHEET_SIDE: f64 = 5500.0;
+/// Jobs one below the other on a sheet of one column of jobs.
+const JOBS_HIGH: f64 = 10.0;
+
+/// Sheets with all try-ons of a garment and size. Each is made as soon as its last job is through: those of a large study
+/// together would not fit into memory.
+pub(super) struct Sheets<'a> {
+    study: &'a str,
+    names: FileNames,
+    open: BTreeMap<(&'a str, &'a str), Sheet>,
+}
+
+/// A sheet to come.
+struct Sheet {
+    /// Jobs that are to come yet.
+    left: usize,
+    columns: usize,
+    /// Pixels of a picture.
+    size: [u32; 2],
+    cells: Vec<Cell>,
+}
+
+impl Sheet {
+    /// For some jobs, a few of them side by side where there are many, so that the sheet stays about square and below
+    /// [`SHEET_SIDE`].
+    fn new(jobs: usize) -> Self {
+        let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
+        let rows = (jobs as f64 / beside).ceil();
+        let columns = beside * View::ALL.len() as f64;
+        let [width, height] = [PICTURE.0, PICTURE.1].map(f64::from);
+        let shrink = (SHEET_SIDE / (columns * width)).min(SHEET_SIDE / (rows * height)).min(1.0);
+        let size = [width, height].map(|side| (side * shrink).max(1.0) as u32);
+        Self { left: jobs, columns: columns as usize, size, cells: Vec::new() }
+    }
+
+    fn add(&mut self, cell: Cell) {
+        let [width, height] = self.size;
+        let picture = if width == PICTURE.0 {
+            cell.picture
+        } else {
+            imageops::resize(&cell.picture, width, height, imageops::FilterType::CatmullRom)
+        };
+        self.cells.push(Cell { picture, ..cell });
+    }
+}
+
+impl<'a> Sheets<'a> {
+    /// Of a study's jobs.
+    pub(super) fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
+        let mut counts: BTreeMap<_, usize> = BTreeMap::new();
+        for job in jobs {
+            *counts.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
+        }
+        Self {
+            study,
+            names: FileNames::default(),
+            open: counts.into_iter().map(|(key, count)| (key, Sheet::new(count))).collect(),
+        }
+    }
+
+    /// Adds what a job shows; gives the sheet that it completes, as a link and the file behind it.
+    pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(RawLink, Vec<u8>)>> {
+        let (garment, size) = (job.garment.as_str(), job.size.as_str());
+        let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
+        sheet.left -= 1;
+        cells.into_iter().for_each(|cell| sheet.add(cell));
+        if sheet.left > 0 || sheet.cells.is_empty() {
+            return Ok(None);
+        }
+        let title = format!("{}: {garment}, size {size}", self.study);
+        let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::jpeg(&sheet));
+        self.open.remove(&(garment, size));
+        match picture {
+            Ok(picture) => {
+                let name = self.names.part(&format!("try-on-{garment}-{size}"));
+                let label = format!("all try-ons of {garment}, size {size}, on one sheet");
+                Ok(Some((RawLink { href: format!("pictures/{name}.jpg"), label }, picture)))
+            }
+            // Thousands of runs fit on no sheet; each has its own pictures.
+            Err(RenderError::Size { .. }) => Ok(None),
+            Err(error) => Err(StudyError::stage("render")(error)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use image::RgbaImage;
+
+    use super::*;
+
+    #[test]
+    fn a_sheet_of_many_runs_is_as_many_across_as_keep_it_square() {
+        let check = |jobs: usize, columns: usize, size: [u32; 2]| {
+            let sheet = Sheet::new(jobs);
+            assert_eq!((sheet.left, sheet.columns, sheet.size), (jobs, columns, size));
+            let empty = RgbaImage::new(size[0], size[1]);
+            let cells: Vec<Cell> =
+                (0..jobs * View::ALL.len()).map(|_| Cell { picture: empty.clone(), label: String::new() }).collect();
+            render::contact_sheet("all", &cells, columns).expect("a sheet that fits");
+        };
+        check(1, 4, [480, 540]);
+        check(10, 4, [480, 540]);
+        check(12, 8, [480, 540]);
+        check(50, 12, [287, 323]);
+    }
+}

@@ -1,0 +1,80 @@
+//! Reports that were built, and building one: what a screen lists and starts.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use crate::reporting;
+use store::{Result, Store, files};
+
+/// A report in a folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportRow {
+    /// Name of its folder: that of its study, unless it was built elsewhere.
+    pub name: String,
+    /// Path of its HTML page.
+    pub page: PathBuf,
+    /// Size of the page, bytes.
+    pub bytes: u64,
+    /// When it was written, ms since 1970 (UTC).
+    pub written_ms: i64,
+    /// Files beside the page, with those in folders.
+    pub files: usize,
+}
+
+/// The reports in the folders of a folder, by name; none where it cannot be read.
+#[must_use]
+pub fn reports(folder: &Path) -> Vec<ReportRow> {
+    let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut found: Vec<ReportRow> = folders.filter_map(|folder| report(&folder)).collect();
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    found
+}
+
+fn report(folder: &Path) -> Option<ReportRow> {
+    let page = folder.join("index.html");
+    let facts = fs::metadata(&page).ok()?;
+    let age = facts.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
+    Some(ReportRow {
+        name: folder.file_name()?.to_string_lossy().into_owned(),
+        page,
+        bytes: facts.len(),
+        written_ms: age.as_millis() as i64,
+        files: count(folder).saturating_sub(1),
+    })
+}
+
+/// Files below a folder.
+fn count(folder: &Path) -> usize {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()
+}
+
+/// Builds the report of a study in a folder of its own below `folder`; returns its page.
+///
+/// # Errors
+/// When there is no such study, a stored result cannot be read, or a file cannot be written.
+pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
+    let folder = folder.join(files::study_folder(study));
+    files::write_files(&folder, &reporting::report(store, study, None)?)?;
+    Ok(folder.join("index.html"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_with_a_page_are_reports() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for file in ["b/index.html", "b/charts/x.svg", "b/chi.csv", "a/index.html", "c/notes.txt"] {
+            let path = folder.path().join(file);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
+            fs::write(path, "x").expect("writable");
+        }
+        let found = reports(folder.path());
+        assert_eq!(found.iter().map(|row| (row.name.as_str(), row.files)).collect::<Vec<_>>(), [("a", 0), ("b", 2)]);
+        assert!(found[0].written_ms > 1_600_000_000_000 && found[0].bytes == 1);
+        assert!(reports(&folder.path().join("none")).is_empty());
+    }
+}

@@ -1,0 +1,218 @@
+//! Cross sections of stored results: the body and the cloth of several sizes over each other.
+
+use serde::Serialize;
+
+use crate::picture;
+use body::Body;
+use engine::pipeline::Model;
+use fit::worn::{Angle, DIRECTIONS, Section, Site, sites};
+use geom::V2;
+use geom::section::Outline;
+use geom::units::{from_mm, mm};
+use report::Chart;
+use report::chart::{Worn, section_chart};
+use store::{JobId, JobRow, Result, StageKind, Store, StudyError, read};
+
+/// Where a body is cut.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CutAt {
+    /// All levels that the garment covers.
+    Levels,
+    /// One level by its name.
+    Level(String),
+    /// A height above the floor, mm; below the crotch the right leg is cut.
+    HeightMm(f64),
+}
+
+/// A line of a section, mm from the axis of trunk or limb: towards the subject's right, and to the front.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CutLine {
+    /// Points of the line, mm; the first is not repeated where it is closed.
+    pub points: Vec<[f64; 2]>,
+    /// Whether the last point goes on to the first.
+    pub closed: bool,
+}
+
+/// The cloth of one result in a section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CutCloth {
+    /// Number of the job whose drape is cut.
+    pub job: i64,
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// `fem` or `hybrid`.
+    pub simulator: String,
+    /// Outlines of the cloth in the plane.
+    pub lines: Vec<CutLine>,
+    /// Gap from the skin by direction, from the front towards the subject's right: degrees, mm; below 0 inside the body.
+    pub gaps: Vec<(f64, Option<f64>)>,
+}
+
+impl CutCloth {
+    /// Least, mean and greatest gap, mm; `None` where no direction has cloth.
+    #[must_use]
+    pub fn gap_mm(&self) -> Option<[f64; 3]> {
+        let known: Vec<f64> = self.gaps.iter().filter_map(|(_, gap)| *gap).collect();
+        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        let least = known.iter().copied().reduce(f64::min)?;
+        let greatest = known.iter().copied().reduce(f64::max)?;
+        Some([least, mean, greatest])
+    }
+}
+
+/// A body in a plane, with the cloth of one or more results.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CrossSection {
+    /// Level, or the height in words.
+    pub level: String,
+    /// Height above the floor, mm.
+    pub height_mm: f64,
+    /// Middle of the trunk's or limb's outline, where directions begin, mm.
+    pub centre: [f64; 2],
+    /// Outline of trunk or limb.
+    pub skin: CutLine,
+    /// The other limbs in the plane.
+    pub others: Vec<CutLine>,
+    /// The cloth, result by result.
+    pub cloth: Vec<CutCloth>,
+}
+
+/// A level of one body with the cloth of several results.
+pub(crate) struct LevelCuts {
+    /// Level, or the height in words.
+    pub level: String,
+    /// Each result and its section.
+    pub cuts: Vec<(JobRow, Section)>,
+}
+
+/// Sections of some results on one body; of all levels those that none of them covers are left out.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a height
+/// at which there is no body, or results on different bodies.
+pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<LevelCuts>> {
+    let Some(first) = jobs.first() else { return Ok(Vec::new()) };
+    let subject = read::job(store, *first)?.subject;
+    let Model { body } = picture::product(store, *first, StageKind::Body)?;
+    let wanted = wanted(&body, at)?;
+    let mut found: Vec<LevelCuts> = Vec::new();
+    for job in jobs {
+        let row = read::job(store, *job)?;
+        if row.subject != subject {
+            let problem = format!(
+                "job {} is on {}, job {first} on {subject}; accepted: results on one subject",
+                row.id, row.subject
+            );
+            return Err(StudyError::Refused { what: "section", name: at.words(), problems: vec![problem] });
+        }
+        let cloth = picture::dressed(store, *job)?.sewn()?.mesh;
+        for site in &wanted {
+            let Some(section) = Section::cut(site.clone(), &body.mesh, &cloth) else { continue };
+            match found.iter_mut().find(|known| known.level == site.level) {
+                Some(known) => known.cuts.push((row.clone(), section)),
+                None => found.push(LevelCuts { level: site.level.clone(), cuts: vec![(row.clone(), section)] }),
+            }
+        }
+    }
+    if found.is_empty() {
+        return Err(refused(at, &body));
+    }
+    if *at == CutAt::Levels {
+        found.retain(|level| level.cuts.iter().any(|(_, section)| !section.cloth.is_empty()));
+    }
+    Ok(found)
+}
+
+/// Sections of some results as plain values.
+///
+/// # Errors
+/// As [`cuts`].
+pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
+    Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
+}
+
+/// Sections of some results, drawn level by level; the gaps of one size are written beside it.
+///
+/// # Errors
+/// As [`cuts`], and where a chart cannot be drawn.
+pub fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
+    let cuts = cuts(store, jobs, at)?;
+    let chart = |level: &LevelCuts| {
+        let mut sizes: Vec<Worn<'_>> = Vec::new();
+        for (job, section) in &level.cuts {
+            let label = format!("{}, {}", job.size, job.simulator.as_str());
+            sizes.push(Worn { label, is_written: written == Some(job.size.as_str()), section });
+        }
+        let (job, section) = level.cuts.first()?;
+        let height_mm = mm(section.site.height_m());
+        let level_name = level.level.replace('_', " ");
+        let title = format!("{} on {}: {level_name}, {height_mm:.0} mm above the floor", job.garment, job.subject);
+        Some(
+            section_chart(&title, &sizes)
+                .map(|chart| (level.level.clone(), chart))
+                .map_err(StudyError::stage("report")),
+        )
+    };
+    cuts.iter().filter_map(chart).collect()
+}
+
+fn plain(level: &LevelCuts) -> Option<CrossSection> {
+    let (_, first) = level.cuts.first()?;
+    let cloth = |(job, section): &(JobRow, Section)| CutCloth {
+        job: job.id.0,
+        size: job.size.clone(),
+        simulator: job.simulator.as_str().to_owned(),
+        lines: section.cloth.iter().map(line).collect(),
+        gaps: section.gaps(DIRECTIONS).into_iter().map(|Angle { deg, gap_m, .. }| (deg, gap_m.map(mm))).collect(),
+    };
+    Some(CrossSection {
+        level: level.level.clone(),
+        height_mm: mm(first.site.height_m()),
+        centre: place(&first.centre),
+        skin: line(&first.skin),
+        others: first.others.iter().map(line).collect(),
+        cloth: level.cuts.iter().map(cloth).collect(),
+    })
+}
+
+impl CutAt {
+    fn words(&self) -> String {
+        match self {
+            Self::Levels => "levels".to_owned(),
+            Self::Level(level) => level.clone(),
+            Self::HeightMm(height_mm) => format!("{height_mm:.0} mm"),
+        }
+    }
+}
+
+/// The planes that are asked for.
+fn wanted(body: &Body, at: &CutAt) -> Result<Vec<Site>> {
+    match at {
+        CutAt::Levels => Ok(sites(body)),
+        CutAt::HeightMm(height_mm) => Ok(vec![Site::at(&at.words(), body, from_mm(*height_mm))]),
+        CutAt::Level(level) => {
+            let mut known = sites(body);
+            match known.iter().position(|site| site.level == *level) {
+                Some(at) => Ok(vec![known.swap_remove(at)]),
+                None => {
+                    let known = known.into_iter().map(|site| site.level).collect();
+                    Err(StudyError::NotFound { what: "level", name: level.clone(), known })
+                }
+            }
+        }
+    }
+}
+
+fn refused(at: &CutAt, body: &Body) -> StudyError {
+    let top_mm = body.mesh.bounds().map_or(0.0, |(_, high)| mm(high.z));
+    let problems = vec![format!("no body there; accepted: heights from 0 to {top_mm:.0} mm")];
+    StudyError::Refused { what: "section", name: at.words(), problems }
+}
+
+fn line(outline: &Outline) -> CutLine {
+    CutLine { points: outline.points.iter().map(place).collect(), closed: outline.closed }
+}
+
+fn place(point: &V2) -> [f64; 2] {
+    [mm(point.x), mm(point.y)]
+}

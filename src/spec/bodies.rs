@@ -1,0 +1,169 @@
+//! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use render::{self, Camera, Frame, Layer, Material, Scene, View};
+use store::files::SourceFile;
+use store::{InFile, Result, StudyError};
+
+pub use body::{
+    Body, Dimension, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
+    write_obj,
+};
+
+/// A body built from measurements.
+///
+/// # Errors
+/// When a measurement is impossible.
+pub fn build_body(measurements: &Measurements) -> Result<Body> {
+    body::build(measurements).map_err(StudyError::stage("body"))
+}
+
+/// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
+#[derive(Debug, serde::Serialize)]
+pub struct Judgement<'a> {
+    /// What is measured.
+    #[serde(flatten)]
+    pub read: Read<'a>,
+    /// Measurements that few people alike have.
+    pub doubts: Vec<Doubt>,
+    /// Mass from the volume.
+    #[serde(flatten)]
+    pub mass: Mass,
+}
+
+/// What is measured on a body: the keys of `body measure`.
+#[derive(Debug, serde::Serialize)]
+pub struct Read<'a> {
+    /// What the tape reads.
+    #[serde(flatten)]
+    pub girths: &'a Girths,
+    /// What a tailor takes beside it, by key.
+    #[serde(flatten)]
+    pub tailor: BTreeMap<&'static str, Option<f64>>,
+}
+
+/// Everything that is measured on a body.
+#[must_use]
+pub fn read_body(body: &Body) -> Read<'_> {
+    let tailor = body.tailor().into_iter().map(|taken| (taken.key, taken.written)).collect();
+    Read { girths: &body.girths, tailor }
+}
+
+/// Judges a built body.
+#[must_use]
+pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
+    Judgement {
+        read: read_body(body),
+        doubts: body::plausibility(measurements),
+        mass: Mass::of(body.girths.volume_l(), measurements.get(Dimension::Weight)),
+    }
+}
+
+/// Reads and measures a body scan, its unit and sex told from it where they are not given.
+///
+/// # Errors
+/// When it cannot be read or is no standing person.
+pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
+    body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// Reads and measures the scan of somebody who stands on both feet.
+///
+/// # Errors
+/// As [`read_scan`], and where a foot is missing.
+pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
+    let read = read_scan(scan, unit, sex)?;
+    read.check_feet().map_err(of_scan(scan))?;
+    Ok(read)
+}
+
+/// Everything that is measured on a scan.
+///
+/// # Errors
+/// When a part of the body is not found.
+pub fn measured(scan: &Scan) -> Result<Measured> {
+    scan.measured().map_err(StudyError::stage("body"))
+}
+
+/// A scan as a body that wears garments.
+///
+/// # Errors
+/// When arms or legs are not apart, or the surface does not close.
+pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
+    scan.into_body().map_err(of_scan(source))
+}
+
+/// A body in another pose.
+///
+/// # Errors
+/// When its limbs do not reach there, or would touch.
+pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
+    body::pose(body, pose).map_err(StudyError::stage("body"))
+}
+
+fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
+    |source| StudyError::stage("body")(InFile { file: scan.name.clone(), source })
+}
+
+/// Lens of a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Focal length in pixels of the pictures.
+    FocalPx(f64),
+    /// Vertical field of view, degrees.
+    FieldDeg(f64),
+}
+
+/// Reads a body from a front and a side picture, taken from a distance in metres where a lens is given.
+///
+/// # Errors
+/// When a picture cannot be read, or shows no single person wholly.
+pub fn read_pictures(
+    front: &Path,
+    side: &Path,
+    camera: Option<(Lens, f64)>,
+    sex: Sex,
+    stature_m: f64,
+) -> Result<Pictured> {
+    let sources = [SourceFile::read(front)?, SourceFile::read(side)?];
+    let camera = camera.map(|(lens, distance_m)| match lens {
+        Lens::FocalPx(focal_px) => {
+            body::picture_height(&sources[0].bytes).map(|height| body::Camera::of_focal(focal_px, height, distance_m))
+        }
+        Lens::FieldDeg(field_deg) => Ok(body::Camera::of_field(field_deg, distance_m)),
+    });
+    let camera = camera.transpose().map_err(StudyError::stage("body"))?;
+    body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m)
+        .map_err(StudyError::stage("body"))
+}
+
+/// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
+/// girths as vertex numbers.
+///
+/// # Errors
+/// When the JSON cannot be written.
+pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
+    let json = body::write_control(body).map_err(|error| StudyError::stage("body")(error.to_string()))?;
+    let obj = body.control.write_obj();
+    Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
+}
+
+/// A picture of a body with the tapes of its girths and a tailor's lines as PNG bytes.
+///
+/// # Errors
+/// When the mesh cannot be drawn.
+pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
+    let (tapes, lines) = (body.tapes(), body.lines());
+    let layers = vec![
+        Layer::new(&body.mesh, Material::form()),
+        Layer::new(&tapes, Material::hybrid()),
+        Layer::new(&lines, Material::fem()),
+    ];
+    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
+    let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
+    let picture =
+        render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
+    render::png(&picture).map_err(StudyError::stage("render"))
+}

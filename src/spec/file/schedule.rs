@@ -1,0 +1,51 @@
+//! When jobs of a study file are started and what they may take: `priority`, `after`, `time_limit_s`, `memory_limit_mb`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::file::GarmentEntry;
+use crate::file::reader::{Place, Reader};
+use crate::file::values::lookup;
+use crate::schedule::{Limits, Schedule};
+
+/// Longest time that a simulation may be given, s: thirty days.
+const LONGEST_S: f64 = 30.0 * 86_400.0;
+/// Least memory a process of its own can start in, and the most that can be said, MB.
+const MEMORY_MB: std::ops::RangeInclusive<f64> = 50.0..=4e6;
+/// Priorities that can be given.
+const PRIORITY: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
+
+/// The limits that a table gives.
+pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
+    Limits {
+        time_s: reader.number(place, "time_limit_s", 0.001..=LONGEST_S),
+        memory_mb: reader.number(place, "memory_limit_mb", MEMORY_MB).map(|megabytes| megabytes as u32),
+    }
+}
+
+/// The schedule of a garment; it waits only for those that come before it in the file, so never in a circle.
+pub(super) fn schedule(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    before: &BTreeSet<&str>,
+    of_study: Limits,
+) -> Schedule {
+    let known: BTreeMap<String, ()> = before.iter().map(|name| ((*name).to_owned(), ())).collect();
+    let after = reader.texts(place, "after").unwrap_or_default();
+    let after = after.iter().filter(|name| lookup(reader, &known, name, "[[garment]] before this one").is_some());
+    Schedule {
+        after: after.map(|name| (*name.get_ref()).to_owned()).collect(),
+        priority: reader.number(place, "priority", PRIORITY).map_or(0, |priority| priority.round() as i64),
+        limits: limits(reader, place).or(of_study),
+    }
+}
+
+/// The same garments, those that are waited for by the names that sweeps gave them.
+pub(super) fn unfolded(mut garments: Vec<GarmentEntry>) -> Vec<GarmentEntry> {
+    let names: Vec<[String; 2]> =
+        garments.iter().map(|garment| [garment.unswept_name().to_owned(), garment.name.clone()]).collect();
+    for garment in &mut garments {
+        let after = &mut garment.schedule.after;
+        *after = names.iter().filter(|[file, _]| after.contains(file)).map(|[_, name]| name.clone()).collect();
+    }
+    garments
+}

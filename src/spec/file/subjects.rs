@@ -1,0 +1,127 @@
+//! The `[[subject]]` tables of a study file: measurements, a name of the catalogue, or a scan.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use toml::Spanned;
+
+use crate::fields::{Entry, keys, sex};
+use crate::file::reader::{Place, Reader};
+use crate::file::values::{lookup, numbers, source, unique};
+use crate::file::{Person, Placed, ScanFile, Subject};
+use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
+use store::files::SourceFile;
+
+/// What else a subject of a study may be.
+const OR_NAMED: &str = ", or name a catalogue entry with `like`";
+
+/// Reads every `[[subject]]` table, with its problems noted in the reader.
+pub(super) fn subjects(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    known: &BTreeMap<String, Person>,
+) -> Vec<Placed<Subject>> {
+    let accepted =
+        [&["id", "like", "scan", "unit", "pose", "poses", "carried_from"], &keys::<Measurements>()[..]].concat();
+    let mut subjects = Vec::new();
+    let mut ids = BTreeSet::new();
+    for mut place in reader.tables(top, "subject", "subject") {
+        reader.only(&place, &accepted);
+        let Some(id) = reader.need_text(&place, "id", "its name in results") else { continue };
+        unique(reader, &mut ids, &id, "subject");
+        place.name = format!("subject {}", id.get_ref());
+        let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
+            (Some(name), _) => {
+                alone(reader, &place, &["id", "like", "pose", "poses", "carried_from"]);
+                lookup(reader, known, &name, "subject in the catalogue").cloned()
+            }
+            (None, Some(file)) => {
+                alone(reader, &place, &["id", "scan", "sex", "unit", "pose", "poses", "carried_from"]);
+                scanned(reader, &place, &file, folder)
+            }
+            (None, None) => measurements(reader, &place, OR_NAMED).map(Person::from),
+        };
+        let pose = reader.text(&place, "pose").and_then(|name| pose(reader, &place, &name));
+        let found = found.map(|person| Person { pose: pose.or(person.pose), ..person });
+        let poses = poses(reader, &place);
+        let from = reader.text(&place, "carried_from").and_then(|name| self::pose(reader, &place, &name));
+        if from.is_some() && poses.is_empty() && found.as_ref().is_some_and(|person| person.pose.is_none()) {
+            let message = format!(
+                "{}: `carried_from` without a pose to carry to; accepted: `pose` or `poses` beside it",
+                place.name
+            );
+            reader.problem(&id.span(), message);
+        }
+        subjects.extend(found.into_iter().flat_map(|person| posed(id.get_ref(), &person, &poses, from)).map(
+            |subject| {
+                let name = subject.id.clone();
+                reader.placed(&id.span(), &name, subject)
+            },
+        ));
+    }
+    subjects
+}
+
+/// The poses that a subject names.
+fn poses(reader: &mut Reader<'_>, place: &Place<'_>) -> Vec<Pose> {
+    let names = reader.texts(place, "poses").unwrap_or_default();
+    names.iter().filter_map(|name| pose(reader, place, name)).collect()
+}
+
+fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Option<Pose> {
+    let read = name.get_ref().parse();
+    read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
+}
+
+/// A subject in each of some poses, called after them; as it is where there are none. Garments are put on in the pose `from`, where that
+/// is given, and carried into the others.
+fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<Subject> {
+    let reached = |pose: &Pose| from.map_or(*pose, |from| from.then(*pose));
+    let stands = |id: String, pose: Option<Pose>| {
+        let carried_from = from.filter(|from| pose != Some(*from));
+        Subject { id, person: Person { pose, ..person.clone() }, carried_from }
+    };
+    if poses.is_empty() {
+        return vec![stands(id.to_owned(), person.pose.as_ref().map(reached))];
+    }
+    poses.iter().map(reached).map(|pose| stands(format!("{id} {pose}"), Some(pose))).collect()
+}
+
+/// Refuses keys beside those of a subject that is named or scanned.
+fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
+    if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
+        let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
+        reader.problem(&key.span(), message);
+    }
+}
+
+/// Somebody whose scan lies beside the study file.
+fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, folder: &Path) -> Option<Person> {
+    let sex = reader.text(place, "sex").and_then(|word| sex_of(reader, place, &word));
+    let unit = reader.text(place, "unit").and_then(|text| {
+        let unit = LengthUnit::ALL.into_iter().find(|unit| unit.name() == *text.get_ref());
+        if unit.is_none() {
+            let accepted = LengthUnit::ALL.map(LengthUnit::name).join(", ");
+            reader.problem(&text.span(), format!("{}: unit `{}`; accepted: {accepted}", place.name, text.get_ref()));
+        }
+        unit
+    });
+    let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
+    let problem = |error| reader.problem(&file.span(), format!("{}: {error}", place.name));
+    scan.person(sex).map_err(problem).ok()
+}
+
+/// The measurements of a place's keys; `or` is what it may be else.
+pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
+    let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
+    let sex = word.and_then(|word| sex_of(reader, place, &word));
+    let measurements = numbers(reader, place, Measurements::blank(""), "millimetres, as in `toile subject ls`");
+    let mut measurements = measurements?;
+    measurements.sex = sex?;
+    Some(measurements)
+}
+
+fn sex_of(reader: &mut Reader<'_>, place: &Place<'_>, word: &Spanned<&str>) -> Option<Sex> {
+    sex(word.get_ref()).map_err(|problem| reader.problem(&word.span(), format!("{}: {problem}", place.name))).ok()
+}

@@ -1,0 +1,272 @@
+//! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
+
+use std::collections::BTreeSet;
+
+use crate::fields::{FABRIC_NUMBERS, MEASUREMENTS, millimetres, sex_name};
+use crate::file::{GarmentEntry, Person, SizeFile, Study, Subject};
+use crate::inputs::Inputs;
+use crate::parameters::Parameters;
+use crate::schedule::Schedule;
+use crate::versions;
+use fit::Simulator;
+use sim::Fabric;
+use store::JobRow;
+use store::files::SourceFile;
+
+/// One simulation with everything it needs.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct JobSpec {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Its style in the catalogue.
+    pub style: String,
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Name of the subject in the study.
+    pub subject: String,
+    /// Simulator that drapes it.
+    pub simulator: Simulator,
+    /// Which repeat, from 1.
+    pub repeat: u32,
+    /// Who that is.
+    #[serde(flatten)]
+    pub person: Person,
+    /// Pattern of the size.
+    pub pattern: SourceFile,
+    /// Unit of the pattern where its file names none.
+    pub unit: Option<String>,
+    /// Seam file; `None` where the pattern holds its own seams.
+    pub seams: Option<SourceFile>,
+    /// Fabric that it is cut from.
+    pub fabric: Fabric,
+    /// Edge length of the finest mesh, m.
+    pub edge_length_m: f64,
+    /// Values of the simulators' parameters that are not the default ones.
+    pub parameters: Parameters,
+    /// When it is started, and what it may take.
+    #[serde(default)]
+    pub schedule: Schedule,
+    /// What it is worn with, as a layer of an outfit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outfit: Option<Outfit>,
+    /// What it is before its body moves into another pose and carries it along.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dressed: Option<Box<JobSpec>>,
+    /// All of the above but the schedule, and the versions of the stages, as named values.
+    pub inputs: Inputs,
+}
+
+/// Input that names the size of a pattern that is draped.
+pub const PATTERN_SIZE: &str = "pattern.size";
+
+/// Input that names the pose from which a garment was carried.
+pub const CARRIED_FROM: &str = "carried.from";
+
+/// What a layer is worn with.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Outfit {
+    /// Name of the outfit.
+    pub name: String,
+    /// Which of its layers it is, the inmost 0.
+    pub layer: usize,
+    /// What each layer would be alone, the inmost first.
+    pub layers: Vec<JobSpec>,
+}
+
+impl Outfit {
+    /// What all layers are made from, as one value: the same for each of them.
+    pub fn id(&self) -> String {
+        let mut all = Inputs::default();
+        for (number, layer) in self.layers.iter().enumerate() {
+            all.set(format!("layer.{number}"), layer.inputs.hash());
+        }
+        all.hash()
+    }
+}
+
+/// Which part of a study to run; empty lists take all.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Names of simulators, `fem` and `hybrid`.
+    pub simulators: Vec<String>,
+    /// Sizes; case does not matter.
+    pub sizes: Vec<String>,
+    /// Names of subjects of the study.
+    pub subjects: Vec<String>,
+    /// Names of garments of the study.
+    pub garments: Vec<String>,
+}
+
+impl Selection {
+    /// Whether a job is selected.
+    #[must_use]
+    pub fn takes(&self, spec: &JobSpec) -> bool {
+        self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
+    }
+
+    /// Whether a stored job is selected.
+    #[must_use]
+    pub fn takes_row(&self, job: &JobRow) -> bool {
+        self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
+    }
+
+    fn takes_cell(&self, [simulator, size, subject, garment]: [&str; 4]) -> bool {
+        let among = |list: &[String], name: &str| list.is_empty() || list.iter().any(|x| x.eq_ignore_ascii_case(name));
+        among(&self.simulators, simulator)
+            && among(&self.sizes, size)
+            && among(&self.subjects, subject)
+            && among(&self.garments, garment)
+    }
+}
+
+/// All jobs of a study, in the order of its file: garments, sizes, subjects, simulators, repeats.
+#[must_use]
+pub fn jobs(study: &Study) -> Vec<JobSpec> {
+    jobs_where(study, |_, _| true)
+}
+
+/// The jobs of a garment on a subject, in that order.
+#[must_use]
+pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
+    jobs_where(study, |entry, who| entry.name == garment && who.id == subject)
+}
+
+fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool) -> Vec<JobSpec> {
+    let mut jobs = Vec::new();
+    for garment in study.worn() {
+        let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
+        // A garment is carried alone.
+        let is_able = |subject: &Subject| garment.outfit.is_none() || subject.carried_from.is_none();
+        let is_worn = |subject: &&Subject| {
+            wearers.contains(subject.id.as_str()) && is_able(subject) && is_wanted(garment, subject)
+        };
+        let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
+        for size in 0..garment.sizes.len() {
+            for subject in &subjects {
+                // Only FEM-GS knows layers, and friction that carries.
+                let is_plain = garment.outfit.is_none() && subject.carried_from.is_none();
+                for &simulator in study.simulators.iter().filter(|one| is_plain || **one == Simulator::Fem) {
+                    jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
+                }
+            }
+        }
+    }
+    jobs
+}
+
+fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {
+    let SizeFile { name, pattern } = &garment.sizes[size];
+    let outfit = garment.outfit.as_ref().map(|worn| Outfit {
+        name: worn.name.clone(),
+        layer: worn.layer,
+        layers: worn.layers.iter().map(|layer| job(layer, size, subject, simulator, repeat)).collect(),
+    });
+    let spec = JobSpec {
+        garment: garment.name.clone(),
+        style: garment.style.clone(),
+        size: name.clone(),
+        subject: subject.id.clone(),
+        simulator,
+        repeat,
+        person: subject.person.clone(),
+        pattern: pattern.clone(),
+        unit: garment.unit.clone(),
+        seams: garment.seams.clone(),
+        fabric: garment.fabric.clone(),
+        edge_length_m: garment.edge_length_m,
+        parameters: garment.parameters.clone(),
+        schedule: garment.schedule.clone(),
+        outfit,
+        dressed: subject.dressed().map(|before| Box::new(job(garment, size, &before, simulator, repeat))),
+        inputs: Inputs::default(),
+    };
+    spec.with_inputs()
+}
+
+impl JobSpec {
+    /// The same with its inputs as named values, for this program's versions of the stages.
+    ///
+    /// The job is taken apart whole: a field that is added does not compile until somebody decides whether it is an input.
+    pub fn with_inputs(self) -> Self {
+        let Self {
+            // Names of the cell. Those that the pattern, the person and the cloth go by are inputs of their own.
+            garment: _,
+            style: _,
+            size,
+            subject,
+            simulator,
+            repeat,
+            person,
+            pattern,
+            unit,
+            seams,
+            fabric,
+            edge_length_m,
+            parameters,
+            // When and where it runs, which no result depends on.
+            schedule: _,
+            outfit,
+            dressed,
+            // Made here.
+            inputs: _,
+        } = &self;
+        let mut inputs = Inputs::default();
+        inputs.set("sim.name", simulator.as_str());
+        inputs.set("sim.repeat", repeat);
+        inputs.set("mesh.edge_length_mm", millimetres(*edge_length_m));
+        parameters.add_inputs(*simulator, &mut inputs);
+        if let Some(seams) = seams {
+            inputs.set(format!("seams.{}", seams.name), seams.hash());
+        }
+        inputs.set(format!("pattern.{}", pattern.name), pattern.hash());
+        // A file may hold many sizes, and a seam file says what differs between them.
+        inputs.set(PATTERN_SIZE, size);
+        if let Some(unit) = unit {
+            inputs.set("pattern.unit", unit);
+        }
+        subject_inputs(&mut inputs, subject, person);
+        fabric_inputs(&mut inputs, fabric);
+        if let Some(outfit) = outfit {
+            let Outfit { name, layer, layers: _ } = outfit;
+            inputs.set("outfit.name", name);
+            inputs.set("outfit.layer", layer + 1);
+            inputs.set("outfit.id", outfit.id());
+        }
+        if let Some(before) = dressed {
+            inputs.set(CARRIED_FROM, before.person.pose.unwrap_or_default());
+        }
+        for (name, version) in versions::versions(*simulator) {
+            inputs.set(name, version);
+        }
+        Self { inputs, ..self }
+    }
+}
+
+/// A subject's measurements and scan as inputs; absent ones are left out.
+pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose }: &Person) {
+    inputs.set(format!("subject.{id}.sex"), sex_name(m));
+    for field in MEASUREMENTS.iter() {
+        if let Some(value) = field.get(m) {
+            inputs.set(format!("subject.{id}.{}", field.key), value);
+        }
+    }
+    if let Some(scan) = scan {
+        inputs.set(format!("subject.{id}.scan"), scan.file.hash());
+        inputs.set(format!("subject.{id}.scan_version"), versions::SCAN_VERSION);
+        if let Some(unit) = scan.unit {
+            inputs.set(format!("subject.{id}.scan_unit"), unit.name());
+        }
+    }
+    if let Some(pose) = pose {
+        inputs.set(format!("subject.{id}.pose"), pose);
+    }
+}
+
+/// A fabric's numbers as inputs; where they are from does not matter to a result.
+pub fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
+    for field in FABRIC_NUMBERS.iter() {
+        if let Some(number) = field.get(fabric) {
+            inputs.set(format!("fabric.{}.{}", fabric.name, field.key), number);
+        }
+    }
+}

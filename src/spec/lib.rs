@@ -1,0 +1,25 @@
+//! The specification: what a study file asks for, one [`JobSpec`] for every simulation, and the named [`Inputs`] that key
+//! its result. A body and a pattern are built here from their files, since a study file is checked against both.
+
+pub mod bodies;
+pub mod export;
+pub mod fields;
+pub mod file;
+pub mod inputs;
+mod job;
+pub mod new_study;
+pub mod parameters;
+pub mod patterns;
+mod schedule;
+pub mod sheets;
+pub mod versions;
+
+pub use export::export_study;
+pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
+pub use file::{Person, Study, read_measurements, study_file};
+pub use inputs::{Change, Inputs};
+pub use job::{CARRIED_FROM, JobSpec, Outfit, PATTERN_SIZE, Selection, fabric_inputs, jobs, jobs_of, subject_inputs};
+pub use new_study::{QUICKSTART, new_study, write_quickstart};
+pub use parameters::Parameters;
+pub use schedule::{Limits, Schedule};
+pub use versions::SIMULATORS;

@@ -1,0 +1,227 @@
+//! Patterns without a study: read as pieces and styles, meshed, drawn.
+
+use std::path::{Path, PathBuf};
+
+use geom::units::mm;
+use pattern::dxf::PatternFile;
+use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
+use store::files::SourceFile;
+use store::{Result, StudyError};
+
+pub use pattern::check::{Finding, of_garment as garment_findings};
+pub use pattern::draft::Model;
+pub use pattern::dxf::Unit;
+pub use pattern::inspect::{FileReport, PieceReport};
+pub use pattern::{MeshQuality, Style};
+
+/// The patterns below a folder, by path: DXF files, and what JSON files are patterns.
+///
+/// # Errors
+/// When a folder or file cannot be read, or there is no pattern.
+pub fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+    let (mut found, mut others) = (Vec::new(), 0);
+    let top = folder;
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).map_err(StudyError::io(&folder))? {
+            let entry = entry.map_err(StudyError::io(&folder))?;
+            let kind = entry.file_type().map_err(StudyError::io(entry.path()))?;
+            if kind.is_dir() {
+                folders.push(entry.path());
+            } else if is_drawing(&entry.path())? {
+                found.push(entry.path());
+            } else {
+                others += 1;
+            }
+        }
+    }
+    if found.is_empty() {
+        let message = format!(
+            "{}: found {others} files, none of them a pattern; accepted: DXF, GarmentCode JSON, features as JSON",
+            top.display()
+        );
+        return Err(StudyError::stage("pattern")(message));
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Whether a file of a folder is a pattern, by its ending, and JSON by its contents.
+fn is_drawing(path: &Path) -> Result<bool> {
+    let ends_in = |ending: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
+    if ends_in("json") {
+        return Ok(source::is_json_pattern(&std::fs::read(path).map_err(StudyError::io(path))?));
+    }
+    Ok(ends_in("dxf"))
+}
+
+/// A style from the files of a pattern and its seams; `size` picks one where the pattern holds several.
+///
+/// # Errors
+/// When a file cannot be read, names no unit while none is given, or does not fit the other.
+pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
+    let seams = seams.map(SourceFile::read).transpose()?;
+    read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
+}
+
+/// The pieces of one size of a pattern file, or of all of a folder; without a size those of the sample size.
+pub fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
+    let nest = Nest::read(pattern, unit)?;
+    nest.pieces(size.unwrap_or(nest.sample_size()))
+}
+
+/// The files of a pattern, which may hold several sizes.
+pub struct Nest {
+    files: Vec<PatternFile>,
+    /// Seam allowance of pieces without a sew line, m.
+    allowance_m: f64,
+}
+
+impl Nest {
+    /// Reads a file, or all of a folder.
+    pub fn read(pattern: &SourceFile, unit: Option<Unit>) -> Result<Self> {
+        let read =
+            |part: &SourceFile| source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"));
+        Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
+    }
+
+    /// The same pattern, sewn so far inside its cut line where it has no sew line.
+    pub fn with_allowance(self, allowance_m: f64) -> Self {
+        Self { allowance_m, ..self }
+    }
+
+    /// Where its pieces are sewn, in words.
+    pub fn sewn_along(&self) -> String {
+        let pieces = || self.files.iter().flat_map(|file| &file.pieces);
+        let lined = pieces().filter(|piece| piece.sew_line.is_some()).count();
+        match (lined, self.allowance_m) {
+            (0, 0.0) => "the cut line is sewn: the file has no sew line, and no allowance was said".to_owned(),
+            (0, m) => format!("sewn {} mm inside the cut line", mm(m)),
+            (lined, _) if lined == pieces().count() => "the sew line of the file is sewn".to_owned(),
+            (lined, m) => format!(
+                "{lined} of {} pieces have a sew line; the others are sewn {} mm inside their cut line",
+                pieces().count(),
+                mm(m)
+            ),
+        }
+    }
+
+    /// The file whose sizes are those of the garment: a file of one size goes with any.
+    fn graded(&self) -> Option<&PatternFile> {
+        self.files.iter().find(|file| file.sizes().len() > 1).or(self.files.first())
+    }
+
+    /// Names of the sizes, from the smallest to the largest; `""` where none is named.
+    pub fn sizes(&self) -> Vec<&str> {
+        self.graded().map_or(vec![], PatternFile::sizes)
+    }
+
+    /// The size that stands for the others.
+    pub fn sample_size(&self) -> &str {
+        self.graded().map_or("", PatternFile::sample_size)
+    }
+
+    /// What a person should know of the unit.
+    pub fn unit_remarks(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().filter_map(|file| file.unit_remark.as_deref())
+    }
+
+    /// The pieces of a size. A file of one size need not call it so: its pieces are of the size that is asked for.
+    pub fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
+        let mut pieces = Vec::new();
+        for file in &self.files {
+            let is_nest = file.sizes().len() > 1;
+            for piece in file.to_sew(is_nest.then_some(size)).map_err(StudyError::stage("pattern"))? {
+                let mut piece = piece.with_allowance(self.allowance_m).map_err(StudyError::stage("pattern"))?;
+                if !is_nest && !size.is_empty() {
+                    piece.size = Some(size.to_owned());
+                }
+                pieces.push(piece);
+            }
+        }
+        Ok(pieces)
+    }
+
+    /// The pieces of all sizes but one; a size that cannot be sewn has its reason instead.
+    pub fn others(&self, size: &str) -> Vec<(String, Result<Vec<Piece>>)> {
+        let others = self.sizes().into_iter().filter(|other| !other.eq_ignore_ascii_case(size));
+        others.map(|other| (other.to_owned(), self.pieces(other))).collect()
+    }
+}
+
+/// The unit of a name in a study file.
+pub fn unit_of(name: &str) -> Option<Unit> {
+    Unit::ALL.into_iter().find(|unit| unit.as_str() == name)
+}
+
+/// [`style`] from files already read.
+pub fn read_style(
+    pattern: &SourceFile,
+    seams: Option<&SourceFile>,
+    size: Option<&str>,
+    unit: Option<Unit>,
+) -> Result<Style> {
+    let mut style = if pattern.holds_seams() {
+        let read = garmentcode::read(&pattern.bytes, &pattern.name).map_err(StudyError::stage("pattern"))?;
+        let mut style = read.style();
+        if let Some(seams) = seams {
+            style.measure(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+        }
+        style
+    } else {
+        let Some(seams) = seams else {
+            let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
+            return Err(StudyError::stage("pattern")(message));
+        };
+        let pieces = pieces(pattern, size, unit)?;
+        Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+    };
+    check_scale(&style, &pattern.name)?;
+    if style.measurements.is_empty() {
+        style.measure_openings_and_seams();
+    }
+    Ok(style)
+}
+
+/// Refuses a style without pieces, or with pieces that nobody could wear: then its file is in another unit than it says.
+fn check_scale(style: &Style, file: &str) -> Result<()> {
+    if style.pieces.is_empty() {
+        let accepted = "at least one piece (`toile pattern propose` proposes what it recognises)";
+        return Err(StudyError::stage("pattern")(format!("{file}: found no piece to sew; accepted: {accepted}")));
+    }
+    let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
+    match scale::doubt(longest_m, Unit::M) {
+        Some(_) => Err(StudyError::stage("pattern")(format!(
+            "{file}: found a longest piece of {longest_m:.2} m; accepted: 0.08 to 6 m for a person; the unit of the file is wrong"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// A style's mesh at an edge length, m, and how good its triangles are.
+///
+/// # Errors
+/// When the edge length is out of range or the outline cannot be meshed.
+pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
+    let garment = style.mesh(edge_length_m).map_err(StudyError::stage("mesh"))?;
+    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::stage("mesh")("no triangles"))?;
+    Ok((garment, quality))
+}
+
+/// The style's pieces on a sheet, as SVG with numbered measurements.
+#[must_use]
+pub fn sheet(style: &Style) -> String {
+    drawing::svg(style)
+}
+
+/// The style's pieces on a sheet, as SVG with its points of measure numbered.
+#[must_use]
+pub fn points_sheet(style: &Style) -> String {
+    drawing::points_svg(style)
+}
+
+/// The files of a drafted style: a DXF a size and the seam file.
+#[must_use]
+pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
+    model.files()
+}

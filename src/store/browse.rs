@@ -1,0 +1,239 @@
+//! Questions in SQL as an editor asks them: rows up to a bound, files without one, names to complete.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rusqlite::ErrorCode;
+use rusqlite::fallible_iterator::FallibleIterator;
+
+use crate::database::Store;
+use crate::error::{Result, StudyError};
+use crate::files::kind_of;
+use crate::rows::{Table, Value, csv_head, csv_row};
+use crate::sql;
+
+/// The rows of a query, as far as they were wanted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SqlAnswer {
+    /// Columns and rows.
+    pub table: Table,
+    /// Whether there are more rows.
+    pub is_cut: bool,
+}
+
+/// A table or view, and its columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relation {
+    /// Name of the table or view.
+    pub name: String,
+    /// Names of its columns, in order.
+    pub columns: Vec<String>,
+}
+
+/// Answers a query as [`sql::query`] does, with at most so many rows; `stop` ends it early.
+///
+/// # Errors
+/// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
+pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
+    let mut answer = SqlAnswer::default();
+    each_row(store, text, stop, |columns, row| {
+        if answer.table.columns != columns {
+            answer.table.columns = columns.to_vec();
+        }
+        if let Some(row) = row {
+            answer.is_cut = answer.table.rows.len() == most;
+            if !answer.is_cut {
+                answer.table.rows.push(row);
+            }
+        } else {
+            answer.table.rows.clear();
+        }
+        Ok(!answer.is_cut)
+    })?;
+    Ok(answer)
+}
+
+/// Writes all rows of a query into a file, CSV or JSON as its name ends. Returns how many rows.
+///
+/// # Errors
+/// What SQLite says of the query; when the file has another ending, is there already or cannot be written; when it was
+/// stopped.
+pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
+    let is_json = kind_of(path, &[("csv", false), ("json", true)]).map_err(StudyError::stage("sql"))?;
+    let file = File::create_new(path).map_err(StudyError::io(path))?;
+    let mut out = BufWriter::new(file);
+    let mut rows = 0;
+    let written = each_row(store, text, stop, |columns, row| {
+        let line = match (&row, is_json) {
+            (None, true) => String::new(),
+            (None, false) => csv_head(columns),
+            (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
+            (Some(row), false) => csv_row(row),
+        };
+        rows += usize::from(row.is_some());
+        out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
+        Ok(true)
+    });
+    let end = match (is_json, rows) {
+        (false, _) => "",
+        (true, 0) => "[]\n",
+        (true, _) => "\n]\n",
+    };
+    let written =
+        written.and_then(|()| out.write_all(end.as_bytes()).and_then(|()| out.flush()).map_err(StudyError::io(path)));
+    if written.is_err() {
+        // Half a file would pass for a whole one; that it cannot be removed is the lesser error.
+        let _ = fs::remove_file(path);
+    }
+    written.map(|()| rows)
+}
+
+/// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
+fn each_row(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    walk_rows(store, text, stop, take).map_err(|error| match error {
+        StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
+            StudyError::Interrupted
+        }
+        error => error,
+    })
+}
+
+fn walk_rows(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    mut take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    let mut batch = rusqlite::Batch::new(&store.reader, text);
+    let mut next = batch.next()?;
+    while let Some(mut statement) = next {
+        next = batch.next()?;
+        let columns: Vec<String> = statement.column_names().map(str::to_owned).collect();
+        let is_last = next.is_none();
+        if is_last {
+            take(&columns, None)?;
+        }
+        let mut found = statement.raw_query();
+        while let Some(row) = found.next()? {
+            if stop.load(Ordering::Relaxed) {
+                return Err(StudyError::Interrupted);
+            }
+            let values = || (0..columns.len()).map(|k| row.get_ref(k).map(sql::value)).collect::<rusqlite::Result<_>>();
+            if is_last && !take(&columns, Some(values()?))? {
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The views and tables there are, views first, with their columns: what a query may name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn relations(store: &Store) -> Result<Vec<Relation>> {
+    let table = sql::query(
+        store,
+        "SELECT m.name, p.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS p
+        WHERE m.type IN ('view', 'table') AND m.name NOT GLOB 'sqlite_*' ORDER BY m.type DESC, m.name, p.cid",
+    )?;
+    let mut found: Vec<Relation> = Vec::new();
+    for row in &table.rows {
+        let (name, column) = (row[0].to_string(), row[1].to_string());
+        match found.last_mut().filter(|last| last.name == name) {
+            Some(last) => last.columns.push(column),
+            None => found.push(Relation { name, columns: vec![column] }),
+        }
+    }
+    Ok(found)
+}
+
+/// A row as a JSON object, keys in order of the columns.
+fn json_line(columns: &[String], row: &[Value]) -> String {
+    let cell = |value: &Value| match value {
+        Value::Null => serde_json::Value::Null,
+        Value::Integer(number) => (*number).into(),
+        Value::Real(number) => (*number).into(),
+        Value::Text(text) => text.as_str().into(),
+        Value::Blob(_) => value.to_string().into(),
+    };
+    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(row.iter().map(cell)).collect();
+    serde_json::Value::Object(object).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn open() -> (tempfile::TempDir, Store) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        (folder, store)
+    }
+
+    /// The numbers from 1 on.
+    fn counted(to: u32) -> String {
+        format!(
+            "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n WHERE x < {to}) SELECT x, 'a,\"b' AS t FROM n"
+        )
+    }
+
+    #[test]
+    fn answers_end_at_the_bound_and_say_so() {
+        let (_folder, store) = open();
+        let go = AtomicBool::new(false);
+        let check = |sql: &str, rows: usize, is_cut: bool| {
+            let answer = answer(&store, sql, 3, &go).expect("a right query");
+            assert_eq!((answer.table.rows.len(), answer.is_cut), (rows, is_cut), "{sql}");
+        };
+        check(&counted(2), 2, false);
+        check(&counted(3), 3, false);
+        check(&counted(4), 3, true);
+        check("SELECT 1; SELECT 2 UNION SELECT 3", 2, false);
+        check("-- nothing", 0, false);
+        assert_eq!(answer(&store, "SELECT 1 AS a WHERE 0", 3, &go).expect("right").table.columns, ["a"]);
+        assert!(matches!(answer(&store, &counted(9), 9, &AtomicBool::new(true)), Err(StudyError::Interrupted)));
+        for wrong in ["DELETE FROM job", "SELECT nothing", "SELECT ("] {
+            assert!(answer(&store, wrong, 3, &go).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn files_hold_all_rows_and_none_is_overwritten() {
+        let (folder, store) = open();
+        let go = AtomicBool::new(false);
+        let write = |name: &str, sql: &str| export_query(&store, sql, &folder.path().join(name), &go);
+        let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("written");
+        assert_eq!(write("a.csv", &counted(2)).expect("written"), 2);
+        assert_eq!(text("a.csv"), "x,t\n1,\"a,\"\"b\"\n2,\"a,\"\"b\"\n");
+        assert_eq!(write("a.json", &counted(2)).expect("written"), 2);
+        let rows: serde_json::Value = serde_json::from_str(&text("a.json")).expect("JSON");
+        assert_eq!(rows, serde_json::json!([{"x": 1, "t": "a,\"b"}, {"x": 2, "t": "a,\"b"}]));
+        write("none.json", "SELECT 1 AS a WHERE 0").expect("written");
+        assert_eq!(text("none.json"), "[]\n");
+        write("c.CSV", "SELECT '=1+2' AS '-x', -5 AS y, '-5' AS z, '@a' AS w").expect("written");
+        assert_eq!(text("c.CSV"), "'-x,y,z,w\n'=1+2,-5,-5,'@a\n");
+        assert!(write("a.csv", "SELECT 1").is_err(), "it is there already");
+        for other in ["a.parquet", "a.txt", "a"] {
+            let told = write(other, "SELECT 1").expect_err(other).to_string();
+            assert!(told.contains("accepted: X.csv or X.json") && !folder.path().join(other).exists(), "{told}");
+        }
+        assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
+    }
+
+    #[test]
+    fn views_come_first_with_their_columns() {
+        let (_folder, store) = open();
+        let relations = relations(&store).expect("readable");
+        assert!(relations[0].name.starts_with("v_"), "{}", relations[0].name);
+        let chi = relations.iter().find(|relation| relation.name == "v_chi").expect("a contract view");
+        assert!(chi.columns.iter().any(|column| column == "l2d_mm"));
+    }
+}

@@ -1,0 +1,279 @@
+//! What can go wrong between a study file and its results.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use rusqlite::ErrorCode;
+use sim::SimError;
+
+/// An error of the store, the study file, the queue or a stage.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The database refused a statement, or its file is damaged or locked.
+    #[error("database: {}", database_error(.0))]
+    Database(#[from] rusqlite::Error),
+    /// A database file could not be opened.
+    #[error("{}: cannot open this database: {reason}", path.display())]
+    Open {
+        /// The database file.
+        path: PathBuf,
+        /// What stands in the way.
+        reason: String,
+    },
+    /// The database was written by a newer program.
+    #[error("database has schema version {found}, this program knows versions up to {known}; use the newer program")]
+    TooNew {
+        /// Schema version of the database.
+        found: i64,
+        /// Newest version known.
+        known: i64,
+    },
+    /// An action that writes, on a workspace opened read-only.
+    #[error("the workspace is open read-only; start without --readonly to change it")]
+    Readonly,
+    /// A file could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// Path of the file.
+        path: PathBuf,
+        /// Error of the operating system.
+        source: std::io::Error,
+    },
+    /// Everything that is wrong with a study file.
+    #[error("{}", Problem::listing(.0))]
+    File(Vec<Problem>),
+    /// Values that an entry of the catalogue cannot have.
+    #[error("{what} {name}: {}", problems.join("; "))]
+    Refused {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// Name of the entry.
+        name: String,
+        /// What is wrong with each value.
+        problems: Vec<String>,
+    },
+    /// A study whose name is that of one in another folder.
+    #[error(
+        "study `{name}`: found in {}, and its results are kept for {}; accepted: another name in the study file, a database \
+         of its own (--db PATH), or --moved where it is the same study in a new place",
+        found.display(),
+        stored.display()
+    )]
+    HomeTaken {
+        /// Name of the study.
+        name: String,
+        /// The study file that the results are kept for.
+        stored: PathBuf,
+        /// The study file that was found.
+        found: PathBuf,
+    },
+    /// A new entry of a name that is taken.
+    #[error("there is a {what} `{name}` already; edit it, or take another name")]
+    Exists {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// Name of the entry.
+        name: String,
+    },
+    /// Something was asked for by a name or number that does not exist.
+    #[error("no {what} `{name}`{}", suggestion(.known, .name))]
+    NotFound {
+        /// Kind of thing (`job`, `study`, ...).
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+        /// Names that there are, for a suggestion.
+        known: Vec<String>,
+    },
+    /// One of several was not asked for by its name.
+    #[error("which {what}? --{what} says it; there are: {}", .known.join(", "))]
+    Unsaid {
+        /// Kind of thing, and the flag that names it.
+        what: &'static str,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
+    #[error("no {what} `{name}`; {}", hidden_hint(.what))]
+    Hidden {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+    },
+    /// A stage refused its input.
+    #[error("{stage}: {source}")]
+    Stage {
+        /// Stage of the pipeline (`body`, `pattern`, `mesh`, `sim`).
+        stage: &'static str,
+        /// What it said: the stage's own error, such as a [`sim::SimError`].
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// Stored bytes are not what the program wrote.
+    #[error("artefact {hash}: {message}")]
+    Artefact {
+        /// Hash under which the bytes are stored.
+        hash: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A job failed on another machine.
+    #[error("{message}")]
+    Elsewhere {
+        /// What was said there.
+        message: String,
+    },
+    /// The run was asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl StudyError {
+    /// A file error with its path.
+    pub fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { path, source }
+    }
+
+    /// What a simulator says; [`Self::Interrupted`] where it was asked to stop.
+    #[must_use]
+    pub fn sim(error: SimError) -> Self {
+        match error {
+            SimError::Cancelled => Self::Interrupted,
+            other => Self::stage("sim")(other),
+        }
+    }
+
+    /// A stage's error, or a sentence of ours.
+    pub fn stage<E: Into<Box<dyn std::error::Error + Send + Sync>>>(stage: &'static str) -> impl FnOnce(E) -> Self {
+        move |error| Self::Stage { stage, source: error.into() }
+    }
+}
+
+/// What a stage said of a file.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}: {source}")]
+pub struct InFile<E: std::error::Error + 'static> {
+    /// Name of the file, as messages show it.
+    pub file: String,
+    /// Error of the stage that read it.
+    pub source: E,
+}
+
+/// One thing that is wrong with a study file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Path of the file, as messages show it.
+    pub file: PathBuf,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column of the line, in characters from 1.
+    pub column: Option<usize>,
+    /// What was found, and what would be accepted.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file.display())?;
+        for place in [self.line, self.column].into_iter().flatten() {
+            write!(f, "{place}:")?;
+        }
+        write!(f, " {}", self.message)
+    }
+}
+
+impl Problem {
+    /// A problem of a whole file.
+    pub fn of(file: &Path, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), line: None, column: None, message: message.into() }
+    }
+
+    /// A problem of a line of a file.
+    pub fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::of(file, message) }
+    }
+
+    /// All problems, one a line.
+    pub fn listing(problems: &[Self]) -> String {
+        problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// Result of a study operation.
+pub type Result<T> = std::result::Result<T, StudyError>;
+
+/// What SQLite said, and what helps.
+pub fn database_error(error: &rusqlite::Error) -> String {
+    let advice = match error.sqlite_error_code() {
+        Some(ErrorCode::DiskFull) => "; make room and start again: nothing finished is lost",
+        Some(ErrorCode::SystemIoFailure) => {
+            "; a full disk, a quota or a limit on file sizes does this: make room and start again, nothing finished is lost"
+        }
+        Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
+            "; another process keeps it to itself: wait for that one or end it, then start again"
+        }
+        Some(ErrorCode::ReadOnly) => "; the file or its folder may not be written to: --readonly reads it as it is",
+        Some(ErrorCode::CannotOpen) => "; it, its folder or its log may not be read or written",
+        Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase) => "; `toile doctor` looks closer, a copy helps",
+        _ => "",
+    };
+    format!("{error}{advice}")
+}
+
+/// `; did you mean ...?` or `; there are: ...`, as far as it helps.
+fn suggestion(known: &[String], name: &str) -> String {
+    match nearest(name, known.iter().map(String::as_str)) {
+        Some(near) => format!("; did you mean `{near}`?"),
+        None if known.is_empty() => String::new(),
+        None => format!("; there are: {}", known.join(", ")),
+    }
+}
+
+/// What to do about a hidden entry of a part of the catalogue.
+pub fn hidden_hint(part: &str) -> String {
+    format!("it is hidden: it was removed, and stays for its results; `toile {part} add` or `import` brings it back")
+}
+
+/// The candidate most like a misspelt name, if one is near: at most a third of its letters differ.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    candidates
+        .into_iter()
+        .map(|candidate| (edit_distance(name, candidate), candidate))
+        .filter(|(distance, candidate)| *distance <= candidate.chars().count().max(name.chars().count()) / 3)
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein distance in characters.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let check = |name: &str, expected: Option<&str>| {
+            assert_eq!(nearest(name, ["cotton_shirting_light", "denim", "rib_knit"]), expected, "{name}");
+        };
+        check("cotton_shirting_ligth", Some("cotton_shirting_light"));
+        check("demin", None);
+        check("denin", Some("denim"));
+        check("silk", None);
+    }
+}

@@ -1,0 +1,134 @@
+//! Who runs a job: one run of one process of one machine, and whether that process is still alive.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::rows::JobId;
+
+/// A heartbeat that stands still for so long is a dead owner's, where its process cannot be looked up.
+const LEASE: Duration = Duration::from_secs(60);
+
+/// Name of one run: `host/boot/pid/start/number`, unique over machines and time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Owner(String);
+
+impl Owner {
+    /// A name for a new run of this process.
+    #[allow(clippy::new_without_default, reason = "each is another one")]
+    pub fn new() -> Self {
+        static RUNS: AtomicU64 = AtomicU64::new(0);
+        let pid = std::process::id();
+        let start = start_ticks(pid).unwrap_or_default();
+        Self(format!("{}/{}/{pid}/{start}/{}", host(), boot(), RUNS.fetch_add(1, Ordering::Relaxed)))
+    }
+
+    /// The owner as the column `owner` stores it.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Owner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&describe(&self.0))
+    }
+}
+
+/// An owner in words.
+pub(crate) fn describe(owner: &str) -> String {
+    let mut parts = owner.split('/');
+    match (parts.next(), parts.nth(1)) {
+        (Some(host), Some(pid)) => format!("process {pid} on {host}"),
+        _ => owner.to_owned(),
+    }
+}
+
+/// Whether an owner's process has ended; `None` where this machine cannot tell, as for another machine's.
+pub(crate) fn is_dead(owner: &str) -> Option<bool> {
+    let mut parts = owner.split('/');
+    let (their_host, their_boot) = (parts.next()?, parts.next()?);
+    let (pid, start): (u32, u64) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+    if their_host != host() || their_boot.is_empty() || boot().is_empty() {
+        return None;
+    }
+    Some(their_boot != boot() || start_ticks(pid) != Some(start))
+}
+
+/// Heartbeats of other machines' jobs as this run has seen them change. The stamps are of the clocks of those machines,
+/// which may be wrong or be set: only that they change counts, and for how long they have not, by a clock nobody sets.
+#[derive(Debug, Default)]
+pub struct Watch(BTreeMap<JobId, (i64, Instant)>);
+
+impl Watch {
+    /// Whether a job's heartbeat has stood still for longer than a lease.
+    pub(crate) fn stands_still(&mut self, id: JobId, heartbeat: i64) -> bool {
+        self.stood_still_until(id, heartbeat, Instant::now())
+    }
+
+    fn stood_still_until(&mut self, id: JobId, heartbeat: i64, now: Instant) -> bool {
+        let (seen, since) = self.0.entry(id).or_insert((heartbeat, now));
+        if *seen != heartbeat {
+            (*seen, *since) = (heartbeat, now);
+        }
+        now.duration_since(*since) > LEASE
+    }
+}
+
+/// Name of this machine.
+pub fn host() -> String {
+    let kernel = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().filter(|name| !name.trim().is_empty());
+    let name = kernel.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "localhost".into());
+    name.trim().replace('/', "-")
+}
+
+/// Identifier of this boot of the machine; empty where the system has none.
+fn boot() -> String {
+    std::fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|id| id.trim().to_owned()).unwrap_or_default()
+}
+
+/// When a process started, in clock ticks since boot; `None` when it does not run any more. Tells a process from a
+/// later one of the same number.
+fn start_ticks(pid: u32) -> Option<u64> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace();
+    let state = fields.next()?;
+    if matches!(state, "Z" | "X") {
+        return None;
+    }
+    fields.nth(18)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heartbeat_is_watched_by_a_clock_that_nobody_sets() {
+        let (mut watch, start) = (Watch::default(), Instant::now());
+        let mut check = |heartbeat: i64, seconds: u64, dead: bool| {
+            let now = start + Duration::from_secs(seconds);
+            assert_eq!(watch.stood_still_until(JobId(1), heartbeat, now), dead, "{heartbeat} after {seconds} s");
+        };
+        check(9_000_000, 0, false); // a stamp of the future, from before a clock was set back
+        check(9_000_000, 59, false);
+        check(5_000, 61, false); // it lives, on a clock that was set back
+        check(5_000, 121, false);
+        check(5_000, 122, true);
+    }
+
+    #[test]
+    fn this_process_lives_and_others_are_told_apart() {
+        let mine = Owner::new();
+        if boot().is_empty() {
+            assert_eq!(is_dead(mine.as_str()), None);
+            return;
+        }
+        assert_eq!(is_dead(mine.as_str()), Some(false));
+        assert_eq!(is_dead(&format!("{}/{}/{}/1/0", host(), boot(), std::process::id())), Some(true), "number reused");
+        assert_eq!(is_dead(&format!("{}/another-boot/1/1/0", host())), Some(true), "machine restarted");
+        assert_eq!(is_dead("another-host/boot/1/1/0"), None);
+        assert_eq!(is_dead("not an owner"), None);
+    }
+}

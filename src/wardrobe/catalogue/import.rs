@@ -1,0 +1,156 @@
+//! Entries of the catalogue from files: all of them, or none where anything is wrong with one, unless the good ones are asked for.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
+use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, style, table};
+use body::Measurements;
+use sim::Fabric;
+use spec::Person;
+use spec::fields::Entry;
+use spec::file::{self, Placed, ScanFile};
+use store::files::SourceFile;
+use store::{Problem, Result, Store, StudyError};
+
+/// What becomes of files in which something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strictness {
+    /// None of their entries is taken.
+    AllOrNone,
+    /// Rows of tables that are right are taken, and the others told. A table that cannot be read at all is still refused.
+    GoodRows,
+}
+
+/// What an import did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Imported {
+    /// Entries that were saved.
+    pub saved: Vec<Saved>,
+    /// What is wrong with rows that were left out.
+    pub left_out: Vec<Problem>,
+}
+
+/// Entries of a file that are right, and what is wrong with the others.
+pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
+
+/// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will
+/// do), and for subjects and fabrics CSV with the same keys. Scans are brought in too, each a subject of the file's
+/// name. Where anything is wrong with one of them, none is taken, or as `strictness` says.
+///
+/// # Errors
+/// Everything that is wrong with the files, each with its line.
+pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Strictness) -> Result<Imported> {
+    match part {
+        Part::Subject => {
+            let known = known(Some(&store.reader))?;
+            let notes = RefCell::new(BTreeMap::new());
+            let mut imported = import_entries(store, files, strictness, |path, bytes| match format_of(path) {
+                Some(Format::Csv) => read_rows::<Measurements, Person>(path, part, bytes),
+                Some(Format::Toml) => {
+                    let subjects = file::subjects(path, text_of(path, bytes)?, &known)?;
+                    all_good(subjects.into_iter().map(|placed| placed.map(|subject| subject.person)).collect())
+                }
+                Some(Format::Mesh) => {
+                    let (placed, told) = scanned(path, bytes)?;
+                    notes.borrow_mut().insert(placed.name.clone(), told);
+                    all_good(vec![placed])
+                }
+                None => Err(vec![unknown_format(path, "CSV (.csv), TOML (.toml) or a scan (.obj, .ply, .stl, .glb)")]),
+            })?;
+            for saved in &mut imported.saved {
+                saved.notes = notes.borrow_mut().remove(&saved.name).unwrap_or_default();
+            }
+            Ok(imported)
+        }
+        Part::Fabric => import_entries(store, files, strictness, |path, bytes| match format_of(path) {
+            Some(Format::Csv) => read_rows::<Fabric, Fabric>(path, part, bytes),
+            Some(Format::Toml) => all_good(file::fabrics(path, text_of(path, bytes)?)?),
+            Some(Format::Mesh) | None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
+        }),
+        Part::Style | Part::Size => {
+            Ok(Imported { saved: style::import_styles(store, part, files)?, left_out: Vec::new() })
+        }
+    }
+}
+
+/// Imports the entries that are read in files; a file that cannot be read at all is refused.
+fn import_entries<T: Stored>(
+    store: &mut Store,
+    files: &[PathBuf],
+    strictness: Strictness,
+    read: impl Fn(&Path, &[u8]) -> std::result::Result<Read<T>, Vec<Problem>>,
+) -> Result<Imported> {
+    let (mut entries, mut wrong, mut unusable) = (Vec::new(), Vec::new(), Vec::new());
+    for path in files {
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        match read(path, &bytes) {
+            Ok((read, problems)) if read.is_empty() && problems.is_empty() => {
+                unusable.push(Problem::of(path, format!("no {} in it", T::PART)));
+            }
+            Ok((read, problems)) => {
+                entries.extend(read);
+                wrong.extend(problems);
+            }
+            Err(problems) => unusable.extend(problems),
+        }
+    }
+    let checked = verified(&entries);
+    let mut good = Vec::new();
+    for (placed, outcome) in entries.into_iter().zip(checked) {
+        match check_name(&placed.name).and(outcome) {
+            Ok(doubts) => good.push((placed, doubts)),
+            Err(problem) => wrong.push(placed.problem(format!("{} {}: {problem}", T::PART, placed.name))),
+        }
+    }
+    if !unusable.is_empty() || !wrong.is_empty() && (strictness == Strictness::AllOrNone || good.is_empty()) {
+        unusable.extend(wrong);
+        return Err(StudyError::File(unusable));
+    }
+    let transaction = store::write(store.writer()?)?;
+    let mut saved = Vec::new();
+    for (Placed { name, entry, .. }, doubts) in good {
+        let done = save(&transaction, T::PART, &name, Mode::Import, || entry.store(&transaction, &name))?;
+        saved.push(Saved { doubts, ..done });
+    }
+    transaction.commit()?;
+    Ok(Imported { saved, left_out: wrong })
+}
+
+/// Entries none of which is wrong so far.
+fn all_good<T>(entries: Vec<Placed<T>>) -> std::result::Result<Read<T>, Vec<Problem>> {
+    Ok((entries, Vec::new()))
+}
+
+/// Entries made of the rows of a table.
+fn read_rows<R: Entry, T: From<R>>(
+    path: &Path,
+    part: Part,
+    bytes: &[u8],
+) -> std::result::Result<Read<T>, Vec<Problem>> {
+    let (rows, problems) = table::read::<R>(path, part, bytes)?;
+    Ok((rows.into_iter().map(|placed| placed.map(T::from)).collect(), problems))
+}
+
+/// Somebody who is a scan, named after its file, with what was guessed or repaired.
+fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<(Placed<Person>, Vec<String>), Vec<Problem>> {
+    let name = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let scan = ScanFile { file: SourceFile { name: name(path.file_name()), bytes: bytes.into() }, unit: None };
+    let read = scan.person_and_notes(None).map_err(|error| vec![Problem::of(path, error.to_string())]);
+    read.map(|(entry, notes)| (Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry }, notes))
+}
+
+/// Verifies entries on all cores: a body takes a while to build.
+fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<String>, String>> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = entries.len().div_ceil(threads).max(1);
+    let check = |chunk: &[Placed<T>]| chunk.iter().map(|placed| placed.entry.verify()).collect::<Vec<_>>();
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = entries.chunks(share).map(|chunk| scope.spawn(move || check(chunk))).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
+}

@@ -1,0 +1,296 @@
+//! What is in the catalogue: the current revisions, what is built in, and what becomes of entries that are removed.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rusqlite::{Connection, OptionalExtension, Row, Transaction};
+
+use crate::catalogue::revision::{self, By};
+use crate::catalogue::{Part, Removed};
+use body::{LengthUnit, Measurements, Pose, Sex};
+use sim::{self, Fabric};
+use spec::fields::Entry;
+use spec::file::{Known, KnownStyle, ScanFile, SizeFile};
+use spec::{FABRIC_NUMBERS, Field, MEASUREMENTS, Person};
+use store::files::SourceFile;
+use store::{Result, Store, StudyError, SubjectId};
+
+/// The thesis's twelve subjects [T tables 6-1 to 6-4].
+const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
+
+/// A subject of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubjectRow {
+    /// Number of the revision's row: stands for these measurements for good.
+    pub id: SubjectId,
+    /// Name by which studies call it, the same in all its revisions.
+    pub name: String,
+    /// Number of the revision.
+    pub revision: i64,
+    /// What is known of the body; of a scan, what is measured on it.
+    pub measurements: Measurements,
+    /// File of the scan that is the body, where there is one.
+    pub scan: Option<String>,
+    /// How they stand, where that is not as they are built or scanned.
+    pub pose: Option<Pose>,
+}
+
+/// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet. A database that has
+/// them from this program is only read: whoever asks it something need not wait for those who write.
+pub fn add_builtin(connection: &mut Connection) -> Result<()> {
+    let mut content = blake3::Hasher::new();
+    content.update(THESIS_SUBJECTS.as_bytes());
+    content.update(format!("{:?}", sim::fabric::library()).as_bytes());
+    let hash = content.finalize().to_hex().to_string();
+    let is_there = "SELECT EXISTS (SELECT 1 FROM built_in WHERE hash = ?)";
+    if connection.query_row(is_there, [&hash], |row| row.get(0))? {
+        return Ok(());
+    }
+    let transaction = store::write(connection)?;
+    transaction.execute("DELETE FROM built_in", [])?;
+    transaction.execute("INSERT INTO built_in (hash) VALUES (?)", [&hash])?;
+    for (name, measurements) in thesis_subjects()? {
+        revision::subject(&transaction, &name, &measurements.into(), By::Program)?;
+    }
+    for cloth in sim::fabric::library() {
+        revision::fabric(&transaction, &cloth, By::Program)?;
+    }
+    Ok(transaction.commit()?)
+}
+
+/// What study files may name: the current entries of a database, the built-in ones without a database.
+pub fn known(connection: Option<&Connection>) -> Result<Known> {
+    let Some(connection) = connection else {
+        return Ok(Known {
+            subjects: thesis_subjects()?.into_iter().map(|(name, known)| (name, known.into())).collect(),
+            fabrics: sim::fabric::library().into_iter().map(|cloth| (cloth.name.clone(), cloth)).collect(),
+            ..Known::default()
+        });
+    };
+    let subjects = stored_subjects(connection)?.into_iter().map(|row| {
+        let scan = if row.scan.is_some() { stored_scan(connection, row.id)? } else { None };
+        Ok((row.name, Person { measurements: row.measurements, scan, pose: row.pose }))
+    });
+    let fabrics = crate::catalogue::fabrics::stored_fabrics(connection)?
+        .into_iter()
+        .map(|row| (row.fabric.name.clone(), row.fabric));
+    Ok(Known {
+        subjects: subjects.collect::<Result<_>>()?,
+        fabrics: fabrics.collect(),
+        styles: styles(connection)?,
+        hidden: hidden(connection)?,
+    })
+}
+
+/// Entries that were removed and stay stored: `subject male-ii`.
+fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
+    let sql = "SELECT part || ' ' || name FROM catalogue_entry WHERE is_retired";
+    Ok(connection.prepare_cached(sql)?.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?)
+}
+
+/// The current styles with their current sizes, by name.
+fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
+    let sql = "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
+        FROM size
+            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+                AND sized.revision = size.revision AND NOT sized.is_retired
+            JOIN style ON style.name = size.style
+            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+                AND styled.revision = style.revision AND NOT styled.is_retired
+        ORDER BY style.name, size_id";
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut rows = statement.query([])?;
+    let mut styles: BTreeMap<String, KnownStyle> = BTreeMap::new();
+    while let Some(row) = rows.next()? {
+        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
+        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
+        let pattern = SourceFile { name: row.get(4)?, bytes: row.get::<_, Vec<u8>>(5)?.into() };
+        let style = styles.entry(row.get(0)?).or_insert(KnownStyle { seams, sizes: vec![] });
+        style.sizes.push((SizeFile { name: row.get(3)?, pattern }, row.get(6)?));
+    }
+    Ok(styles)
+}
+
+/// A style and a size by their rows: name, seam file, pattern and its unit.
+pub fn read_style(
+    connection: &Connection,
+    style: i64,
+    size: i64,
+) -> Result<(String, Option<SourceFile>, SourceFile, Option<String>)> {
+    let sql = "SELECT style.name, seam_file, seams, pattern_file, pattern, unit FROM style, size
+        WHERE style_id = ? AND size_id = ?";
+    Ok(connection.prepare_cached(sql)?.query_row([style, size], |row| {
+        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
+        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
+        let pattern = SourceFile { name: row.get(3)?, bytes: row.get::<_, Vec<u8>>(4)?.into() };
+        Ok((row.get(0)?, seams, pattern, row.get(5)?))
+    })?)
+}
+
+/// A fabric by its row.
+pub fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
+    let sql = format!("SELECT name, source, {} FROM fabric WHERE fabric_id = ?", columns(&FABRIC_NUMBERS));
+    Ok(connection.prepare_cached(&sql)?.query_row([id], |row| {
+        let mut cloth = Fabric { source: row.get(1)?, ..Fabric::blank(&row.get::<_, String>(0)?) };
+        read_numbers(row, 2, &FABRIC_NUMBERS, &mut cloth)?;
+        Ok(cloth)
+    })?)
+}
+
+/// Columns of fields, for SQL.
+pub(super) fn columns<T>(fields: &[Field<T>]) -> String {
+    fields.iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
+}
+
+/// Reads fields from the columns of a row from `first` on.
+pub(super) fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
+    for (k, field) in fields.iter().enumerate() {
+        field.set(entry, row.get(first + k)?);
+    }
+    Ok(())
+}
+
+/// The current subjects, by name.
+fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
+    let sql = format!(
+        "{} JOIN catalogue_entry AS entry USING (name, revision)
+        WHERE part = 'subject' AND NOT is_retired ORDER BY name",
+        select_subject()
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement.query_map([], subject_row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// What [`subject_row`] reads.
+fn select_subject() -> String {
+    let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
+    format!("SELECT subject_id, name, revision, sex, {scan}, pose, {} FROM subject", columns(&MEASUREMENTS))
+}
+
+fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
+    let sex: String = row.get(3)?;
+    let sex = if sex == "male" { Sex::Male } else { Sex::Female };
+    let mut measurements = Measurements::of(sex, f64::NAN);
+    read_numbers(row, 6, &MEASUREMENTS, &mut measurements)?;
+    let (id, name, revision, scan) = (SubjectId(row.get(0)?), row.get(1)?, row.get(2)?, row.get(4)?);
+    let pose = row.get::<_, Option<String>>(5)?.and_then(|text| text.parse().ok());
+    Ok(SubjectRow { id, name, revision, measurements, scan, pose })
+}
+
+/// The scan of a revision of a subject, where it has one.
+fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile>> {
+    let sql = "SELECT file, unit, mesh FROM scan WHERE subject_id = ?";
+    let row = |row: &Row<'_>| {
+        let unit: Option<String> = row.get(1)?;
+        let unit = LengthUnit::ALL.into_iter().find(|known| Some(known.name()) == unit.as_deref());
+        let file = SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
+        Ok(ScanFile { file, unit })
+    };
+    Ok(connection.prepare_cached(sql)?.query_row([id.0], row).optional()?)
+}
+
+/// Who a revision of a subject is.
+///
+/// # Errors
+/// When there is none of that number.
+pub fn person(store: &Store, id: SubjectId) -> Result<Person> {
+    let SubjectRow { measurements, pose, .. } = subject_revision(store, id)?;
+    Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose })
+}
+
+/// The built-in subjects, by name.
+pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
+    let path = std::path::Path::new("db/subjects.csv");
+    let read = crate::catalogue::table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
+    let (rows, problems) = read.map_err(StudyError::File)?;
+    if !problems.is_empty() {
+        return Err(StudyError::File(problems));
+    }
+    Ok(rows.into_iter().map(|placed| (placed.name, placed.entry)).collect())
+}
+
+/// Why an entry cannot be had, edited or removed: it is hidden, or there is none of that name.
+pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result<StudyError> {
+    if hidden(connection)?.contains(&format!("{part} {name}")) {
+        return Ok(StudyError::Hidden { what: part.as_str(), name: name.to_owned() });
+    }
+    let sql = "SELECT name FROM catalogue_entry WHERE part = ? AND NOT is_retired ORDER BY name";
+    let mut statement = connection.prepare_cached(sql)?;
+    let known = statement.query_map([part.as_str()], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;
+    Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
+}
+
+/// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+///
+/// # Errors
+/// When there is none of that name, or the database is open read-only.
+pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
+    if revision::current(transaction, part, name)?.is_none_or(|(_, is_retired)| is_retired) {
+        return Err(missing(transaction, part, name)?);
+    }
+    if part == Part::Style {
+        for size in sizes(transaction, name)? {
+            remove(transaction, Part::Size, &size)?;
+        }
+    }
+    let table = part.as_str();
+    let named = if part == Part::Size { "size.style || '/' || size.name" } else { &format!("{table}.name") };
+    let sql = format!("SELECT count(*) FROM job JOIN {table} USING ({table}_id) WHERE {named} = ?");
+    let jobs: i64 = transaction.query_row(&sql, [name], |row| row.get(0))?;
+    let is_built_in = match part {
+        Part::Subject => thesis_subjects()?.iter().any(|(built_in, _)| built_in == name),
+        Part::Fabric => sim::fabric::library().iter().any(|cloth| cloth.name == name),
+        Part::Style | Part::Size => false,
+    };
+    let is_hidden = jobs > 0 || is_built_in;
+    if is_hidden {
+        let sql = "UPDATE catalogue_entry SET is_retired = 1 WHERE part = ? AND name = ?";
+        transaction.execute(sql, [part.as_str(), name])?;
+    } else {
+        transaction.execute(&format!("DELETE FROM {table} WHERE {named} = ?"), [name])?;
+        transaction.execute("DELETE FROM catalogue_entry WHERE part = ? AND name = ?", [part.as_str(), name])?;
+    }
+    Ok(Removed { part, name: name.to_owned(), jobs, is_hidden })
+}
+
+/// Names of the sizes of a style that were not removed.
+fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
+    let sql = "SELECT DISTINCT style || '/' || size FROM v_sizes WHERE style = ? AND NOT is_retired";
+    let mut statement = transaction.prepare_cached(sql)?;
+    let sizes = statement.query_map([style], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;
+    Ok(sizes)
+}
+
+/// The subjects of the catalogue, by name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn subjects(store: &Store) -> Result<Vec<SubjectRow>> {
+    stored_subjects(&store.reader)
+}
+
+/// A revision of a subject, current or not.
+///
+/// # Errors
+/// When there is none of that number.
+pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
+    let sql = format!("{} WHERE subject_id = ?", select_subject());
+    let found = store.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
+    found.map_err(|error| match error {
+        rusqlite::Error::QueryReturnedNoRows => {
+            StudyError::NotFound { what: "revision of a subject", name: id.0.to_string(), known: vec![] }
+        }
+        error => error.into(),
+    })
+}
+
+/// A subject of the catalogue, latest revision.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn subject(store: &Store, name: &str) -> Result<Person> {
+    match known(Some(&store.reader))?.subjects.remove(name) {
+        Some(person) => Ok(person),
+        None => Err(missing(&store.reader, Part::Subject, name)?),
+    }
+}

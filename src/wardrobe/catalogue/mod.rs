@@ -1,0 +1,333 @@
+//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, content seen before is
+//! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
+
+mod fabrics;
+mod format;
+mod import;
+mod known;
+mod norms;
+pub mod revision;
+mod sizes;
+mod style;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use rusqlite::Transaction;
+
+use self::revision::By;
+
+use body::{LengthUnit, Sex};
+use sim::Fabric;
+use sim::fabric::USUAL;
+use spec::fields::{Entry, filled};
+use spec::file::ScanFile;
+use spec::{Given, Person};
+use store::files::SourceFile;
+use store::{Result, Store, StudyError};
+
+pub use fabrics::{FabricRow, fabrics, with_bending};
+pub use import::{Imported, Strictness, import};
+pub use known::{SubjectRow, known, person, read_fabric, read_style, subject, subject_revision, subjects};
+pub use norms::{doubts, is_doubtful, percentile, percentile_text};
+pub use sizes::{SizeRow, sizes, workpiece};
+pub use style::{StyleGiven, save_seams, save_size, save_style, style_of};
+
+/// Opens a database with a catalogue; without `readonly` it is created where there is none, brought up to date, and has
+/// the built-in fabrics and subjects.
+///
+/// # Errors
+/// When the file cannot be opened, is no database, or was written by a newer program.
+pub fn open(path: &Path, readonly: bool) -> Result<Store> {
+    let mut store = Store::open(path, readonly)?;
+    if !readonly {
+        known::add_builtin(store.writer()?)?;
+    }
+    Ok(store)
+}
+
+/// A part of the catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Bodies: measurements or a scan.
+    Subject,
+    /// How pieces are sewn and measured.
+    Style,
+    /// A pattern of a style; named `STYLE/SIZE`.
+    Size,
+    /// Cloths with their mechanical numbers.
+    Fabric,
+}
+
+impl Part {
+    /// Name in SQL and in messages.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Subject => "subject",
+            Self::Style => "style",
+            Self::Size => "size",
+            Self::Fabric => "fabric",
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Whether an entry is to be there already when it is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// It must not.
+    Add,
+    /// It must be there.
+    Edit,
+    /// It may be there or not.
+    Import,
+}
+
+/// What saving an entry did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Saved {
+    /// Part of the catalogue.
+    pub part: Part,
+    /// Name of the entry.
+    pub name: String,
+    /// Its revision that is now the current one.
+    pub revision: i64,
+    /// What was done.
+    pub deed: Deed,
+    /// Values that are possible but rare.
+    pub doubts: Vec<String>,
+    /// What was guessed or repaired of a scan.
+    pub notes: Vec<String>,
+}
+
+/// How a saved revision became the current one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deed {
+    /// The entry is new, or was removed before.
+    Added,
+    /// It has a new revision.
+    Revised,
+    /// An earlier revision has the same content and is current again.
+    Restored,
+    /// The current revision has the same content.
+    Unchanged,
+}
+
+impl fmt::Display for Saved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { part, name, revision, .. } = self;
+        match self.deed {
+            Deed::Added => write!(f, "{part} {name} is added"),
+            Deed::Revised => write!(f, "{part} {name} has revision {revision}; results keep theirs"),
+            Deed::Restored => write!(f, "{part} {name} is as in revision {revision} again"),
+            Deed::Unchanged => write!(f, "{part} {name} is unchanged"),
+        }
+    }
+}
+
+/// What removing an entry did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Removed {
+    /// Part of the catalogue.
+    pub part: Part,
+    /// Name of the entry.
+    pub name: String,
+    /// Jobs that use it. It is hidden, and stays stored, where there are any or where it is built in.
+    pub jobs: i64,
+    /// Whether it is only hidden.
+    pub is_hidden: bool,
+}
+
+impl fmt::Display for Removed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { part, name, jobs, is_hidden } = self;
+        match (is_hidden, jobs) {
+            (false, _) => write!(f, "{part} {name} is gone"),
+            (true, 0) => write!(f, "{part} {name} is hidden; it is built in"),
+            (true, jobs) => write!(f, "{part} {name} is hidden; {jobs} job(s) use it and keep it"),
+        }
+    }
+}
+
+/// An entry that can be saved by itself.
+trait Stored: Sync {
+    const PART: Part;
+
+    /// Whether it can be; what is rare about it.
+    fn verify(&self) -> std::result::Result<Vec<String>, String>;
+
+    /// Makes it the current revision of its name.
+    fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
+}
+
+impl Stored for Person {
+    const PART: Part = Part::Subject;
+
+    /// Makes the body: that alone tells whether the measurements are those of one person, and whether a scan can wear garments.
+    fn verify(&self) -> std::result::Result<Vec<String>, String> {
+        self.body().map_err(|error| error.to_string())?;
+        Ok(doubts(&self.measurements))
+    }
+
+    fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision> {
+        revision::subject(transaction, name, self, By::User)
+    }
+}
+
+impl Stored for Fabric {
+    const PART: Part = Part::Fabric;
+
+    fn verify(&self) -> std::result::Result<Vec<String>, String> {
+        let (warp, weft) = (self.membrane_warp_n_m, self.membrane_weft_n_m);
+        if self.membrane_coupling_n_m.powi(2) < warp * weft {
+            return Ok(vec![]);
+        }
+        let most = (warp * weft).sqrt();
+        Err(format!("`membrane_coupling_n_m` is {}; accepted: below {most:.1}", self.membrane_coupling_n_m))
+    }
+
+    fn store(&self, transaction: &Transaction<'_>, _: &str) -> Result<revision::Revision> {
+        revision::fabric(transaction, self, By::User)
+    }
+}
+
+/// Why an entry cannot be saved.
+fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
+    StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems }
+}
+
+/// Whether a name can be that of an entry.
+fn check_name(name: &str) -> std::result::Result<(), String> {
+    let is_odd = |letter: char| letter.is_control() || letter == '/';
+    if !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(is_odd) {
+        return Ok(());
+    }
+    Err("its name; accepted: 1 to 64 characters, no `/`, no space at either end".to_owned())
+}
+
+/// Makes a revision current with `store`, as far as the mode allows; says what that did.
+fn save(
+    transaction: &Transaction<'_>,
+    part: Part,
+    name: &str,
+    mode: Mode,
+    store: impl FnOnce() -> Result<revision::Revision>,
+) -> Result<Saved> {
+    let before = revision::current(transaction, part, name)?.filter(|(_, is_retired)| !is_retired);
+    match mode {
+        Mode::Add if before.is_some() => {
+            return Err(StudyError::Exists { what: part.as_str(), name: name.to_owned() });
+        }
+        Mode::Edit if before.is_none() => return Err(known::missing(transaction, part, name)?),
+        _ => {}
+    }
+    let after = store()?;
+    let deed = match before {
+        None => Deed::Added,
+        Some((number, _)) if number == after.number => Deed::Unchanged,
+        Some(_) if after.is_new => Deed::Revised,
+        Some(_) => Deed::Restored,
+    };
+    Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![], notes: vec![] })
+}
+
+/// A scan that becomes a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanGiven {
+    /// OBJ, PLY, STL or GLB.
+    pub file: PathBuf,
+    /// Unit of the file; told from its height where it is not given.
+    pub unit: Option<LengthUnit>,
+    /// Sex; told from the shape where it is not given.
+    pub sex: Option<Sex>,
+}
+
+/// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
+///
+/// # Errors
+/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the store is
+/// read-only.
+pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
+    let base = match mode {
+        Mode::Edit => Some(subject(store, name)?),
+        _ => None,
+    };
+    if base.as_ref().is_some_and(|person| person.scan.is_some()) {
+        let problem = "its body is a scan, on which it is measured; accepted: another scan";
+        return Err(refused(Part::Subject, name, vec![problem.to_owned()]));
+    }
+    let measurements = entry_of(Part::Subject, name, base.map(|person| person.measurements).as_ref(), given)?;
+    save_entry(store, mode, name, &Person::from(measurements))
+}
+
+/// Saves a subject whose body is a scan; what is known of it is measured there.
+///
+/// # Errors
+/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is open read-only.
+pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
+    let ScanGiven { file, unit, sex } = given;
+    let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };
+    let (person, notes) = scan.person_and_notes(*sex)?;
+    Ok(Saved { notes, ..save_entry(store, mode, name, &person)? })
+}
+
+/// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
+///
+/// # Errors
+/// As [`save_subject`].
+pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>, given: &[Given]) -> Result<Saved> {
+    let base = match (like, mode) {
+        (Some(like), _) => Some(Fabric { name: name.to_owned(), ..cloth(store, Some(like))? }),
+        (None, Mode::Edit) => Some(cloth(store, Some(name))?),
+        _ => None,
+    };
+    save_entry(store, mode, name, &entry_of(Part::Fabric, name, base.as_ref(), given)?)
+}
+
+/// Returns a fabric of the catalogue, its current revision; the usual one where none is named.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
+    let name = name.unwrap_or(USUAL);
+    match known(Some(&store.reader))?.fabrics.remove(name) {
+        Some(fabric) => Ok(fabric),
+        None => Err(known::missing(&store.reader, Part::Fabric, name)?),
+    }
+}
+
+/// An entry of given values over those that it has.
+fn entry_of<T: Entry>(part: Part, name: &str, base: Option<&T>, given: &[Given]) -> Result<T> {
+    let texts = |problems: Vec<Given>| problems.into_iter().map(|(_, problem)| problem).collect();
+    filled(base, name, given).map_err(|problems| refused(part, name, texts(problems)))
+}
+
+fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -> Result<Saved> {
+    let refuse = |problem| refused(T::PART, name, vec![problem]);
+    check_name(name).map_err(refuse)?;
+    let doubts = entry.verify().map_err(refuse)?;
+    let transaction = store::write(store.writer()?)?;
+    let saved = save(&transaction, T::PART, name, mode, || entry.store(&transaction, name))?;
+    transaction.commit()?;
+    Ok(Saved { doubts, ..saved })
+}
+
+/// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+///
+/// # Errors
+/// When there is none of that name, or the database is open read-only.
+pub fn remove(store: &mut Store, part: Part, name: &str) -> Result<Removed> {
+    let transaction = store::write(store.writer()?)?;
+    let removed = known::remove(&transaction, part, name)?;
+    transaction.commit()?;
+    Ok(removed)
+}

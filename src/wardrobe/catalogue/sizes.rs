@@ -1,0 +1,91 @@
+//! The styles of the catalogue with their sizes, as lists show them and as seams are worked on.
+
+use rusqlite::{OptionalExtension, Row};
+
+use crate::catalogue::style::seam_file;
+use crate::seams::desk::confidences;
+use crate::seams::workpiece::Workpiece;
+use pattern::size_order;
+use spec::patterns;
+use store::files::SourceFile;
+use store::{Result, SizeKey, Store, StudyError};
+
+/// A size of a style of the catalogue.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SizeRow {
+    /// Rows of the two revisions.
+    pub key: SizeKey,
+    /// Name of the style.
+    pub style: String,
+    /// Revision of the style.
+    pub style_revision: i64,
+    /// Name of the size within the style.
+    pub size: String,
+    /// Revision of the size.
+    pub revision: i64,
+    /// Name of the pattern file.
+    pub pattern_file: String,
+    /// Name of the seam file; `None` where the pattern holds its seams.
+    pub seam_file: Option<String>,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<String>,
+    /// Proposed seams of the style that nobody has confirmed yet.
+    pub unconfirmed: usize,
+}
+
+/// The current sizes of all styles, by style and from the smallest to the largest.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
+    let sql = "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
+            seam_file, unit, seams
+        FROM size
+            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+                AND sized.revision = size.revision AND NOT sized.is_retired
+            JOIN style ON style.name = size.style
+            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+                AND styled.revision = style.revision AND NOT styled.is_retired
+        ORDER BY style.name, size_id";
+    let row = |row: &Row<'_>| {
+        let seam_file: String = row.get(7)?;
+        let unsure = confidences(&row.get::<_, String>(9)?).into_iter().flatten();
+        Ok(SizeRow {
+            key: SizeKey { style: row.get(0)?, size: row.get(1)? },
+            style: row.get(2)?,
+            style_revision: row.get(3)?,
+            size: row.get(4)?,
+            revision: row.get(5)?,
+            pattern_file: row.get(6)?,
+            seam_file: (!seam_file.is_empty()).then_some(seam_file),
+            unit: row.get(8)?,
+            unconfirmed: unsure.count(),
+        })
+    };
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut sizes = statement.query_map([], row)?.collect::<rusqlite::Result<Vec<SizeRow>>>()?;
+    for style in sizes.chunk_by_mut(|a, b| a.style == b.style) {
+        size_order::sort(style, |row| &row.size);
+    }
+    Ok(sizes)
+}
+
+/// The pattern and the seam file of a size.
+///
+/// # Errors
+/// When there are no such revisions.
+pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
+    let sql = "SELECT pattern_file, pattern, seam_file, seams, size.name, unit
+        FROM size, style WHERE size_id = ? AND style_id = ?";
+    let row = |row: &Row<'_>| {
+        let unit: Option<String> = row.get(5)?;
+        Ok(Workpiece {
+            pattern: SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(1)?.into() },
+            seams: seam_file(row.get(2)?, row.get(3)?),
+            size: row.get(4)?,
+            unit: unit.as_deref().and_then(patterns::unit_of),
+        })
+    };
+    let found = store.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;
+    found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
+}

@@ -1,0 +1,156 @@
+//! Entries of the catalogue from a CSV table: a column a key, a row an entry.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use crate::catalogue::format::text_of;
+use crate::catalogue::import::Read;
+use crate::catalogue::{Part, check_name};
+use geom::units::significant;
+use pattern::table::{self, Row};
+use spec::Given;
+use spec::fields::{Entry, filled, keys};
+use spec::file::Placed;
+use store::{Problem, nearest};
+
+/// Columns that hold the name of an entry, besides that of its part (`subject`).
+const NAMES: [&str; 2] = ["name", "id"];
+/// Columns that views have besides the values of an entry.
+const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose"];
+/// Those of them that are no values of a table, but make somebody another body.
+const BODIES: [(&str, &str); 2] =
+    [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
+
+/// Reads a table: the rows that are right, and what is wrong with the others. Empty cells are no values.
+///
+/// # Errors
+/// Where its heading is wrong, or it is no table.
+pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
+    let mut rows = table::rows(text_of(path, bytes)?).into_iter();
+    let head = rows.next().unwrap_or(Row { line: 1, cells: vec![] });
+    let columns: Vec<Column> = head.cells.iter().map(|text| Column::read::<T>(part, text)).collect();
+    let header: Vec<&str> = columns.iter().map(|column| column.key.as_str()).collect();
+    let mut problems = header_problems::<T>(path, part, head.line, &header);
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let mut entries = Vec::new();
+    let mut names = BTreeSet::new();
+    for Row { line, cells } in rows {
+        match row(part, &columns, &header, &cells) {
+            Ok((name, _)) if !names.insert(name.clone()) => {
+                problems.push(Problem::at(path, line, format!("{part} `{name}` is there twice; names must differ")));
+            }
+            Ok((name, entry)) => entries.push(Placed { file: path.to_owned(), line, name, entry }),
+            Err(found) => problems.extend(found.into_iter().map(|message| Problem::at(path, line, message))),
+        }
+    }
+    Ok((entries, problems))
+}
+
+/// A column: the key that its heading stands for, and what its numbers are multiplied by to be in the key's unit.
+struct Column {
+    key: String,
+    factor: f64,
+}
+
+/// Units of headings: their names, the unit of keys that they stand for, and what a number in them is of it.
+const UNITS: [(&str, &str, f64); 9] = [
+    ("mm", "mm", 1.0),
+    ("cm", "mm", 10.0),
+    ("m", "mm", 1e3),
+    ("in", "mm", 25.4),
+    ("inch", "mm", 25.4),
+    ("inches", "mm", 25.4),
+    ("kg", "kg", 1.0),
+    ("lb", "kg", 0.453_592_37),
+    ("lbs", "kg", 0.453_592_37),
+];
+
+impl Column {
+    /// Of a heading: a key, or one in words and another unit, such as `Chest girth (cm)` or `chest_girth_cm`.
+    fn read<T: Entry>(part: Part, heading: &str) -> Self {
+        let accepted = keys::<T>();
+        let as_it_is = |key: &str| Self { key: key.to_owned(), factor: 1.0 };
+        if accepted.contains(&heading) || is_name(part, heading) {
+            return as_it_is(heading);
+        }
+        let words: String = heading.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
+        let words: Vec<&str> = words.split_whitespace().collect();
+        let plain = words.join("_");
+        if accepted.contains(&plain.as_str()) || is_name(part, &plain) || IGNORED.contains(&plain.as_str()) {
+            return as_it_is(&plain);
+        }
+        let found = words.split_last().and_then(|(last, rest)| {
+            let (_, unit, factor) = UNITS.iter().find(|(name, ..)| name == last)?;
+            let key = format!("{}_{unit}", rest.join("_"));
+            accepted.contains(&key.as_str()).then_some(Self { key, factor: *factor })
+        });
+        found.unwrap_or_else(|| as_it_is(heading))
+    }
+
+    /// A cell in the key's unit; what is no number is left as it is.
+    fn value(&self, cell: &str) -> String {
+        match cell.parse::<f64>() {
+            Ok(number) if self.factor != 1.0 => significant(number * self.factor, 9),
+            _ => cell.to_owned(),
+        }
+    }
+}
+
+/// Whether a column holds the name.
+fn is_name(part: Part, column: &str) -> bool {
+    column == part.as_str() || NAMES.contains(&column)
+}
+
+fn header_problems<T: Entry>(path: &Path, part: Part, line: usize, header: &[&str]) -> Vec<Problem> {
+    let accepted = keys::<T>();
+    let mut problems = Vec::new();
+    if !header.iter().any(|column| is_name(part, column)) {
+        problems.push(format!("no column `name`; accepted: name, {}", accepted.join(", ")));
+    }
+    for (k, &column) in header.iter().enumerate() {
+        let place = format!("column {}", k + 1);
+        if header[..k].contains(&column) {
+            problems.push(format!("{place}: `{column}` is there twice"));
+        } else if !(accepted.contains(&column) || is_name(part, column) || IGNORED.contains(&column)) {
+            let hint = match nearest(column, accepted.iter().copied().chain(["name"])) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("accepted: name, {}", accepted.join(", ")),
+            };
+            problems.push(format!("{place}: unknown column `{column}`; {hint}"));
+        }
+    }
+    problems.into_iter().map(|message| Problem::at(path, line, message)).collect()
+}
+
+/// Name and entry of a row.
+fn row<T: Entry>(
+    part: Part,
+    columns: &[Column],
+    header: &[&str],
+    record: &[String],
+) -> Result<(String, T), Vec<String>> {
+    if record.len() != header.len() {
+        return Err(vec![format!("{} cells; accepted: {}, as in the first line", record.len(), header.len())]);
+    }
+    let cells = || header.iter().copied().zip(record.iter().map(String::as_str));
+    let name = cells().find(|(column, _)| is_name(part, column)).map_or("", |(_, cell)| cell);
+    let given: Vec<Given> = cells()
+        .zip(columns)
+        .filter(|((column, cell), _)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
+        .map(|((column, cell), of)| (column.to_owned(), of.value(cell)))
+        .collect();
+    let is_given = |(column, _): &&(&str, &str)| cells().any(|(of, cell)| of == *column && !cell.is_empty());
+    if let Some((column, accepted)) = BODIES.iter().find(is_given) {
+        return Err(vec![format!("{name}: its `{column}` is in no table; {accepted}")]);
+    }
+    let placed = |(key, problem): Given| match header.iter().position(|column| *column == key) {
+        Some(k) => format!("column {}: {problem}", k + 1),
+        None => problem,
+    };
+    check_name(name).map_err(|problem| vec![problem])?;
+    filled(None, name, &given)
+        .map(|entry| (name.to_owned(), entry))
+        .map_err(|problems| problems.into_iter().map(placed).collect())
+}

@@ -1,0 +1,197 @@
+//! Checking how the patterns of a study are sewn.
+
+use std::path::Path;
+
+use crate::catalogue;
+use geom::units::{from_mm, mm};
+use pattern::check::{self, Finding};
+use pattern::progression::leaps;
+use pattern::seams::SeamFile;
+use pattern::size_order;
+use spec::Study;
+use spec::file::{GarmentEntry, SizeFile};
+use spec::patterns::{self, Nest, Style, Unit};
+use store::files::SourceFile;
+use store::{Access, Result, StudyError};
+
+/// Edge length of the mesh that a check makes, mm.
+pub const CHECK_EDGE_MM: f64 = 15.0;
+
+/// What a check found of one size of a garment.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct SizeCheck {
+    /// Name of the garment in the study.
+    pub garment: String,
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Pieces as worn.
+    pub pieces: usize,
+    /// Number of seams.
+    pub seams: usize,
+    /// Number of measurements.
+    pub measurements: usize,
+    /// Girths for the fit by body level, mm.
+    pub fit_mm: Vec<(String, f64)>,
+    /// Vertices of the mesh at [`CHECK_EDGE_MM`].
+    pub vertices: usize,
+    /// Least angle of its triangles, degrees.
+    pub min_angle_deg: f64,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// Why it cannot be sewn or meshed at all.
+    pub error: Option<String>,
+}
+
+impl SizeCheck {
+    /// Whether anything was found.
+    #[must_use]
+    pub fn is_bad(&self) -> bool {
+        self.error.is_some() || !self.findings.is_empty()
+    }
+}
+
+/// Checks every size of every garment of a study: its file or its folder. `database` may know subjects and fabrics that
+/// the file names; it need not be there.
+///
+/// # Errors
+/// What is wrong with the study file itself; what is wrong with a pattern is told in its row.
+pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
+    let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
+    let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
+    let of = |garment: &GarmentEntry| {
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+        let sewn = Sewn { garment: garment.name.clone(), seams: garment.seams.clone(), unit };
+        sewn.check(&garment.sizes)
+    };
+    Ok(study.garments.iter().flat_map(of).collect())
+}
+
+/// Checks every size of a pattern with its seam file.
+///
+/// # Errors
+/// When a file cannot be read; what is wrong with a size is told in its row.
+pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> Result<Vec<SizeCheck>> {
+    let source = SourceFile::read_pattern(pattern)?;
+    let seams = seams.map(SourceFile::read).transpose()?;
+    let sizes: Vec<String> = match source.holds_seams() {
+        true => vec![String::new()],
+        false => Nest::read(&source, unit)?.sizes().into_iter().map(str::to_owned).collect(),
+    };
+    let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let sewn = Sewn { garment, seams, unit };
+    let sizes: Vec<SizeFile> = sizes.into_iter().map(|name| SizeFile { name, pattern: source.clone() }).collect();
+    Ok(sewn.check(&sizes))
+}
+
+/// A garment whose sizes are checked.
+struct Sewn {
+    garment: String,
+    seams: Option<SourceFile>,
+    unit: Option<Unit>,
+}
+
+impl Sewn {
+    /// A row for each size, and what is told of lengths that leap from one to the next.
+    fn check(&self, sizes: &[SizeFile]) -> Vec<SizeCheck> {
+        let (mut rows, mut styles) = (Vec::new(), Vec::new());
+        for (number, size) in sizes.iter().enumerate() {
+            let mut row = self.row(size);
+            match self.fill(&mut row, size) {
+                Ok(style) => styles.push((number, size.name.as_str(), style)),
+                Err(error) => row.error = Some(error.to_string()),
+            }
+            rows.push(row);
+        }
+        size_order::sort(&mut styles, |(_, size, _)| size);
+        let names: Vec<String> = styles.iter().map(|(_, size, _)| (*size).to_owned()).collect();
+        for leap in leaps(&styles.iter().map(|(.., style)| style).collect::<Vec<_>>()) {
+            let row: &mut SizeCheck = &mut rows[styles[leap.sizes[1]].0];
+            row.findings.push(leap.finding(&names));
+        }
+        rows
+    }
+
+    fn row(&self, size: &SizeFile) -> SizeCheck {
+        SizeCheck {
+            garment: self.garment.clone(),
+            size: size.name.clone(),
+            pieces: 0,
+            seams: 0,
+            measurements: 0,
+            fit_mm: Vec::new(),
+            vertices: 0,
+            min_angle_deg: 0.0,
+            findings: Vec::new(),
+            error: None,
+        }
+    }
+
+    fn fill(&self, row: &mut SizeCheck, size: &SizeFile) -> Result<Style> {
+        let style = patterns::read_style(&size.pattern, self.seams.as_ref(), Some(&size.name), self.unit)?;
+        (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
+        let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
+        row.fit_mm = style.fit_levels.iter().map(level).collect();
+        if let Some(seams) = &self.seams {
+            row.findings = of_files(&size.pattern, seams, Some(&size.name), self.unit)?;
+        }
+        let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
+        (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
+        row.findings.extend(check::of_garment(&style, &mesh));
+        Ok(style)
+    }
+}
+
+/// Findings of a pattern file and its seam file.
+pub(crate) fn of_files(
+    pattern: &SourceFile,
+    seams: &SourceFile,
+    size: Option<&str>,
+    unit: Option<Unit>,
+) -> Result<Vec<Finding>> {
+    if pattern.holds_seams() {
+        return Ok(Vec::new());
+    }
+    let pieces = patterns::pieces(pattern, size, unit)?;
+    let style = Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    let entries = SeamFile::parse(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    Ok(check::findings(&pieces, &entries, &style))
+}
+
+/// What a person should know of a pattern and its seams that is no error.
+///
+/// # Errors
+/// As [`style`](spec::patterns::style).
+pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
+    of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_thesis_study_is_clean_and_a_broken_one_is_not() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/thesis");
+        let nowhere = Path::new("no.sqlite");
+        let rows = check_study(&folder, nowhere).expect("it reads");
+        assert_eq!(rows.len(), 9);
+        for row in &rows {
+            assert!(!row.is_bad() && row.findings.is_empty() && row.min_angle_deg > 20.0, "{row:?}");
+            let levels: Vec<&str> = row.fit_mm.iter().map(|(level, _)| level.as_str()).collect();
+            let expect: &[&str] = match row.garment.as_str() {
+                "trousers" => &["hip"],
+                "dress" => &["chest", "hip"],
+                _ => &["chest"],
+            };
+            assert_eq!(levels, expect, "{}", row.garment);
+        }
+        let text = std::fs::read_to_string(folder.join("study.toml")).expect("it reads");
+        let broken = tempfile::tempdir().expect("a folder");
+        let patterns = format!("{}/patterns/", folder.display());
+        let text = text.replace("patterns/", &patterns).replace("tshirt.seams.toml", "teetop.seams.toml");
+        std::fs::write(broken.path().join("study.toml"), text).expect("writable");
+        let rows = check_study(broken.path(), nowhere).expect("it reads");
+        let bad: Vec<&str> = rows.iter().filter(|row| row.is_bad()).map(|row| row.garment.as_str()).collect();
+        assert_eq!(bad, ["tshirt"; 3]);
+    }
+}

@@ -1,0 +1,20 @@
+//! What is sewn: patterns with their seams, checked, proposed and edited.
+
+mod again;
+pub mod check;
+pub mod desk;
+pub mod pattern_files;
+pub mod specification;
+pub mod step;
+pub mod undecided;
+pub mod workpiece;
+
+pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
+pub use desk::proposal;
+pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, SURE, desk, propose};
+pub use pattern::propose::{Proposal, Question};
+pub use pattern::seam_edit::Edit as SeamEdit;
+pub use specification::{Specification, SpecifiedPoint, specification};
+pub use step::SeamStep;
+pub use undecided::{Choice, LEFT_OUT, Undecided};
+pub use workpiece::{DeskLength, LaidOut, Workpiece, edit_seams, seam_home, write_seams};

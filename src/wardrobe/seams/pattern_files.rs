@@ -1,0 +1,179 @@
+//! Pattern files with what lies beside them: a grade rule table, a table of piece information; looking into them,
+//! taking their features, writing them as other kinds of file.
+
+use std::path::Path;
+
+pub use pattern::dxf::Standard;
+use pattern::dxf::{self, PatternFile, Unit};
+use pattern::features::Features;
+use pattern::grade::{self, Ungraded};
+use pattern::inspect::FileReport;
+use pattern::source::{self, Kind};
+use pattern::{Style, garmentcode, info};
+use spec::patterns::drawings;
+use store::files::SourceFile;
+use store::{Result, StudyError};
+
+/// What is said about a pattern beside its file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Beside<'a> {
+    /// Only pieces of this size.
+    pub size: Option<&'a str>,
+    /// Unit of DXF files.
+    pub unit: Option<Unit>,
+    /// Grade rule table: the file is of the sample size, and all sizes are made.
+    pub rules: Option<&'a Path>,
+    /// Unit of its numbers, whatever it says itself.
+    pub rule_unit: Option<Unit>,
+    /// Path of the table of piece information, CSV or XLSX.
+    pub info: Option<&'a Path>,
+}
+
+impl Beside<'_> {
+    /// A pattern in all its sizes: graded, and told what the table says; with what is to be said of the tables.
+    fn complete(&self, mut pattern: PatternFile) -> Result<(PatternFile, Vec<String>)> {
+        let mut notes = Vec::new();
+        if let Some(path) = self.rules {
+            let source = SourceFile::read(path)?;
+            let table = grade::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+            let (table, note) =
+                grade::in_unit_of(table, pattern.unit, self.rule_unit).map_err(StudyError::stage("pattern"))?;
+            notes.extend(note);
+            pattern = grade::grade(&pattern, &table).map_err(StudyError::stage("pattern"))?;
+        }
+        if let Some(path) = self.info {
+            let source = SourceFile::read(path)?;
+            let table = info::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+            table.merge(&mut pattern).map_err(StudyError::stage("pattern"))?;
+        }
+        Ok((pattern, notes))
+    }
+
+    /// The pattern of a file, of the size that is asked for, that may be handed on: no piece of it is refused, and its
+    /// unit is known; with what is to be said of the tables beside it.
+    fn usable_pattern(&self, source: &SourceFile) -> Result<(PatternFile, Vec<String>)> {
+        let read = source::read(&source.bytes, &source.name, self.unit).map_err(StudyError::stage("pattern"))?;
+        let (mut pattern, notes) = self.complete(read)?;
+        let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
+        for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
+            // A nest is no garment: every size for itself may be sewn.
+            pattern.to_sew(Some(&size)).map_err(StudyError::stage("pattern"))?;
+        }
+        self.keep_size(&mut pattern);
+        Ok((pattern, notes))
+    }
+
+    fn keep_size(&self, pattern: &mut PatternFile) {
+        if let Some(size) = self.size {
+            let is_of = |name: &str| name.eq_ignore_ascii_case(size);
+            pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
+        }
+    }
+}
+
+/// What is in a pattern file of any kind, or in every one below a folder, by name. A file that cannot be read has its
+/// error in its report.
+///
+/// # Errors
+/// When the path cannot be read, or a file beside it is wrong.
+pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
+    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
+    files.iter().map(|file| report(&SourceFile::read(file)?.bytes, &file.to_string_lossy(), beside)).collect()
+}
+
+fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
+    let is_alone = beside.size.is_none() && beside.rules.is_none() && beside.info.is_none();
+    if is_alone && source::kind(bytes) == Kind::GarmentCode {
+        // The specification knows more of its unit than a pattern does.
+        let read = garmentcode::read(bytes, name);
+        let unreadable = |error: &garmentcode::GarmentCodeError| FileReport::unreadable(name, error.to_string());
+        return Ok(read.as_ref().map_or_else(unreadable, FileReport::from));
+    }
+    // A file that cannot be read by itself is a finding; what lies beside it is the user's to put right.
+    let (mut pattern, notes) = match source::read(bytes, name, beside.unit) {
+        Ok(read) => beside.complete(read)?,
+        Err(error) => return Ok(FileReport::unreadable(name, error.to_string())),
+    };
+    beside.keep_size(&mut pattern);
+    pattern.warnings.extend(notes);
+    Ok(FileReport::from(&pattern))
+}
+
+/// The features of a pattern's pieces, as JSON; and what is to be said of the tables beside it.
+///
+/// # Errors
+/// When a file cannot be read, or a piece of it is refused.
+pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>)> {
+    let source = SourceFile::read(path)?;
+    let (pattern, notes) = beside.usable_pattern(&source)?;
+    let features = Features::of(&pattern.pieces, &source.name, &pattern.texts);
+    Ok((serde_json::to_string_pretty(&features).map_err(StudyError::stage("pattern"))?, notes))
+}
+
+/// A pattern as DXF by a standard, half pieces as halves: all its sizes as a nest; and what is to be said of the tables beside it.
+///
+/// # Errors
+/// As [`features`].
+pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> Result<(Vec<u8>, Vec<String>)> {
+    let (pattern, notes) = beside.usable_pattern(&SourceFile::read(path)?)?;
+    Ok((dxf::write_pieces(&pattern.pieces, &pattern.texts, standard), notes))
+}
+
+/// A pattern as its sample size and a grade rule table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graded {
+    /// The sample size.
+    pub dxf: Vec<u8>,
+    /// Text of the grade rule table.
+    pub rules: String,
+    /// What has no rules of its own, and what is to be said of the tables beside the pattern.
+    pub notes: Vec<String>,
+}
+
+/// The sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The DXF calls
+/// the table by its name.
+///
+/// # Errors
+/// As [`features`]; and where a piece is not the same in every size.
+pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, table_name: &str) -> Result<Graded> {
+    let all = Beside { size: None, ..*beside };
+    let (pattern, mut said) = all.usable_pattern(&SourceFile::read(path)?)?;
+    let sample = beside.size.unwrap_or(pattern.sample_size());
+    let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).map_err(StudyError::stage("pattern"))?;
+    let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key) && !grade::is_name_of_table(key);
+    let sample = ("Sample Size".to_owned(), table.sizes[table.sample].clone());
+    let own = [sample, grade::named_in_pattern(table_name)];
+    let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain(own).collect();
+    let rules = grade::write(&table, table_name, standard);
+    said.extend(notes);
+    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: said })
+}
+
+/// A pattern and its seams as GarmentCode JSON; and what is to be said of the tables beside it.
+///
+/// # Errors
+/// When a file cannot be read, or the seams do not fit the pattern.
+pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<(String, Vec<String>)> {
+    let source = SourceFile::read(path)?;
+    let mut notes = Vec::new();
+    let style = match (seams, source::kind(&source.bytes)) {
+        (Some(seams), _) => {
+            let (file, said) = beside.usable_pattern(&source)?;
+            notes = said;
+            // A file of one size is of that size, whatever it is called.
+            let size = beside.size.filter(|_| file.sizes().len() > 1);
+            let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
+            let seams = SourceFile::read(seams)?;
+            Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+        }
+        (None, Kind::GarmentCode) => {
+            garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
+        }
+        (None, _) => {
+            let message = format!("{}: GarmentCode JSON holds seams: name a seam file (--seams FILE)", source.name);
+            return Err(StudyError::stage("pattern")(message));
+        }
+    };
+    let text = serde_json::to_string_pretty(&garmentcode::document(&style)).map_err(StudyError::stage("pattern"))?;
+    Ok((text, notes))
+}

@@ -1,0 +1,194 @@
+//! The points of measure of a pattern in all its sizes: what a specification sheet says.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::seams::desk::{Asking, proposal};
+use geom::units::mm;
+use pattern::Style;
+use pattern::pom::Point;
+use pattern::progression::{Leap, leaps};
+use spec::patterns::{self, Nest};
+use store::files::SourceFile;
+use store::{Result, StudyError, Table, Value};
+
+/// A point of measure of one size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpecifiedPoint {
+    /// Name of the point in tables and SQL.
+    pub point: &'static str,
+    /// Name of the size, such as `M`.
+    pub size: String,
+    /// Its length, mm.
+    pub length_mm: f64,
+    /// Length less that of the size before, mm; none of the first.
+    pub step_mm: Option<f64>,
+    /// How it is measured.
+    pub definition: &'static str,
+}
+
+/// The points of measure of a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Specification {
+    /// The pattern's name.
+    pub garment: String,
+    /// Its sizes, smallest first as the file has them.
+    pub sizes: Vec<String>,
+    /// Every point of every size, by point.
+    pub points: Vec<SpecifiedPoint>,
+    /// What a reader should know, as sentences.
+    pub notes: Vec<String>,
+    /// The pieces of the first size with the points numbered, as SVG.
+    #[serde(skip)]
+    pub drawing: String,
+}
+
+/// Measures every size of a pattern at its points of measure. Without a seam file it is sewn as proposed.
+///
+/// # Errors
+/// When a file cannot be read, a size does not fit the seams, or no piece has a role that points are found by.
+pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
+    let source = SourceFile::read_pattern(pattern)?;
+    let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let mut notes = Vec::new();
+    let seams = match seams {
+        Some(path) => Some(SourceFile::read(path)?),
+        None if source.holds_seams() => None,
+        None => {
+            let (proposal, _) = proposal(&source, how)?;
+            notes.push("sewn as proposed: no seam file was given".to_owned());
+            notes.extend(proposal.notes.iter().cloned());
+            Some(SourceFile { name: "the proposal".to_owned(), bytes: proposal.toml(&garment).into_bytes().into() })
+        }
+    };
+    let sizes: Vec<String> = match (source.holds_seams(), how.size) {
+        (_, Some(size)) => vec![size.to_owned()],
+        (true, None) => vec![String::new()],
+        (false, None) => Nest::read(&source, how.unit)?.sizes().into_iter().map(str::to_owned).collect(),
+    };
+    let (mut read, mut styles) = (Vec::new(), Vec::new());
+    for size in &sizes {
+        match patterns::read_style(&source, seams.as_ref(), Some(size), how.unit) {
+            Ok(style) => {
+                read.push(size.clone());
+                styles.push(style);
+            }
+            // A size that cannot be sewn is left out aloud, unless it is all there is.
+            Err(error) if size == &sizes[sizes.len() - 1] && styles.is_empty() => return Err(error),
+            Err(error) => notes.push(format!("size {size} is left out: {error}")),
+        }
+    }
+    let mut found = Specification::of(garment, read, &styles);
+    found.notes.splice(0..0, notes);
+    if found.points.is_empty() {
+        let message =
+            format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
+        return Err(StudyError::stage("pattern")(message));
+    }
+    Ok(found)
+}
+
+/// Every point of every size, by point.
+fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
+    let measured: Vec<Vec<_>> = styles.iter().map(Style::points_of_measure).collect();
+    let mut found = Vec::new();
+    for point in Point::ALL {
+        let mut before: Option<f64> = None;
+        for (size, points) in sizes.iter().zip(&measured) {
+            let length_mm = points.iter().find(|one| one.point == point).map(|one| mm(one.length_m));
+            found.extend(length_mm.map(|length_mm| SpecifiedPoint {
+                point: point.as_str(),
+                size: size.clone(),
+                length_mm,
+                step_mm: before.map(|before| length_mm - before),
+                definition: point.definition(),
+            }));
+            before = length_mm;
+        }
+    }
+    found
+}
+
+impl Specification {
+    /// Of styles that are the sizes of one pattern.
+    #[must_use]
+    pub fn of(garment: String, sizes: Vec<String>, styles: &[Style]) -> Self {
+        let points = points(&sizes, styles);
+        let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
+        let told = |leap: Leap| {
+            let [before, after] = leap.sizes.map(|size| &sizes[size]);
+            format!("doubtful from size {before} to {after}: {}", leap.told())
+        };
+        let notes = leaps(&styles.iter().collect::<Vec<_>>()).into_iter().map(told).collect();
+        Self { garment, sizes, points, notes, drawing }
+    }
+
+    /// The sheet: a row a point, a column a size, mm, and a column a step from the size before.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };
+        let mut columns = vec!["point".to_owned()];
+        columns.extend(self.sizes.iter().map(name));
+        columns.extend(self.sizes.iter().skip(1).map(|size| format!("{size}_step_mm")));
+        columns.push("definition".to_owned());
+        let row = |point: Point| -> Option<Vec<Value>> {
+            let of = |size: &String| self.points.iter().find(|one| one.point == point.as_str() && one.size == *size);
+            let all: Vec<Option<&SpecifiedPoint>> = self.sizes.iter().map(of).collect();
+            all.iter().any(Option::is_some).then_some(())?;
+            // A step of nothing has no sign.
+            let rounded = |mm: f64| Value::Real((mm * 10.0).round() / 10.0 + 0.0);
+            let step = |one: &Option<&SpecifiedPoint>| one.and_then(|one| one.step_mm).map_or(Value::Null, rounded);
+            let mut row = vec![Value::Text(point.as_str().to_owned())];
+            row.extend(all.iter().map(|one| one.map_or(Value::Null, |one| rounded(one.length_mm))));
+            row.extend(all.iter().skip(1).map(step));
+            row.push(Value::Text(point.definition().to_owned()));
+            Some(row)
+        };
+        Table { columns, rows: Point::ALL.into_iter().filter_map(row).collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spec::patterns::Model;
+
+    #[test]
+    fn a_sheet_has_a_column_of_numbers_for_each_step() {
+        let files = patterns::drafted(Model::Tshirt);
+        let file = |name: &str| {
+            let (name, bytes) = files.iter().find(|(known, _)| known == name).expect("drafted");
+            SourceFile { name: name.clone(), bytes: bytes.clone().into() }
+        };
+        let seams = file("tshirt.seams.toml");
+        let style = |size: &&str| {
+            let pattern = file(&format!("tshirt-{size}.dxf"));
+            patterns::read_style(&pattern, Some(&seams), None, None).expect("it is sewn")
+        };
+        let check = |sizes: &[&str], columns: &[&str]| {
+            let styles: Vec<Style> = sizes.iter().map(style).collect();
+            let names = sizes.iter().map(|size| size.to_uppercase()).collect();
+            let table = Specification::of("tee".to_owned(), names, &styles).table();
+            assert_eq!(table.columns, columns);
+            let chest = table.rows.iter().find(|row| row[0] == Value::Text("half_chest".into())).expect("a chest");
+            let number = |name: &str| {
+                let column = columns.iter().position(|column| *column == name)?;
+                if let Value::Real(number) = chest[column] { Some(number) } else { None }
+            };
+            for (before, size) in columns.iter().zip(&columns[1..]).skip(1) {
+                let Some(step) = number(&size.replace("_mm", "_step_mm")) else { continue };
+                let grown = number(size).expect("a length") - number(before).expect("a length");
+                assert!((step - grown).abs() < 0.11 && step != 0.0, "{before} to {size}: {step}, not {grown}");
+            }
+            for line in table.csv().lines().skip(1) {
+                assert!(!line.split(',').any(|cell| cell.starts_with(['+', '='])), "{line}");
+            }
+        };
+        check(&["m"], &["point", "M_mm", "definition"]);
+        let three = ["point", "S_mm", "M_mm", "L_mm", "M_step_mm", "L_step_mm", "definition"];
+        check(&["s", "m", "l"], &three);
+        let falling = ["point", "L_mm", "M_mm", "S_mm", "M_step_mm", "S_step_mm", "definition"];
+        check(&["l", "m", "s"], &falling);
+    }
+}

@@ -1,0 +1,401 @@
+//! A size of a style while its seams are worked on: its pattern, and the seam file as text that edits change.
+
+use std::path::{Path, PathBuf};
+
+use crate::seams::again::Reworked;
+use crate::seams::desk::{Desk, SURE, confidences, confirmed, hold_for};
+use crate::seams::step::SeamStep;
+use crate::seams::undecided::Undecided;
+use geom::units::mm;
+use pattern::Piece;
+use pattern::check::{self, Finding, FindingKind};
+use pattern::propose::{self, Answers, Question};
+use pattern::seam_edit::{Sizes, edited};
+use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+use pattern::style::Style;
+use spec::patterns::{self, Nest, Unit};
+use store::files::SourceFile;
+use store::{Problem, Result, StudyError};
+
+/// Begins a line of a proposed seam file that a person must answer.
+const QUESTION: &str = "# ASK: ";
+/// Begins one that asks no more, since somebody has said that the file is as it should be.
+const SETTLED: &str = "# SETTLED: ";
+/// Begins one that somebody has answered.
+const ANSWERED: &str = "# ANSWERED: ";
+
+/// A pattern and the seams of one of its sizes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Workpiece {
+    /// Pattern file with its bytes.
+    pub pattern: SourceFile,
+    /// Seam file; `None` where the pattern holds its seams, or has none yet.
+    pub seams: Option<SourceFile>,
+    /// Name of the size that is worked on.
+    pub size: String,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<Unit>,
+}
+
+/// A measurement on the pieces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeskLength {
+    /// Number by which tables and drawings name it (`#1`).
+    pub no: u32,
+    /// Name for people to read, such as `Neck Opening`.
+    pub name: String,
+    /// Pattern length L2D, mm.
+    pub l2d_mm: f64,
+}
+
+/// A size as it lies on the desk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaidOut {
+    /// Pieces and seams; a seam that was proposed and not confirmed has its confidence.
+    pub desk: Desk,
+    /// Measurements of the seam file, in its order.
+    pub lengths: Vec<DeskLength>,
+    /// What a person must decide: questions of a proposal, unsure seams, and what a check finds.
+    pub undecided: Vec<Undecided>,
+    /// Greatest difference of length between the sides of a seam that needs no word, mm.
+    pub tolerance_mm: f64,
+}
+
+impl Workpiece {
+    /// A pattern and its seam file; without a size the sample size.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub fn open(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Self> {
+        let (pattern, seams) = (SourceFile::read_pattern(pattern)?, seams.map(SourceFile::read).transpose()?);
+        let size = match size {
+            Some(size) => size.to_owned(),
+            None => Nest::read(&pattern, unit)?.sample_size().to_owned(),
+        };
+        Ok(Self { pattern, seams, size, unit })
+    }
+
+    /// Lays the pieces out with their seams.
+    ///
+    /// # Errors
+    /// When a file cannot be read or does not fit the other.
+    pub fn laid_out(&self) -> Result<LaidOut> {
+        let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
+        let mut desk = Desk::of(&style);
+        let (mut undecided, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
+        if let Some((file, text)) = self.seams.as_ref().zip(self.text()).filter(|_| !self.pattern.holds_seams()) {
+            for (seam, confidence) in desk.seams.iter_mut().zip(confidences(&text)) {
+                seam.confidence = confidence;
+            }
+            let asked: Vec<Question> = marked(&text, QUESTION).collect();
+            // What is asked of a seam by its name is not asked again.
+            let is_new = |seam: &usize| {
+                let name = &desk.seams[*seam].name;
+                !asked.iter().any(|one| one.text.split_once(": ").is_some_and(|(of, _)| of == name))
+            };
+            undecided.extend((0..desk.seams.len()).filter(is_new).filter_map(|seam| Undecided::unsure(&desk, seam)));
+            undecided.splice(0..0, asked.into_iter().map(Undecided::asked));
+            let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            tolerance_mm = entries.length_tolerance_mm;
+            let found = self.findings(&style)?;
+            // A piece that the file does not name is left out on purpose; the garment tells so where it is seen.
+            let is_left_out = |finding: &&Finding| finding.kind == FindingKind::UnusedPiece;
+            desk.left_out = found.iter().filter(is_left_out).map(|finding| finding.place.clone()).collect();
+            let unsewn: Vec<usize> = (0..desk.pieces.len()).filter(|piece| desk.is_unsewn(*piece)).collect();
+            undecided.extend(unsewn.iter().map(|piece| Undecided::unsewn(&desk, *piece)));
+            // What a piece is sewn to is asked once it is known what it is.
+            let is_of_unsewn = |finding: &&Finding| {
+                let of = |piece: &usize| finding.place.starts_with(&format!("{}.", desk.pieces[*piece].id));
+                finding.kind == FindingKind::FreeEdge && unsewn.iter().any(of)
+            };
+            let is_open =
+                |finding: &&Finding| finding.kind.is_of_seams() && !is_left_out(finding) && !is_of_unsewn(finding);
+            undecided.extend(found.iter().filter(is_open).map(|finding| Undecided::found(&desk, finding)));
+        }
+        let length =
+            |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
+        Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), undecided, tolerance_mm })
+    }
+
+    /// The seam file after a step.
+    ///
+    /// # Errors
+    /// When the pattern holds its own seams, or the step cannot be done.
+    pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
+        let refused = |message: String| StudyError::stage("pattern")(message);
+        if self.pattern.holds_seams() {
+            let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
+            return Err(refused(message));
+        }
+        if let SeamStep::Propose(style) = step {
+            return self.proposed(style);
+        }
+        if let SeamStep::Written(file) = step {
+            let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+            Style::read(&pieces, &file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            return Ok(file.clone());
+        }
+        let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
+        let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
+        let text = match step {
+            SeamStep::Edit(edit) => {
+                self.with_sizes(|sizes| edited(&text, &file.name, sizes, edit).map_err(StudyError::stage("pattern")))?
+            }
+            SeamStep::Confirm(seam) => confirmed(&text, |name, _| name == seam)
+                .ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?,
+            SeamStep::ConfirmSure => confirmed(&text, |_, confidence| confidence.is_some_and(|sure| sure >= SURE))
+                .ok_or_else(|| refused(format!("{}: no proposed seam is {:.0} % sure", file.name, 100.0 * SURE)))?,
+            SeamStep::Answer { question, choice } => self.answered(&text, question, *choice)?,
+            SeamStep::Decide(question) => {
+                let kept = settled(&text, question);
+                if kept == text {
+                    let accepted = "sew the edge, or name it in `open` of the seam file";
+                    return Err(refused(format!("{question}: the check finds it, nobody asks it; {accepted}")));
+                }
+                kept
+            }
+            SeamStep::Propose(_) | SeamStep::Written(_) => text,
+        };
+        Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
+    }
+
+    /// Does something with the pieces of all sizes that are sound.
+    fn with_sizes<T>(&self, act: impl FnOnce(&Sizes<'_>) -> Result<T>) -> Result<T> {
+        let nest = Nest::read(&self.pattern, self.unit)?;
+        let (pieces, others) = (nest.pieces(&self.size)?, nest.others(&self.size));
+        let sound = |(size, pieces): (String, Result<Vec<Piece>>)| Some((size, pieces.ok()?));
+        let others: Vec<_> = others.into_iter().filter_map(sound).collect();
+        act(&Sizes { name: &self.size, pieces: &pieces, others: &others })
+    }
+
+    /// A seam file proposed for the pieces, which holds for all sizes of the pattern.
+    ///
+    /// # Errors
+    /// When the pattern cannot be read, or no piece of it is recognised.
+    pub fn proposed(&self, style: &str) -> Result<SourceFile> {
+        self.proposed_for(style, Nest::read(&self.pattern, self.unit)?.others(&self.size))
+    }
+
+    /// [`Workpiece::proposed`], held to other sizes.
+    pub(crate) fn proposed_for(&self, style: &str, others: Vec<(String, Result<Vec<Piece>>)>) -> Result<SourceFile> {
+        self.proposed_told(style, others, &Answers::new())
+    }
+
+    /// The text of a proposal once a question is answered. What was confirmed stays so where it is proposed again.
+    fn answered(&self, text: &str, question: &str, choice: usize) -> Result<String> {
+        let asked: Vec<Question> = marked(text, QUESTION).chain(marked(text, ANSWERED)).collect();
+        let known = asked.iter().find(|asked| asked.text == question);
+        if known.is_none_or(|known| choice >= known.choices.len()) {
+            let accepted: Vec<String> = asked.iter().map(Question::to_string).collect();
+            let message =
+                format!("{question}: answer {}: accepted: {}", Question::letter(choice), accepted.join("; or "));
+            return Err(StudyError::stage("pattern")(message));
+        }
+        let given = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
+        let before: Answers = given.collect();
+        let mut answers = before.clone();
+        answers.insert(question.to_owned(), choice);
+        let file = self.seams.as_ref().map_or("", |file| file.name.as_str());
+        let entries = |text: &str| SeamFile::parse(text.as_bytes(), file).map_err(StudyError::stage("pattern"));
+        let old = entries(text)?;
+        let proposed = |answers| {
+            let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
+            let proposed = self.proposed_told(&old.name, others, answers)?;
+            Ok::<_, StudyError>(String::from_utf8_lossy(&proposed.bytes).into_owned())
+        };
+        let rework = Reworked { proposed: &proposed(&before)?, own: text, file };
+        let again = self.with_sizes(|sizes| rework.done_again(proposed(&answers)?, sizes))?;
+        let new = entries(&again)?;
+        let sure = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
+        let kept: Vec<&str> =
+            sure.filter(|(seam, _)| new.seam.contains(seam)).map(|(seam, _)| seam.name.as_str()).collect();
+        let again = confirmed(&again, |name, _| kept.contains(&name)).unwrap_or(again);
+        let before: Vec<String> = marked(text, SETTLED).map(|question| question.to_string()).collect();
+        Ok(before.iter().fold(again, |again, question| settled(&again, question)))
+    }
+
+    fn proposed_told(
+        &self,
+        style: &str,
+        others: Vec<(String, Result<Vec<Piece>>)>,
+        answers: &Answers,
+    ) -> Result<SourceFile> {
+        let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        let mut proposal = propose::propose_told(&pieces, answers);
+        if proposal.is_empty() {
+            let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
+            return Err(StudyError::stage("pattern")(message));
+        }
+        hold_for(&mut proposal, &self.size, &pieces, others);
+        let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
+        let text = proposal.toml(style);
+        Style::read(&pieces, text.as_bytes(), &name).map_err(StudyError::stage("pattern"))?;
+        Ok(SourceFile { name, bytes: text.into_bytes().into() })
+    }
+
+    /// Edges that the seam file means to be open, as `PIECE.EDGE`.
+    pub fn open_edges(&self) -> Vec<String> {
+        let entries = self.seams.as_ref().and_then(|file| SeamFile::parse(&file.bytes, &file.name).ok());
+        entries.map_or_else(Vec::new, |entries| entries.open)
+    }
+
+    /// What a check finds of the size as it is sewn; nothing of a pattern that holds its own seams.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub fn findings(&self, style: &Style) -> Result<Vec<Finding>> {
+        let Some(file) = self.seams.as_ref().filter(|_| !self.pattern.holds_seams()) else { return Ok(Vec::new()) };
+        let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+        let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        Ok(check::findings(&pieces, &entries, style))
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(String::from_utf8_lossy(&self.seams.as_ref()?.bytes).into_owned())
+    }
+}
+
+/// The text of a seam file with a question of it settled.
+fn settled(text: &str, question: &str) -> String {
+    let line = |line: &str| match line.strip_prefix(QUESTION) {
+        Some(asked) if asked.trim_end() == question => format!("{SETTLED}{asked}"),
+        _ => line.to_owned(),
+    };
+    text.split_inclusive('\n').map(line).collect()
+}
+
+/// Questions on lines of a seam file that begin with a mark.
+fn marked<'a>(text: &'a str, mark: &'a str) -> impl Iterator<Item = Question> + 'a {
+    text.lines().filter_map(move |line| line.strip_prefix(mark)).map(|line| Question::parse(line.trim_end()))
+}
+
+/// A seam file after a step of work, checked against the pattern; comments stay.
+///
+/// # Errors
+/// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
+pub fn edit_seams(
+    pattern: &Path,
+    seams: &Path,
+    size: Option<&str>,
+    unit: Option<Unit>,
+    step: &SeamStep,
+) -> Result<SourceFile> {
+    Workpiece::open(pattern, Some(seams), size, unit)?.after(step)
+}
+
+/// Where the seam file of a style lies in the folder of a study, if it still says there what it said when it was stored.
+#[must_use]
+pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathBuf> {
+    let text = std::fs::read_to_string(study).ok()?;
+    let table: toml::Table = text.parse().ok()?;
+    let of_style = |garment: &&toml::Value| garment.get("name").and_then(toml::Value::as_str) == Some(style);
+    let garment = table.get("garment")?.as_array()?.iter().find(of_style)?;
+    let path = study.parent()?.join(garment.get("seams")?.as_str()?);
+    std::fs::read(&path).is_ok_and(|bytes| *bytes == *stored.bytes).then_some(path)
+}
+
+/// Writes a seam file over one that still says what it said `before`.
+///
+/// # Errors
+/// When it says something else meanwhile, or cannot be read or written.
+pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Result<()> {
+    let found = std::fs::read(path).map_err(StudyError::io(path))?;
+    if *found != *before.bytes {
+        let problem = Problem::of(path, "it was changed meanwhile and stays as it is; the catalogue has the edits");
+        return Err(StudyError::File(vec![problem]));
+    }
+    std::fs::write(path, &after.bytes).map_err(StudyError::io(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pattern::draft::Model;
+    use pattern::seam_edit::Edit;
+
+    /// The T-shirt, size S, with seams of a text or none.
+    fn tshirt(seams: Option<String>) -> Workpiece {
+        let files = Model::Tshirt.files();
+        let (name, bytes) = files.into_iter().find(|(name, _)| name.ends_with("s.dxf")).expect("a size S");
+        let seams = seams.map(|text| SourceFile { name: "t.seams.toml".into(), bytes: text.into_bytes().into() });
+        Workpiece { pattern: SourceFile { name, bytes: bytes.into() }, seams, size: "S".into(), unit: None }
+    }
+
+    fn own_seams() -> String {
+        String::from_utf8(Model::Tshirt.seams().to_vec()).expect("it is UTF-8")
+    }
+
+    #[test]
+    fn a_style_is_laid_out_with_its_lengths_and_without_questions() {
+        let laid = tshirt(Some(own_seams())).laid_out().expect("it reads");
+        assert!(laid.desk.pieces.len() == 4 && laid.undecided.is_empty(), "{:?}", laid.undecided);
+        assert!(laid.desk.seams.iter().all(|seam| seam.confidence.is_none()));
+        let hem = laid.lengths.iter().find(|length| length.no == 1).expect("number 1");
+        assert!((hem.l2d_mm - 974.0).abs() < 0.2, "{hem:?}");
+    }
+
+    #[test]
+    fn a_proposal_is_confirmed_seam_by_seam_and_the_rest_of_its_text_stays() {
+        let mut piece = tshirt(None);
+        assert!(
+            piece.after(&SeamStep::Confirm("x".into())).expect_err("nothing yet").to_string().contains("propose one")
+        );
+        piece.seams = Some(piece.after(&SeamStep::Propose("tee".into())).expect("known pieces"));
+        let laid = piece.laid_out().expect("it fits");
+        let seams = laid.desk.seams.len();
+        assert!(seams >= 8 && laid.desk.seams.iter().all(|seam| seam.confidence.is_some()));
+        let name = laid.desk.seams[2].name.clone();
+        let before = piece.text().expect("proposed");
+        piece.seams = Some(piece.after(&SeamStep::Confirm(name.clone())).expect("it is there"));
+        let laid = piece.laid_out().expect("it fits");
+        let sure: Vec<&str> =
+            laid.desk.seams.iter().filter(|seam| seam.confidence.is_none()).map(|seam| seam.name.as_str()).collect();
+        assert_eq!(sure, [name.as_str()]);
+        let after = piece.text().expect("proposed");
+        let changed = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
+        assert_eq!((before.lines().count(), changed), (after.lines().count(), 1));
+        assert!(piece.after(&SeamStep::Confirm("none".into())).is_err());
+        piece.seams = Some(piece.after(&SeamStep::ConfirmSure).expect("most are"));
+        let left = piece.laid_out().expect("it fits").desk.seams;
+        assert!(left.iter().all(|seam| seam.confidence.is_none_or(|sure| sure < SURE)), "{left:?}");
+    }
+
+    #[test]
+    fn what_is_settled_stays_so_when_a_question_is_answered() {
+        let asked = "which is it? a: the right one; b: the left one (a is taken)";
+        let text = format!("{QUESTION}{asked}\n{QUESTION}is it whole?\nname = \"a\"\n");
+        let once = settled(&text, "is it whole?");
+        assert_eq!(once, format!("{QUESTION}{asked}\n{SETTLED}is it whole?\nname = \"a\"\n"));
+        assert_eq!(settled(&once, "is it whole?"), once, "nobody asks it any more");
+        assert_eq!(marked(&once, QUESTION).count(), 1);
+    }
+
+    #[test]
+    fn an_opened_seam_leaves_free_edges_to_decide_on() {
+        let mut piece = tshirt(Some(own_seams()));
+        let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
+        piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
+        let undecided = piece.laid_out().expect("it fits").undecided;
+        let free = undecided.iter().find(|one| one.text.contains("back.side_right")).expect("it is said").clone();
+        assert!(piece.after(&SeamStep::Decide(free.text.clone())).is_err(), "the check finds it, nobody asks it");
+        // Its likeliest answer sews it again.
+        piece.seams = Some(piece.after(&free.choices[0].step).expect("they fit"));
+        assert!(piece.laid_out().expect("it fits").undecided.is_empty());
+    }
+
+    #[test]
+    fn the_file_of_a_study_is_written_only_while_it_says_what_it_said() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let study = folder.path().join("study.toml");
+        std::fs::write(&study, "[[garment]]\nname = \"tee\"\nseams = \"a.toml\"\n").expect("writable");
+        let path = folder.path().join("a.toml");
+        std::fs::write(&path, "one").expect("writable");
+        let [one, two] = ["one", "two"].map(|text| SourceFile { name: "a.toml".into(), bytes: text.as_bytes().into() });
+        assert_eq!(seam_home(&study, "tee", &one), Some(path.clone()));
+        assert_eq!(seam_home(&study, "tee", &two), None);
+        assert_eq!(seam_home(&study, "dress", &one), None);
+        write_seams(&path, &one, &two).expect("it is as before");
+        assert_eq!(std::fs::read_to_string(&path).expect("readable"), "two");
+        assert!(write_seams(&path, &one, &two).expect_err("it is not").to_string().contains("changed meanwhile"));
+    }
+}
