@@ -6,7 +6,8 @@ use std::fmt::Write;
 
 use body::{self, Dimension, Measurements, Sex};
 use fit::Draw;
-use spec::fields::{filled, sex_name};
+use spec::entry::filled;
+use spec::fields::sex_name;
 use spec::{Given, MEASUREMENTS};
 use store::{JobId, Result, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue;

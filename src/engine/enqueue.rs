@@ -11,7 +11,7 @@ use geom::units::mm;
 use spec::{Change, Inputs, JobSpec, Limits, Selection, Study};
 use store::owner::Watch;
 use store::queue::{self, Event};
-use store::{JobId, Result, Status, Store, StudyError, now_ms, read};
+use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
 /// Why a job runs, or why it need not.
@@ -221,7 +221,7 @@ fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Re
             "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
         )?
         .query_map([study_id], |row| {
-            let cell = Cell(row.get(1)?, row.get(2)?, row.get(3)?, read::simulator(row, 4)?, row.get(5)?);
+            let cell = Cell(row.get(1)?, row.get(2)?, row.get(3)?, columns::simulator(row, 4)?, row.get(5)?);
             Ok((JobId(row.get(0)?), cell))
         })?
         .collect::<rusqlite::Result<_>>()?;
@@ -259,7 +259,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
         )?
         .query_row(
             params![study_id, spec.garment, spec.size, spec.subject, spec.simulator.as_str(), spec.repeat, hash],
-            |row| Ok((JobId(row.get(0)?), read::status(row, 1)?)),
+            |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)),
         )
         .optional()?;
     let earlier = latest_of_cell(transaction, study_id, spec)?;

@@ -9,56 +9,17 @@ use std::time::Instant;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
-use serde::{Deserialize, Serialize};
 
 use crate::enqueue::{self, Planned};
-use crate::isolated::{self, Clock, Teller};
-use crate::outcome::{self, Executor, Outcome, Provenance};
+use crate::job_files::{FORMAT, JOB, JobFile, Product, ResultFile, read_json, result_of, results_in, write_json};
+use crate::outcome::{self, Executor, Provenance};
+use crate::own_process::{self, Clock, Teller};
 use crate::pipeline::Pipeline;
-use crate::run::check_names;
-use sim::{Monitor, Progress};
-use spec::{JobSpec, Selection, Study};
+use spec::{Selection, Study};
 use store::cache::Cache;
 use store::owner::Owner;
 use store::queue::{self, Event};
-use store::{Access, JobId, Result, Status, Store, StudyError, evidence, now_ms, read};
-
-/// Layout of the files; raised when it changes.
-const FORMAT: u32 = 1;
-/// How a job file ends.
-const JOB: &str = ".job.json";
-/// How a result file ends.
-const RESULT: &str = ".result.json";
-
-/// A job, for another machine.
-#[derive(Serialize, Deserialize)]
-struct JobFile {
-    format: u32,
-    study: String,
-    provenance: Provenance,
-    spec: JobSpec,
-}
-
-/// What came of a job on another machine.
-#[derive(Serialize, Deserialize)]
-struct ResultFile {
-    format: u32,
-    study: String,
-    input_hash: String,
-    spec: JobSpec,
-    provenance: Provenance,
-    wall_ms: i64,
-    outcome: std::result::Result<Outcome, String>,
-    products: Vec<Product>,
-}
-
-/// A product of a stage as it is stored: packed.
-#[derive(Serialize, Deserialize)]
-struct Product {
-    hash: String,
-    kind: String,
-    packed: String,
-}
+use store::{Access, JobId, Result, Status, Store, StudyError, columns, evidence, now_ms};
 
 /// A job that was handed out.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +57,7 @@ pub struct Ran {
 /// # Errors
 /// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
 pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
-    check_names(study, selection)?;
+    selection.check(study)?;
     let transaction = store::write(store.writer()?)?;
     let planned = enqueue::enqueue(&transaction, study, selection)?;
     transaction.commit()?;
@@ -149,9 +110,9 @@ pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
 pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> Result<Ran> {
     let job: JobFile = read_json(path, "job")?;
     if database.is_some() {
-        isolated::end_with_parent();
+        own_process::end_with_parent();
     }
-    isolated::keep_to(&job.spec.schedule.limits)?;
+    own_process::keep_to(&job.spec.schedule.limits)?;
     let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
     let scratch = folder.path().join("job.sqlite");
     let connection = store::open(&scratch, Access::Create)?;
@@ -180,37 +141,6 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     let file = output.map_or_else(|| result_of(path), Path::to_owned);
     write_json(&file, &result)?;
     Ok(Ran { file, error })
-}
-
-/// Writes a job file for a process that this one starts; where it is made does not go along.
-pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
-    let (study, provenance) = (String::new(), Provenance::default());
-    write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
-}
-
-/// What came of a job, from its result file.
-pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
-    let result: ResultFile = read_json(path, "result")?;
-    result.outcome.map_err(|message| StudyError::Elsewhere { message })
-}
-
-/// Where the result of a job file is written.
-pub(crate) fn result_of(job: &Path) -> PathBuf {
-    let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
-}
-
-/// The result files of a folder, by name.
-pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
-        let path = entry.map_err(StudyError::io(folder))?.path();
-        if path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(RESULT)) {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
 }
 
 /// Everything that the stages stored.
@@ -245,7 +175,7 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
     ];
     let found = transaction
         .prepare_cached(sql)?
-        .query_row(cell, |row| Ok((JobId(row.get(0)?), read::status(row, 1)?)))
+        .query_row(cell, |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)))
         .optional()?;
     let (id, status) = found.ok_or_else(|| {
         let (study, garment, size, subject) = (&result.study, &spec.garment, &spec.size, &spec.subject);
@@ -285,36 +215,4 @@ fn take_products(transaction: &Transaction<'_>, products: &[Product]) -> Result<
         statement.execute(params![product.hash, product.kind, packed, now_ms()])?;
     }
     Ok(())
-}
-
-/// Reads one of the files.
-fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'static str) -> Result<T> {
-    #[derive(Deserialize)]
-    struct Head {
-        format: u32,
-    }
-    let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-    let refuse = |found: String| StudyError::stage(what)(format!("{}: {found}", path.display()));
-    let head: Head =
-        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {what} file: {error}")))?;
-    if head.format != FORMAT {
-        return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
-    }
-    serde_json::from_slice(&bytes).map_err(|error| refuse(error.to_string()))
-}
-
-/// Writes a file that is there whole or not at all, whenever the program ends.
-fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let bytes = serde_json::to_vec(value).map_err(StudyError::stage("store"))?;
-    let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));
-    std::fs::write(&part, bytes).map_err(StudyError::io(&part))?;
-    std::fs::File::open(&part).and_then(|file| file.sync_all()).map_err(StudyError::io(&part))?;
-    std::fs::rename(&part, path).map_err(StudyError::io(path))
-}
-
-/// A run whose progress nobody watches.
-pub struct Untold;
-
-impl Monitor for Untold {
-    fn progress(&mut self, _: &Progress) {}
 }

@@ -7,24 +7,18 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use rustix::process::{Resource, Rlimit, Signal, set_parent_process_death_signal, setrlimit};
-use serde::{Deserialize, Serialize};
-
-use crate::handout;
+use crate::job_files;
 use crate::outcome::{Executor, Outcome};
+use crate::own_process::{Clock, Line};
 use crate::pipeline::Pipeline;
-use sim::{Monitor, Progress, Step};
+use sim::{Monitor, Progress};
 use spec::{JobSpec, Limits};
 use store::{Result, StudyError};
 
 /// Time between two looks at a process.
 const LOOK: Duration = Duration::from_millis(50);
-/// Time between two lines in which a process says how far it is.
-const LINES: Duration = Duration::from_millis(200);
-/// What simulators call their phases.
-const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
 /// What is said where memory is not given.
 const NO_MEMORY: [&str; 3] = ["memory allocation of", "out of memory", "Cannot allocate memory"];
 
@@ -48,13 +42,13 @@ impl Executor for Isolated {
         }
         let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
         let [job, result] = ["job.json", "result.json"].map(|name| folder.path().join(name));
-        handout::write_job(&job, spec)?;
+        job_files::write_job(&job, spec)?;
         let limits = spec.schedule.limits;
         let (status, said) = watch(start(&job, &result, &self.database)?, &limits, monitor)?;
         if !result.exists() {
             return Err(ended(status, &said, &limits));
         }
-        handout::read_outcome(&result).map_err(|error| out_of_memory(&error.to_string(), &limits).unwrap_or(error))
+        job_files::read_outcome(&result).map_err(|error| out_of_memory(&error.to_string(), &limits).unwrap_or(error))
     }
 }
 
@@ -127,89 +121,6 @@ fn out_of_memory(said: &str, limits: &Limits) -> Option<StudyError> {
     Some(StudyError::stage("limit")(format!("needed more than its memory limit of {megabytes} MB")))
 }
 
-/// Time that a job may take.
-pub(crate) struct Clock {
-    began: Instant,
-    limit_s: Option<f64>,
-}
-
-impl Clock {
-    /// Starts the clock of a job.
-    pub fn start(limits: &Limits) -> Self {
-        Self { began: Instant::now(), limit_s: limits.time_s }
-    }
-
-    /// Whether it has taken longer.
-    pub fn is_over(&self) -> bool {
-        self.limit_s.is_some_and(|limit_s| self.began.elapsed().as_secs_f64() > limit_s)
-    }
-
-    /// The error of a job that has.
-    pub fn error(&self) -> StudyError {
-        StudyError::stage("limit")(format!("took longer than its time limit of {} s", self.limit_s.unwrap_or_default()))
-    }
-}
-
-/// Keeps this process to a memory limit.
-///
-/// # Errors
-/// When the system refuses.
-pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
-    let Some(megabytes) = limits.memory_mb else { return Ok(()) };
-    let most = Some(u64::from(megabytes) * 1_000_000);
-    setrlimit(Resource::Data, Rlimit { current: most, maximum: most })
-        .map_err(|error| StudyError::stage("limit")(format!("memory_limit_mb = {megabytes}: {error}")))
-}
-
-/// Ends this process with the one that started it.
-pub(crate) fn end_with_parent() {
-    // Where the system cannot, it ends with its job.
-    let _ = set_parent_process_death_signal(Some(Signal::KILL));
-}
-
-/// The monitor of a job in a process of its own: its time, and lines for whoever started it.
-pub(crate) struct Teller {
-    pub clock: Clock,
-    /// Whether somebody reads the lines.
-    pub is_heard: bool,
-    pub last: Option<Instant>,
-}
-
-impl Monitor for Teller {
-    fn progress(&mut self, progress: &Progress) {
-        if !self.is_heard || self.last.is_some_and(|last| last.elapsed() < LINES) {
-            return;
-        }
-        self.last = Some(Instant::now());
-        let Progress { phase, fraction, step } = *progress;
-        if let Ok(line) = serde_json::to_string(&Line { phase: phase.to_owned(), fraction, step }) {
-            // Nobody may listen any more.
-            let _ = std::io::Write::write_all(&mut std::io::stdout().lock(), format!("{line}\n").as_bytes());
-        }
-    }
-
-    fn cancelled(&self) -> bool {
-        self.clock.is_over()
-    }
-}
-
-/// How far a job is, as one line.
-#[derive(Serialize, Deserialize)]
-struct Line {
-    phase: String,
-    fraction: f64,
-    step: Step,
-}
-
-impl Line {
-    /// What a line says; `None` for any other line.
-    fn read(text: &str) -> Option<Progress> {
-        let Self { phase, fraction, step } = serde_json::from_str(text).ok()?;
-        let phase = PHASES.into_iter().find(|known| *known == phase).unwrap_or("works");
-        Some(Progress { phase, fraction, step })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::os::unix::process::ExitStatusExt;
@@ -231,13 +142,5 @@ mod tests {
             "job: its process ended with signal: 6 (SIGABRT): memory allocation of 4096 bytes failed",
         );
         check(9, "", Some(80), "job: its process ended with signal: 9 (SIGKILL): it said nothing");
-    }
-
-    #[test]
-    fn lines_of_progress_are_read_and_others_are_not() {
-        let step = Step { iteration: 3, level: 1, residual: 0.25, seam_gap_m: 0.0, e_chi: 1.0 };
-        let line = serde_json::to_string(&Line { phase: "settle".into(), fraction: 0.5, step }).expect("finite");
-        assert_eq!(Line::read(&line), Some(Progress { phase: "settle", fraction: 0.5, step }));
-        assert_eq!(Line::read("jobs/1.result.json"), None);
     }
 }

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::fitting::Fitting;
 use crate::outcome::Outcome;
-use crate::pipeline::{Fitting, Meshes, style};
+use crate::stages::{Meshes, style};
 use body::Body;
 use fit::Simulator;
 use geom::DistanceField;
@@ -16,6 +17,8 @@ use store::{Result, StudyError};
 /// Drapes of all layers, the inmost first, as the cache keeps them.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct Drapes(pub Vec<Drape>);
+
+store::json_artefact!(Drapes);
 
 /// A garment that is worn with others.
 pub(crate) struct Garb {

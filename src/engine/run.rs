@@ -90,7 +90,7 @@ pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
 /// # Errors
 /// When the database is open read-only or a selection names what the study does not have.
 pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-    check_names(study, selection)?;
+    selection.check(study)?;
     let transaction = store::write(store.writer()?)?;
     let planned = enqueue::enqueue(&transaction, study, selection);
     transaction.rollback()?;
@@ -140,7 +140,7 @@ fn launch(
     executor: Arc<dyn Executor + Send>,
     aside: impl FnOnce() + Send + 'static,
 ) -> Result<Run> {
-    check_names(study, &options.selection)?;
+    options.selection.check(study)?;
     let transaction = store::write(store.writer()?)?;
     let planned = Arc::new(enqueue::enqueue(&transaction, study, &options.selection)?);
     transaction.commit()?;
@@ -234,24 +234,4 @@ fn check_patterns(study: &Study) -> Result<()> {
         }
     }
     if problems.is_empty() { Ok(()) } else { Err(StudyError::File(problems)) }
-}
-
-/// Refuses a selection with a name that the study does not have.
-pub(crate) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
-    let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
-    let axes: [(&'static str, &[String], Vec<&str>); 4] = [
-        ("simulator", &selection.simulators, study.simulators.iter().map(|simulator| simulator.as_str()).collect()),
-        ("size", &selection.sizes, sizes.collect()),
-        ("subject", &selection.subjects, study.subjects.iter().map(|subject| subject.id.as_str()).collect()),
-        ("garment", &selection.garments, study.worn().map(|garment| garment.name.as_str()).collect()),
-    ];
-    for (what, wanted, known) in axes {
-        let mut seen = BTreeSet::new();
-        let known: Vec<&str> = known.into_iter().filter(|name| seen.insert(*name)).collect();
-        if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
-            let known = known.into_iter().map(str::to_owned).collect();
-            return Err(StudyError::NotFound { what, name: name.clone(), known });
-        }
-    }
-    Ok(())
 }

@@ -9,7 +9,8 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::enqueue::Planned;
-use crate::handout::{self, HandedOut, Merged, result_of};
+use crate::handout::{self, HandedOut, Merged};
+use crate::job_files::result_of;
 use spec::{Selection, Study};
 use store::{JobId, Result, Store, StudyError};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use image::{GenericImage, RgbaImage};
 
 use body::{Dimension, Girths, Mass};
-use engine::pipeline::{self, Model};
+use engine::stages::{self, Model};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 use store::cache::{self, Cache};
 use store::{Result, StageKind, Store, StudyError, SubjectId};
@@ -37,7 +37,7 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
 /// When there is none of that number, or no body can be built from its measurements.
 pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
     let (name, person) = (catalogue::subject_revision(store, id)?.name, catalogue::person(store, id)?);
-    let hash = pipeline::body_inputs(&name, &person).stage_hash(StageKind::Body);
+    let hash = stages::body_inputs(&name, &person).stage_hash(StageKind::Body);
     let make = || Ok(Model { body: person.body()? });
     let model = if store.is_readonly() {
         Arc::new(cache::stored(&store.reader, &hash).or_else(|_| make())?)

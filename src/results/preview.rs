@@ -10,7 +10,7 @@ use image::RgbaImage;
 use crate::figure;
 use crate::picture::Look;
 use engine::faults::drape_faults;
-use engine::pipeline::{Meshes, Model};
+use engine::stages::{Meshes, Model};
 use fit::measure;
 use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};

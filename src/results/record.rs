@@ -5,9 +5,9 @@ use std::path::Path;
 
 use rusqlite::{OptionalExtension, Row};
 
-use engine::handout::Untold;
 use engine::{Executor, Outcome, Pipeline, enqueue};
 use geom::units::{from_mm, mm};
+use sim::Silent;
 use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
 use store::cache::Cache;
 use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, StageRow, Store, StudyError, SubjectId, read};
@@ -145,7 +145,7 @@ pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
     let scratch = folder.path().join("again.sqlite");
     drop(store::open(&scratch, Access::Create)?);
-    let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Untold)?;
+    let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Silent)?;
     Ok(Rerun {
         inputs: spec.inputs.changes_since(&enqueue::inputs(store, id)?),
         chi: paired(&read::chi(store, id)?, &rows_of(&outcome)),

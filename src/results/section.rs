@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::picture;
 use body::Body;
-use engine::pipeline::Model;
+use engine::stages::Model;
 use fit::worn::{Angle, DIRECTIONS, Section, Site, sites};
 use geom::V2;
 use geom::section::Outline;

@@ -10,8 +10,8 @@ use crate::schedule::Schedule;
 use crate::versions;
 use fit::Simulator;
 use sim::Fabric;
-use store::JobRow;
 use store::files::SourceFile;
+use store::{JobRow, Result, StudyError};
 
 /// One simulation with everything it needs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -108,6 +108,29 @@ impl Selection {
     #[must_use]
     pub fn takes_row(&self, job: &JobRow) -> bool {
         self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
+    }
+
+    /// Refuses a name that a study does not have.
+    ///
+    /// # Errors
+    /// [`StudyError::NotFound`] with the names that there are.
+    pub fn check(&self, study: &Study) -> Result<()> {
+        let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
+        let axes: [(&'static str, &[String], Vec<&str>); 4] = [
+            ("simulator", &self.simulators, study.simulators.iter().map(|simulator| simulator.as_str()).collect()),
+            ("size", &self.sizes, sizes.collect()),
+            ("subject", &self.subjects, study.subjects.iter().map(|subject| subject.id.as_str()).collect()),
+            ("garment", &self.garments, study.worn().map(|garment| garment.name.as_str()).collect()),
+        ];
+        for (what, wanted, known) in axes {
+            let mut seen = BTreeSet::new();
+            let known: Vec<&str> = known.into_iter().filter(|name| seen.insert(*name)).collect();
+            if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
+                let known = known.into_iter().map(str::to_owned).collect();
+                return Err(StudyError::NotFound { what, name: name.clone(), known });
+            }
+        }
+        Ok(())
     }
 
     fn takes_cell(&self, [simulator, size, subject, garment]: [&str; 4]) -> bool {

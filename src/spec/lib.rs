@@ -2,6 +2,7 @@
 //! its result. A body and a pattern are built here from their files, since a study file is checked against both.
 
 pub mod bodies;
+pub mod entry;
 pub mod export;
 pub mod fields;
 pub mod file;
@@ -14,12 +15,12 @@ mod schedule;
 pub mod sheets;
 pub mod versions;
 
+pub use entry::{Field, Given};
 pub use export::export_study;
-pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
+pub use fields::{FABRIC_NUMBERS, MEASUREMENTS, sex};
 pub use file::{Person, Study, read_measurements, study_file};
 pub use inputs::{Change, Inputs};
 pub use job::{CARRIED_FROM, JobSpec, Outfit, PATTERN_SIZE, Selection, fabric_inputs, jobs, jobs_of, subject_inputs};
 pub use new_study::{QUICKSTART, new_study, write_quickstart};
-pub use parameters::Parameters;
+pub use parameters::{Parameters, SIMULATORS};
 pub use schedule::{Limits, Schedule};
-pub use versions::SIMULATORS;

@@ -8,10 +8,12 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::inputs::Inputs;
-use crate::versions::SIMULATORS;
 use fit::Simulator;
 use sim::{fem, hybrid};
 use store::{Result, StudyError, nearest};
+
+/// The simulators there are.
+pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Values other than the default ones, by name; in the unit that ends the name.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use crate::fields::{Field, Sheet};
+use crate::entry::{Field, Sheet};
 use geom::units::{GRAVITY, from_mm};
 use sim::Fabric;
 
@@ -88,7 +88,8 @@ fn at_100(stretch_pct: f64, _: &Fabric) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fields::{Entry, FABRIC_NUMBERS, Given, filled};
+    use crate::entry::{Entry, Given, filled};
+    use crate::fields::FABRIC_NUMBERS;
 
     fn given(pairs: &[(&str, &str)]) -> Vec<Given> {
         pairs.iter().map(|(key, text)| ((*key).to_owned(), (*text).to_owned())).collect()

@@ -3,9 +3,6 @@
 use crate::parameters;
 use fit::Simulator;
 
-/// The simulators there are.
-pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
-
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 pub const VERSIONS: [(&str, u32); 3] = [("body.version", 7), ("field.version", 4), ("mesh.version", 8)];
 /// Version of what is read on a scan: an input of those who are one.

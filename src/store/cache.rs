@@ -12,9 +12,10 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use rusqlite::{Connection, OptionalExtension, params};
 
-use crate::database::{self, Access, now_ms};
+use crate::connection::{self, Access};
 use crate::error::{Result, StudyError};
 use crate::rows::StageKind;
+use crate::transaction::now_ms;
 use geom::DistanceField;
 
 /// A product that can be stored.
@@ -125,7 +126,7 @@ impl Cache {
         if let Some(product) = slot.clone().and_then(|product| product.downcast::<T>().ok()) {
             return Ok((product, used(true)));
         }
-        let connection = database::open(&self.path, Access::Write)?;
+        let connection = connection::open(&self.path, Access::Write)?;
         let stored = load(&connection, hash)?.and_then(|bytes| Some((T::decode(&bytes).ok()?, bytes.len())));
         let was_cached = stored.is_some();
         let (product, size) = match stored {
@@ -214,7 +215,7 @@ mod tests {
 
     /// The cache of a new database.
     fn new_cache(path: &Path) -> Cache {
-        database::open(path, Access::Create).expect("a new database");
+        connection::open(path, Access::Create).expect("a new database");
         Cache::new(path.to_owned())
     }
 
@@ -246,7 +247,7 @@ mod tests {
     fn what_cannot_be_read_is_made_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("toile.sqlite");
-        let connection = database::open(&path, Access::Create).expect("a new database");
+        let connection = connection::open(&path, Access::Create).expect("a new database");
         save(&connection, StageKind::Body, "hash", &[0xff]).expect("writable");
         assert_eq!(get(&Cache::new(path.clone()), StageKind::Body, "again"), ("again".to_owned(), false));
         assert_eq!(get(&Cache::new(path), StageKind::Body, "more"), ("again".to_owned(), true));

@@ -3,21 +3,26 @@
 //!
 //! The only owner of SQL connections. SI units in rows, millimetres in SQL.
 
-pub mod browse;
 pub mod cache;
+pub mod columns;
+mod connection;
 mod database;
 mod error;
 pub mod evidence;
 pub mod files;
+mod functions;
 pub mod live;
 pub mod owner;
 pub mod queue;
 pub mod read;
 mod rows;
+pub mod saved;
+mod schema;
 pub mod sql;
+mod transaction;
 
-pub use browse::{Relation, SqlAnswer};
-pub use database::{Access, Store, lightly, now_ms, open, still_there, write};
+pub use connection::{Access, open, still_there};
+pub use database::Store;
 pub use error::{InFile, Problem, Result, StudyError, hidden_hint, nearest};
 pub use evidence::PUBLISHED;
 pub use live::{Live, LiveFrame};
@@ -26,4 +31,6 @@ pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
     StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,
 };
-pub use sql::{Interrupter, SavedQuery, save_query, saved_queries, saved_query};
+pub use saved::{SavedQuery, save_query, saved_queries, saved_query};
+pub use sql::{Interrupter, Relation, SqlAnswer};
+pub use transaction::{lightly, now_ms, write};

@@ -5,11 +5,11 @@
 
 use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
 
-use crate::database::now_ms;
+use crate::columns::status;
 use crate::error::{Result, StudyError};
 use crate::owner::{self, Owner, Watch};
-use crate::read;
 use crate::rows::{JobId, Status};
+use crate::transaction::now_ms;
 
 /// A job whose process died this often is failed, lest it kill every process that takes it.
 const MAX_LOST: u32 = 10;
@@ -130,7 +130,7 @@ pub fn set_needs(transaction: &Transaction<'_>, id: JobId, needs: &[JobId]) -> R
 fn load(connection: &Connection, id: JobId) -> Result<State> {
     let state = connection
         .prepare_cached("SELECT status, attempts, owner FROM job WHERE job_id = ?")?
-        .query_row([id.0], |row| Ok(State { status: read::status(row, 0)?, attempts: row.get(1)?, owner: row.get(2)? }))
+        .query_row([id.0], |row| Ok(State { status: status(row, 0)?, attempts: row.get(1)?, owner: row.get(2)? }))
         .optional()?;
     state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use rusqlite::{OptionalExtension, Row, ToSql, named_params};
 
+use crate::columns::{fit_class, simulator, status};
 use crate::database::Store;
 use crate::error::{Result, StudyError};
 use crate::rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
     Status, StudyRow,
 };
-use fit::{Cuts, FitClass, Simulator};
+use fit::{Cuts, Simulator};
 use geom::units::from_mm;
 use sim::Step;
 
@@ -349,37 +350,6 @@ fn step(row: &Row<'_>, first: usize) -> rusqlite::Result<Step> {
         residual: number(2)?,
         seam_gap_m: from_mm(number(3)?),
         e_chi: number(4)?,
-    })
-}
-
-/// A name from a column, as the value it stands for.
-fn named<T>(row: &Row<'_>, column: usize, parse: impl Fn(&str) -> Option<T>) -> rusqlite::Result<T> {
-    let name: String = row.get(column)?;
-    parse(&name).ok_or_else(|| {
-        let message = format!("unknown name `{name}`");
-        rusqlite::Error::FromSqlConversionFailure(column, rusqlite::types::Type::Text, message.into())
-    })
-}
-
-/// Status of a job from its name in a column.
-///
-/// # Errors
-/// When no status is called so.
-pub fn status(row: &Row<'_>, column: usize) -> rusqlite::Result<Status> {
-    named(row, column, Status::from_name)
-}
-
-/// Simulator from its name in a column.
-///
-/// # Errors
-/// When none is called so.
-pub fn simulator(row: &Row<'_>, column: usize) -> rusqlite::Result<Simulator> {
-    named(row, column, |name| [Simulator::Fem, Simulator::Hybrid].into_iter().find(|sim| sim.as_str() == name))
-}
-
-pub(crate) fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitClass> {
-    named(row, column, |name| {
-        [FitClass::Tight, FitClass::Just, FitClass::Loose].into_iter().find(|class| class.as_str() == name)
     })
 }
 

@@ -1,87 +1,18 @@
-//! Questions in SQL: a read-only connection with a few statistics SQLite does not have.
+//! Questions in SQL, which nothing can be written by.
 
-use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use rusqlite::functions::{Aggregate, Context, FunctionFlags};
+use rusqlite::ErrorCode;
+use rusqlite::fallible_iterator::FallibleIterator;
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, Error};
 
-use crate::browse;
 use crate::database::Store;
 use crate::error::{Result, StudyError};
-use crate::files::write_files;
-use crate::rows::{Table, Value};
-
-/// Queries that come with the program.
-const SAVED: [(&str, &str); 8] = [
-    ("against_thesis", include_str!("../../db/queries/against_thesis.sql")),
-    ("attention", include_str!("../../db/queries/attention.sql")),
-    ("ease_and_error", include_str!("../../db/queries/ease_and_error.sql")),
-    ("measurements", include_str!("../../db/queries/measurements.sql")),
-    ("preposition", include_str!("../../db/queries/preposition.sql")),
-    ("sizes", include_str!("../../db/queries/sizes.sql")),
-    ("thesis_table", include_str!("../../db/queries/thesis_table.sql")),
-    ("times", include_str!("../../db/queries/times.sql")),
-];
-
-/// A query that has a name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SavedQuery {
-    /// Name by which it is asked for.
-    pub name: String,
-    /// What it asks: its first line, where that is a comment.
-    pub about: String,
-    /// Text of the query.
-    pub sql: String,
-}
-
-/// The saved queries by name: those of the program, and of a folder with a file NAME.sql each, which win.
-///
-/// # Errors
-/// When the folder has a file that cannot be read.
-pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
-    let mut found: BTreeMap<String, String> = BTreeMap::new();
-    found.extend(SAVED.iter().map(|(name, sql)| ((*name).to_owned(), (*sql).to_owned())));
-    let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok());
-    for path in entries.into_iter().flatten().flatten().map(|entry| entry.path()) {
-        if path.extension().is_some_and(|extension| extension == "sql") {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            found.insert(name, std::fs::read_to_string(&path).map_err(StudyError::io(&path))?);
-        }
-    }
-    let about = |sql: &str| sql.lines().next().and_then(|line| line.strip_prefix("-- ")).unwrap_or_default().to_owned();
-    Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
-}
-
-/// Saves a query under a name in a folder, over one of that name.
-///
-/// # Errors
-/// When the name is none of a file, or it cannot be written.
-pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
-    let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
-    if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
-        let problem = format!("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks");
-        return Err(StudyError::stage("sql")(problem));
-    }
-    write_files(folder, &[(format!("{name}.sql"), format!("{}\n", sql.trim_end()).into_bytes())]).map(drop)
-}
-
-/// The text of a saved query.
-///
-/// # Errors
-/// When there is none of that name.
-pub fn saved_query(folder: Option<&Path>, name: &str) -> Result<String> {
-    let saved = saved_queries(folder)?;
-    let known = saved.iter().map(|saved| saved.name.clone()).collect();
-    let found = saved.into_iter().find(|saved| saved.name == name);
-    found.map(|saved| saved.sql).ok_or_else(|| StudyError::NotFound {
-        what: "saved query",
-        name: name.to_owned(),
-        known,
-    })
-}
+use crate::files::kind_of;
+use crate::rows::{Table, Value, csv_head, csv_row};
 
 /// Stops a query that another thread waits for.
 pub struct Interrupter(rusqlite::InterruptHandle);
@@ -107,7 +38,7 @@ pub fn interrupter(store: &Store) -> Interrupter {
 /// # Errors
 /// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
 pub fn query(store: &Store, sql: &str) -> Result<Table> {
-    Ok(browse::answer(store, sql, usize::MAX, &AtomicBool::new(false))?.table)
+    Ok(answer(store, sql, usize::MAX, &AtomicBool::new(false))?.table)
 }
 
 pub(crate) fn value(value: ValueRef<'_>) -> Value {
@@ -120,107 +51,226 @@ pub(crate) fn value(value: ValueRef<'_>) -> Value {
     }
 }
 
-/// Adds the statistics to a connection.
-pub(crate) fn add_functions(connection: &Connection) -> rusqlite::Result<()> {
-    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
-    connection.create_aggregate_function("median", 1, flags, Quantile)?;
-    connection.create_aggregate_function("quantile", 2, flags, Quantile)?;
-    connection.create_aggregate_function("stddev", 1, flags, Deviation)
+/// The rows of a query, as far as they were wanted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SqlAnswer {
+    /// Columns and rows.
+    pub table: Table,
+    /// Whether there are more rows.
+    pub is_cut: bool,
 }
 
-/// `quantile(x, p)`, and `median(x)` with p = 1/2.
-struct Quantile;
-
-/// Numbers of a group and the share asked for.
-struct Sample {
-    values: Vec<f64>,
-    share: f64,
+/// A table or view, and its columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relation {
+    /// Name of the table or view.
+    pub name: String,
+    /// Names of its columns, in order.
+    pub columns: Vec<String>,
 }
 
-impl Aggregate<Sample, Option<f64>> for Quantile {
-    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<Sample> {
-        Ok(Sample { values: Vec::new(), share: 0.5 })
+/// Answers a query as [`query`] does, with at most so many rows; `stop` ends it early.
+///
+/// # Errors
+/// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
+pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
+    let mut answer = SqlAnswer::default();
+    each_row(store, text, stop, |columns, row| {
+        if answer.table.columns != columns {
+            answer.table.columns = columns.to_vec();
+        }
+        if let Some(row) = row {
+            answer.is_cut = answer.table.rows.len() == most;
+            if !answer.is_cut {
+                answer.table.rows.push(row);
+            }
+        } else {
+            answer.table.rows.clear();
+        }
+        Ok(!answer.is_cut)
+    })?;
+    Ok(answer)
+}
+
+/// Writes all rows of a query into a file, CSV or JSON as its name ends. Returns how many rows.
+///
+/// # Errors
+/// What SQLite says of the query; when the file has another ending, is there already or cannot be written; when it was
+/// stopped.
+pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
+    let is_json = kind_of(path, &[("csv", false), ("json", true)]).map_err(StudyError::stage("sql"))?;
+    let file = File::create_new(path).map_err(StudyError::io(path))?;
+    let mut out = BufWriter::new(file);
+    let mut rows = 0;
+    let written = each_row(store, text, stop, |columns, row| {
+        let line = match (&row, is_json) {
+            (None, true) => String::new(),
+            (None, false) => csv_head(columns),
+            (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
+            (Some(row), false) => csv_row(row),
+        };
+        rows += usize::from(row.is_some());
+        out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
+        Ok(true)
+    });
+    let end = match (is_json, rows) {
+        (false, _) => "",
+        (true, 0) => "[]\n",
+        (true, _) => "\n]\n",
+    };
+    let written =
+        written.and_then(|()| out.write_all(end.as_bytes()).and_then(|()| out.flush()).map_err(StudyError::io(path)));
+    if written.is_err() {
+        // Half a file would pass for a whole one; that it cannot be removed is the lesser error.
+        let _ = fs::remove_file(path);
     }
+    written.map(|()| rows)
+}
 
-    fn step(&self, context: &mut Context<'_>, sample: &mut Sample) -> rusqlite::Result<()> {
-        if context.len() > 1 {
-            sample.share = context.get(1)?;
-            if !(0.0..=1.0).contains(&sample.share) {
-                let message = format!("quantile: share {} is not between 0 and 1", sample.share);
-                return Err(Error::UserFunctionError(message.into()));
+/// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
+fn each_row(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    walk_rows(store, text, stop, take).map_err(|error| match error {
+        StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
+            StudyError::Interrupted
+        }
+        error => error,
+    })
+}
+
+fn walk_rows(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    mut take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    let mut batch = rusqlite::Batch::new(&store.reader, text);
+    let mut next = batch.next()?;
+    while let Some(mut statement) = next {
+        next = batch.next()?;
+        let columns: Vec<String> = statement.column_names().map(str::to_owned).collect();
+        let is_last = next.is_none();
+        if is_last {
+            take(&columns, None)?;
+        }
+        let mut found = statement.raw_query();
+        while let Some(row) = found.next()? {
+            if stop.load(Ordering::Relaxed) {
+                return Err(StudyError::Interrupted);
+            }
+            let values = || (0..columns.len()).map(|k| row.get_ref(k).map(value)).collect::<rusqlite::Result<_>>();
+            if is_last && !take(&columns, Some(values()?))? {
+                return Ok(());
             }
         }
-        sample.values.extend(context.get::<Option<f64>>(0)?);
-        Ok(())
     }
-
-    fn finalize(&self, _: &mut Context<'_>, sample: Option<Sample>) -> rusqlite::Result<Option<f64>> {
-        Ok(sample.and_then(|mut sample| {
-            sample.values.sort_by(f64::total_cmp);
-            let last = sample.values.len().checked_sub(1)?;
-            let place = sample.share * last as f64;
-            let (low, high) = (sample.values[place.floor() as usize], sample.values[place.ceil() as usize]);
-            Some(low + (high - low) * place.fract())
-        }))
-    }
+    Ok(())
 }
 
-/// `stddev(x)`: sample standard deviation by Welford's update [Welford 1962]; NULL for fewer than two numbers.
-struct Deviation;
-
-/// Running mean and sum of squared deviations.
-#[derive(Default)]
-struct Moments {
-    n: f64,
-    mean: f64,
-    squares: f64,
-}
-
-impl Aggregate<Moments, Option<f64>> for Deviation {
-    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<Moments> {
-        Ok(Moments::default())
-    }
-
-    fn step(&self, context: &mut Context<'_>, moments: &mut Moments) -> rusqlite::Result<()> {
-        if let Some(x) = context.get::<Option<f64>>(0)? {
-            moments.n += 1.0;
-            let off = x - moments.mean;
-            moments.mean += off / moments.n;
-            moments.squares += off * (x - moments.mean);
+/// The views and tables there are, views first, with their columns: what a query may name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn relations(store: &Store) -> Result<Vec<Relation>> {
+    let table = query(
+        store,
+        "SELECT m.name, p.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS p
+        WHERE m.type IN ('view', 'table') AND m.name NOT GLOB 'sqlite_*' ORDER BY m.type DESC, m.name, p.cid",
+    )?;
+    let mut found: Vec<Relation> = Vec::new();
+    for row in &table.rows {
+        let (name, column) = (row[0].to_string(), row[1].to_string());
+        match found.last_mut().filter(|last| last.name == name) {
+            Some(last) => last.columns.push(column),
+            None => found.push(Relation { name, columns: vec![column] }),
         }
-        Ok(())
     }
+    Ok(found)
+}
 
-    fn finalize(&self, _: &mut Context<'_>, moments: Option<Moments>) -> rusqlite::Result<Option<f64>> {
-        Ok(moments.filter(|m| m.n > 1.0).map(|m| (m.squares / (m.n - 1.0)).sqrt()))
-    }
+/// A row as a JSON object, keys in order of the columns.
+fn json_line(columns: &[String], row: &[Value]) -> String {
+    let cell = |value: &Value| match value {
+        Value::Null => serde_json::Value::Null,
+        Value::Integer(number) => (*number).into(),
+        Value::Real(number) => (*number).into(),
+        Value::Text(text) => text.as_str().into(),
+        Value::Blob(_) => value.to_string().into(),
+    };
+    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(row.iter().map(cell)).collect();
+    serde_json::Value::Object(object).to_string()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn open() -> (tempfile::TempDir, Store) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        (folder, store)
+    }
+
+    /// The numbers from 1 on.
+    fn counted(to: u32) -> String {
+        format!(
+            "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n WHERE x < {to}) SELECT x, 'a,\"b' AS t FROM n"
+        )
+    }
+
     #[test]
-    fn statistics_are_those_of_the_textbook() {
-        let connection = Connection::open_in_memory().expect("memory");
-        add_functions(&connection).expect("new names");
-        let check = |expression: &str, values: &str, expected: Option<f64>| {
-            let sql = format!("SELECT {expression} FROM (SELECT value AS x FROM json_each('{values}'))");
-            let found: Option<f64> = connection.query_row(&sql, [], |row| row.get(0)).expect("valid");
-            match (found, expected) {
-                (Some(found), Some(expected)) => {
-                    assert!((found - expected).abs() < 1e-12, "{expression} {values}: {found}")
-                }
-                _ => assert_eq!(found, expected, "{expression} {values}"),
-            }
+    fn answers_end_at_the_bound_and_say_so() {
+        let (_folder, store) = open();
+        let go = AtomicBool::new(false);
+        let check = |sql: &str, rows: usize, is_cut: bool| {
+            let answer = answer(&store, sql, 3, &go).expect("a right query");
+            assert_eq!((answer.table.rows.len(), answer.is_cut), (rows, is_cut), "{sql}");
         };
-        check("median(x)", "[3, 1, 2]", Some(2.0));
-        check("median(x)", "[4, 1, 2, 3]", Some(2.5));
-        check("median(x)", "[]", None);
-        check("median(x)", "[1, null]", Some(1.0));
-        check("quantile(x, 0.25)", "[0, 1, 2, 3, 4]", Some(1.0));
-        check("stddev(x)", "[2, 4, 4, 4, 5, 5, 7, 9]", Some((32.0f64 / 7.0).sqrt()));
-        check("stddev(x)", "[1]", None);
-        assert!(connection.query_row("SELECT quantile(1, 2)", [], |_| Ok(())).is_err());
+        check(&counted(2), 2, false);
+        check(&counted(3), 3, false);
+        check(&counted(4), 3, true);
+        check("SELECT 1; SELECT 2 UNION SELECT 3", 2, false);
+        check("-- nothing", 0, false);
+        assert_eq!(answer(&store, "SELECT 1 AS a WHERE 0", 3, &go).expect("right").table.columns, ["a"]);
+        assert!(matches!(answer(&store, &counted(9), 9, &AtomicBool::new(true)), Err(StudyError::Interrupted)));
+        for wrong in ["DELETE FROM job", "SELECT nothing", "SELECT ("] {
+            assert!(answer(&store, wrong, 3, &go).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn files_hold_all_rows_and_none_is_overwritten() {
+        let (folder, store) = open();
+        let go = AtomicBool::new(false);
+        let write = |name: &str, sql: &str| export_query(&store, sql, &folder.path().join(name), &go);
+        let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("written");
+        assert_eq!(write("a.csv", &counted(2)).expect("written"), 2);
+        assert_eq!(text("a.csv"), "x,t\n1,\"a,\"\"b\"\n2,\"a,\"\"b\"\n");
+        assert_eq!(write("a.json", &counted(2)).expect("written"), 2);
+        let rows: serde_json::Value = serde_json::from_str(&text("a.json")).expect("JSON");
+        assert_eq!(rows, serde_json::json!([{"x": 1, "t": "a,\"b"}, {"x": 2, "t": "a,\"b"}]));
+        write("none.json", "SELECT 1 AS a WHERE 0").expect("written");
+        assert_eq!(text("none.json"), "[]\n");
+        write("c.CSV", "SELECT '=1+2' AS '-x', -5 AS y, '-5' AS z, '@a' AS w").expect("written");
+        assert_eq!(text("c.CSV"), "'-x,y,z,w\n'=1+2,-5,-5,'@a\n");
+        assert!(write("a.csv", "SELECT 1").is_err(), "it is there already");
+        for other in ["a.parquet", "a.txt", "a"] {
+            let told = write(other, "SELECT 1").expect_err(other).to_string();
+            assert!(told.contains("accepted: X.csv or X.json") && !folder.path().join(other).exists(), "{told}");
+        }
+        assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
+    }
+
+    #[test]
+    fn views_come_first_with_their_columns() {
+        let (_folder, store) = open();
+        let relations = relations(&store).expect("readable");
+        assert!(relations[0].name.starts_with("v_"), "{}", relations[0].name);
+        let chi = relations.iter().find(|relation| relation.name == "v_chi").expect("a contract view");
+        assert!(chi.columns.iter().any(|column| column == "l2d_mm"));
     }
 }

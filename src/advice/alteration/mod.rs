@@ -17,7 +17,7 @@ use crate::alteration::bench::Bench;
 use crate::alteration::fitting_room::FittingRoom;
 use crate::alteration::tried::Tried;
 use body::Body;
-use engine::{Outcome, pipeline};
+use engine::{Outcome, stages};
 use fit::target::Target;
 use geom::units::mm;
 use pattern::dxf::Standard;
@@ -249,7 +249,7 @@ impl Alteration {
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
-    let style = pipeline::style(&spec)?;
+    let style = stages::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
     let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
     let room = (asks_drape || wish.is_draped).then(|| FittingRoom::new(&spec, &body)).transpose()?;
@@ -301,7 +301,7 @@ pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Out
 pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     let Asked { spec, target, .. } = asked(study, wish)?;
     let body = spec.person.body()?;
-    let style = pipeline::style(&spec)?;
+    let style = stages::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
     let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;
     let eases = bench.levels(&style, &style).into_iter();

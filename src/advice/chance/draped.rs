@@ -8,7 +8,8 @@ use serde_json::json;
 use crate::chance::Question;
 use crate::chance::bench::{Bench, Sized};
 use engine::Outcome;
-use engine::pipeline::{self, Fitting, Meshes};
+use engine::fitting::Fitting;
+use engine::stages::{self, Meshes};
 use fit::chance::{self, Share, Sitting};
 use fit::{Draw, Simulator};
 use geom::DistanceField;
@@ -56,7 +57,7 @@ struct Drawn {
 /// # Errors
 /// What the pattern refuses; a draw that cannot be draped is told.
 pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Result<DrapedChance> {
-    let style = pipeline::style(job)?;
+    let style = stages::style(job)?;
     let meshes = Meshes::of(&style, job.edge_length_m)?;
     let size = bench.sizes.iter().find(|size| size.size == job.size);
     let size = size.ok_or_else(|| StudyError::stage("chance")("no such size"))?;

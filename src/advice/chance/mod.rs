@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::alteration::one;
 use bench::{Bench, Sized};
 use body::Dimension;
-use engine::pipeline;
+use engine::stages;
 use fit::Draw;
 use fit::chance::{self, Share, Sitting, Verdict};
 use fit::target::{Target, is_within_reach};
@@ -172,7 +172,7 @@ pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
     let first = jobs.first().ok_or_else(|| StudyError::stage("chance")("the garment has no size"))?;
     let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
-    let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?)));
+    let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?)));
     let styles = styles.collect::<Result<Vec<_>>>()?;
     let scanned = first.person.scan.is_some().then(|| first.person.body()).transpose()?;
     let bench = Bench::new(&styles, &target, &first.person.measurements, scanned.as_ref(), question)?;

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::chance::bench::Bench;
 use crate::chance::{Question, asked, tallied};
 use body::{Body, Dimension, Likely, Measurements, Sex};
-use engine::{ease, pipeline};
+use engine::{ease, stages};
 use fit::Draw;
 use fit::chance::{self, Share, Sitting};
 use fit::target::Target;
@@ -79,7 +79,7 @@ struct Case {
 /// As [`chance`](crate::chance::chance()).
 pub fn planted(study: &Study, question: &Question, people: usize, error_factor: f64) -> Result<PlantedTally> {
     let (jobs, target) = asked(study, question)?;
-    let styles = jobs.iter().map(|job| Ok((job.size.clone(), pipeline::style(job)?))).collect::<Result<Vec<_>>>()?;
+    let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?))).collect::<Result<Vec<_>>>()?;
     let read = jobs.first().map(|job| job.person.measurements.known().map(|(dimension, _)| dimension).collect());
     let read: Vec<Dimension> = read.unwrap_or_default();
     let plot = Plot { styles: &styles, target: &target, read: &read, question, error_factor };

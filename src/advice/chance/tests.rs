@@ -69,7 +69,7 @@ fn eases_are_nearly_linear_in_the_dimensions() {
     let study = quickstart();
     let question = Question { tolerance_mm: 1e-9, ..question("v") };
     let (jobs, target) = asked(&study, &question).expect("there");
-    let style = pipeline::style(&jobs[1]).expect("it can be read");
+    let style = stages::style(&jobs[1]).expect("it can be read");
     let styles = [(jobs[1].size.clone(), style)];
     let bench = Bench::new(&styles, &target, &jobs[1].person.measurements, None, &question).expect("a person");
     let mut draw = Draw::new(9);

@@ -19,7 +19,7 @@ use crate::grading::knobs::{Band, Knobs};
 use crate::grading::people::Figure;
 use crate::grading::tally::Tally;
 use body::Sex;
-use engine::pipeline;
+use engine::stages;
 use fit::coverage::{Asks, Search, Series, Turns};
 use geom::units::mm;
 use pattern::Style;
@@ -322,7 +322,7 @@ impl<'a> Asked<'a> {
         let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
         let style = |size: &spec::file::SizeFile| {
             if size.name == self.spec.size {
-                return pipeline::style(&self.spec);
+                return stages::style(&self.spec);
             }
             patterns::read_style(&size.pattern, self.spec.seams.as_ref(), Some(&size.name), unit)
         };

@@ -1,6 +1,6 @@
 //! Arguments of `toile body`.
 
-use super::catalogue::MeasuredValues;
+use super::measured::MeasuredValues;
 use spec::bodies;
 use std::path::PathBuf;
 

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
+use super::measured::{flag, given};
 use super::{MeshUnit, PatternUnit, SewStep};
-use spec::bodies::Dimension;
 use spec::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
 /// Commands on one part of the catalogue.
@@ -86,10 +86,6 @@ pub struct PersonValues {
     pub unit: Option<MeshUnit>,
 }
 
-/// Measurements of a body, by key.
-#[derive(Debug)]
-pub struct MeasuredValues(pub Vec<Given>);
-
 /// Values of a fabric, by key.
 #[derive(Debug)]
 pub struct FabricValues {
@@ -133,15 +129,6 @@ fn flags<T>(command: Command, fields: &'static [Field<T>]) -> Command {
     command.args(fields.iter().map(|field| flag(field, field.label).help_heading(heading)))
 }
 
-fn flag<T>(field: &Field<T>, help: &'static str) -> Arg {
-    Arg::new(field.key).long(field.flag()).value_name("N").help(help).allow_hyphen_values(true)
-}
-
-/// The values that were given of some keys.
-fn given(matches: &ArgMatches, keys: impl Iterator<Item = &'static str>) -> Vec<Given> {
-    keys.filter_map(|key| Some((key.to_owned(), matches.get_one::<String>(key)?.clone()))).collect()
-}
-
 impl FromArgMatches for SubjectValues {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let keys = std::iter::once("sex").chain(MEASUREMENTS.iter().map(|field| field.key));
@@ -158,27 +145,6 @@ impl Args for SubjectValues {
     fn augment_args(command: Command) -> Command {
         let sex = Arg::new("sex").long("sex").value_name("m|f").help("Sex");
         flags(command.arg(sex), &MEASUREMENTS)
-    }
-
-    fn augment_args_for_update(command: Command) -> Command {
-        Self::augment_args(command)
-    }
-}
-
-impl FromArgMatches for MeasuredValues {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        Ok(Self(given(matches, MEASUREMENTS.iter().map(|field| field.key))))
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
-}
-
-impl Args for MeasuredValues {
-    fn augment_args(command: Command) -> Command {
-        command.args(MEASUREMENTS.iter().zip(Dimension::ALL).map(|(field, dimension)| flag(field, dimension.words())))
     }
 
     fn augment_args_for_update(command: Command) -> Command {

@@ -15,6 +15,7 @@ mod catalogue;
 mod cut;
 mod fit;
 mod grade;
+mod measured;
 mod pattern;
 mod report;
 mod seam;

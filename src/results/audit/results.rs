@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::audit::{Audit, Finding};
 use crate::picture;
-use engine::pipeline::{Meshes, Model};
+use engine::stages::{Meshes, Model};
 use fit::measure::{self, Chi, Metrics};
 use geom::units::mm;
 use sim::{Drape, quality};

@@ -3,7 +3,7 @@
 use rusqlite::{Connection, Row as SqlRow};
 
 use fit::Simulator;
-use store::read::simulator;
+use store::columns::simulator;
 use store::{Result, StudyError};
 
 /// Subjects of every table, in its columns.

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use image::RgbaImage;
 
-use engine::pipeline::{Meshes, Model};
+use engine::stages::{Meshes, Model};
 use fit::Simulator;
 use geom::units::mm;
 use geom::{Surface, TriMesh};

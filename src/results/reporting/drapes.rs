@@ -3,7 +3,7 @@
 use crate::draped_fit::GarmentWorn;
 use crate::picture::{self, Map};
 use crate::reporting::quoted;
-use engine::pipeline::Model;
+use engine::stages::Model;
 use fit::worn::sites;
 use geom::V3;
 use pattern::pom::PointOfMeasure;

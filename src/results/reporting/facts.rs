@@ -3,7 +3,7 @@
 use crate::reporting::quoted;
 use crate::{picture, recommendation};
 use body::Girths;
-use engine::pipeline::Model;
+use engine::stages::Model;
 use fit::{Basis, Ease, Finding, Simulator};
 use pattern::Style;
 use report::data::{

@@ -5,7 +5,7 @@ use std::thread;
 use image::{RgbaImage, imageops};
 
 use crate::picture::{self, Dressed, Map};
-use crate::reporting::sheets::Sheets;
+use crate::reporting::sheets::{PICTURE, Sheets};
 use crate::reporting::{self, facts, quoted};
 use fit::measure::Chi;
 use geom::units::mm;
@@ -14,8 +14,6 @@ use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, RawLink, Tr
 use sim::Stage;
 use store::{JobId, JobRow, MetricsRow, Result, Status, Store, StudyError, Value, read, sql};
 
-/// Pixels of a picture on the page.
-pub(super) const PICTURE: (u32, u32) = (480, 540);
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use image::imageops;
 
-use crate::reporting::runs::PICTURE;
 use render::{self, Cell, RenderError, View};
 use report::FileNames;
 use report::data::RawLink;
 use store::{JobRow, Result, StudyError};
+
+/// Pixels of a picture on the page.
+pub(super) const PICTURE: (u32, u32) = (480, 540);
 
 /// Longest side of a sheet, without labels, pixels.
 const SHEET_SIDE: f64 = 5500.0;

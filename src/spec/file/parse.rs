@@ -6,7 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::fields::{Entry, keys};
+use crate::entry::{Entry, keys};
 use crate::file::garments::{Common, garments};
 use crate::file::outfits::outfits;
 use crate::file::reader::{Place, Reader};
@@ -159,11 +159,11 @@ fn simulators(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Simulator> {
     let Some(names) = reader.texts(top, "simulators") else { return vec![Simulator::Fem] };
     let mut simulators = Vec::new();
     for name in names {
-        match crate::versions::SIMULATORS.into_iter().find(|sim| sim.as_str() == *name.get_ref()) {
+        match crate::parameters::SIMULATORS.into_iter().find(|sim| sim.as_str() == *name.get_ref()) {
             Some(simulator) if !simulators.contains(&simulator) => simulators.push(simulator),
             Some(_) => reader.problem(&name.span(), format!("simulator `{}` is named twice", name.get_ref())),
             None => {
-                let accepted = crate::versions::SIMULATORS.map(Simulator::as_str).join(", ");
+                let accepted = crate::parameters::SIMULATORS.map(Simulator::as_str).join(", ");
                 reader.problem(&name.span(), format!("no simulator `{}`; accepted: {accepted}", name.get_ref()));
             }
         }

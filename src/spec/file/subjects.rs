@@ -5,7 +5,9 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use crate::fields::{Entry, keys, sex};
+use crate::entry::{Entry, keys};
+
+use crate::fields::sex;
 use crate::file::reader::{Place, Reader};
 use crate::file::values::{lookup, numbers, source, unique};
 use crate::file::{Person, Placed, ScanFile, Subject};

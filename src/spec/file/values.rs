@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use crate::fields::{Entry, is_absent};
+use crate::entry::{Entry, is_absent};
 use crate::file::reader::{Place, Reader};
 use store::files::SourceFile;
 use store::{StudyError, hidden_hint, nearest};

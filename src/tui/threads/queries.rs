@@ -10,7 +10,6 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::requests::QueryRequest;
 use crate::widgets::result_table::ResultTable;
-use store::browse;
 use store::{Interrupter, Store, StudyError, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
@@ -69,14 +68,14 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
             }
             QueryRequest::Rows(text) => {
                 let answer = store.and_then(|store| {
-                    browse::answer(store, &text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error))
+                    sql::answer(store, &text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error))
                 });
                 let table = answer.map(|answer| Box::new(ResultTable::of(answer)));
                 Message::Answered(start.elapsed().as_millis() as u64, table)
             }
             QueryRequest::Export(text, path) => {
                 let rows = store.and_then(|store| {
-                    browse::export_query(store, &text, &path, &canceller.is_on).map_err(|error| said(&error))
+                    sql::export_query(store, &text, &path, &canceller.is_on).map_err(|error| said(&error))
                 });
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
@@ -107,7 +106,7 @@ fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
 /// What a query may name, and the saved ones.
 fn names(store: Result<&Store, String>, folder: &Path) -> Message {
     let names = store.and_then(|store| {
-        let names = browse::relations(store).and_then(|known| Ok((known, saved_queries(Some(folder))?)));
+        let names = sql::relations(store).and_then(|known| Ok((known, saved_queries(Some(folder))?)));
         names.map_err(|error| error.to_string())
     });
     names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))

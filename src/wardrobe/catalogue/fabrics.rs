@@ -2,12 +2,12 @@
 
 use rusqlite::{Connection, Row};
 
-use crate::catalogue::known::{columns, read_numbers};
+use crate::catalogue::numbers::{columns, read_numbers};
 use geom::units::mm;
 use sim::Fabric;
 use sim::fabric::Kind;
 use spec::FABRIC_NUMBERS;
-use spec::fields::Entry;
+use spec::entry::Entry;
 use store::{Result, Store, Table, Value};
 
 /// A fabric of the catalogue.

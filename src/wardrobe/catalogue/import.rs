@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
-use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, style, table};
+use crate::catalogue::table::{self, Read};
+use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, style};
 use body::Measurements;
 use sim::Fabric;
 use spec::Person;
-use spec::fields::Entry;
+use spec::entry::Entry;
 use spec::file::{self, Placed, ScanFile};
 use store::files::SourceFile;
 use store::{Problem, Result, Store, StudyError};
@@ -31,9 +32,6 @@ pub struct Imported {
     /// What is wrong with rows that were left out.
     pub left_out: Vec<Problem>,
 }
-
-/// Entries of a file that are right, and what is wrong with the others.
-pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
 
 /// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will
 /// do), and for subjects and fabrics CSV with the same keys. Scans are brought in too, each a subject of the file's

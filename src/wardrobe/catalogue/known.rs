@@ -4,13 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rusqlite::{Connection, OptionalExtension, Row, Transaction};
 
+use crate::catalogue::numbers::{columns, read_numbers};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Part, Removed};
 use body::{LengthUnit, Measurements, Pose, Sex};
 use sim::{self, Fabric};
-use spec::fields::Entry;
+use spec::entry::Entry;
 use spec::file::{Known, KnownStyle, ScanFile, SizeFile};
-use spec::{FABRIC_NUMBERS, Field, MEASUREMENTS, Person};
+use spec::{FABRIC_NUMBERS, MEASUREMENTS, Person};
 use store::files::SourceFile;
 use store::{Result, Store, StudyError, SubjectId};
 
@@ -134,19 +135,6 @@ pub fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
         read_numbers(row, 2, &FABRIC_NUMBERS, &mut cloth)?;
         Ok(cloth)
     })?)
-}
-
-/// Columns of fields, for SQL.
-pub(super) fn columns<T>(fields: &[Field<T>]) -> String {
-    fields.iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
-}
-
-/// Reads fields from the columns of a row from `first` on.
-pub(super) fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
-    for (k, field) in fields.iter().enumerate() {
-        field.set(entry, row.get(first + k)?);
-    }
-    Ok(())
 }
 
 /// The current subjects, by name.

@@ -4,14 +4,16 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::catalogue::format::text_of;
-use crate::catalogue::import::Read;
 use crate::catalogue::{Part, check_name};
 use geom::units::significant;
 use pattern::table::{self, Row};
 use spec::Given;
-use spec::fields::{Entry, filled, keys};
+use spec::entry::{Entry, filled, keys};
 use spec::file::Placed;
 use store::{Problem, nearest};
+
+/// Entries of a file that are right, and what is wrong with the others.
+pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];

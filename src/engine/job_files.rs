@@ -1,0 +1,102 @@
+//! Files of jobs and of their results.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::outcome::{Outcome, Provenance};
+use spec::JobSpec;
+use store::{Result, StudyError};
+
+/// Layout of the files; raised when it changes.
+pub(crate) const FORMAT: u32 = 1;
+/// How a job file ends.
+pub(crate) const JOB: &str = ".job.json";
+/// How a result file ends.
+pub(crate) const RESULT: &str = ".result.json";
+
+/// A job, for another machine.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct JobFile {
+    pub format: u32,
+    pub study: String,
+    pub provenance: Provenance,
+    pub spec: JobSpec,
+}
+
+/// What came of a job on another machine.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct ResultFile {
+    pub format: u32,
+    pub study: String,
+    pub input_hash: String,
+    pub spec: JobSpec,
+    pub provenance: Provenance,
+    pub wall_ms: i64,
+    pub outcome: std::result::Result<Outcome, String>,
+    pub products: Vec<Product>,
+}
+
+/// A product of a stage as it is stored: packed.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Product {
+    pub hash: String,
+    pub kind: String,
+    pub packed: String,
+}
+
+/// Writes a job file for a process that this one starts; where it is made does not go along.
+pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
+    let (study, provenance) = (String::new(), Provenance::default());
+    write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
+}
+
+/// What came of a job, from its result file.
+pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
+    let result: ResultFile = read_json(path, "result")?;
+    result.outcome.map_err(|message| StudyError::Elsewhere { message })
+}
+
+/// Where the result of a job file is written.
+pub(crate) fn result_of(job: &Path) -> PathBuf {
+    let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
+}
+
+/// The result files of a folder, by name.
+pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
+        let path = entry.map_err(StudyError::io(folder))?.path();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(RESULT)) {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Reads one of the files.
+pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'static str) -> Result<T> {
+    #[derive(Deserialize)]
+    struct Head {
+        format: u32,
+    }
+    let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+    let refuse = |found: String| StudyError::stage(what)(format!("{}: {found}", path.display()));
+    let head: Head =
+        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {what} file: {error}")))?;
+    if head.format != FORMAT {
+        return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
+    }
+    serde_json::from_slice(&bytes).map_err(|error| refuse(error.to_string()))
+}
+
+/// Writes a file that is there whole or not at all, whenever the program ends.
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let bytes = serde_json::to_vec(value).map_err(StudyError::stage("store"))?;
+    let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));
+    std::fs::write(&part, bytes).map_err(StudyError::io(&part))?;
+    std::fs::File::open(&part).and_then(|file| file.sync_all()).map_err(StudyError::io(&part))?;
+    std::fs::rename(&part, path).map_err(StudyError::io(path))
+}

@@ -1,0 +1,58 @@
+//! Products of the stages before the drape: a body, the style of a size, its meshes.
+
+use body::Body;
+use pattern::{Garment, Style};
+use spec::{Inputs, JobSpec, Person, patterns, subject_inputs, versions};
+use store::{Result, StudyError};
+
+/// The inputs of a subject's body, the same as among those of any job on it.
+pub fn body_inputs(name: &str, person: &Person) -> Inputs {
+    let mut inputs = Inputs::default();
+    subject_inputs(&mut inputs, name, person);
+    for (name, version) in versions::VERSIONS {
+        inputs.set(name, version);
+    }
+    inputs
+}
+
+/// A body, as the cache keeps it.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct Model {
+    /// The human model.
+    pub body: Body,
+}
+
+/// Meshes of one garment, coarse to fine.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct Meshes(pub Vec<Garment>);
+
+impl Meshes {
+    /// Meshes of a style, the finest with edges of this length, m.
+    ///
+    /// # Errors
+    /// When a piece cannot be meshed.
+    pub fn of(style: &Style, edge_length_m: f64) -> Result<Self> {
+        let edges = sim::fem::level_edges(edge_length_m).into_iter();
+        let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+        Ok(Self(meshes.collect::<Result<_>>()?))
+    }
+
+    /// The mesh that results are on.
+    pub fn finest(&self) -> Result<&Garment> {
+        self.0.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))
+    }
+}
+
+store::json_artefact!(Model, Meshes);
+
+/// The style of a job's size.
+pub fn style(spec: &JobSpec) -> Result<Style> {
+    let unit = spec.unit.as_deref().and_then(patterns::unit_of);
+    patterns::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
+}
+
+/// Meshes of a job's garment, coarse to fine.
+pub(crate) fn mesh(spec: &JobSpec) -> Result<Meshes> {
+    let style = style(spec)?;
+    Meshes::of(&style, spec.edge_length_m)
+}
