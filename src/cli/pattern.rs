@@ -211,7 +211,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let checked = style(files).and_then(|style| Ok((patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
-        Err(CliError::Study(error @ store::StudyError::Stage { .. })) => {
+        Err(CliError::Study(error @ store::StudyError::Refusal { .. })) => {
             output::tell(&error);
             return Ok(End::CheckFailed);
         }

@@ -28,7 +28,7 @@ use spec::file::{read_body, read_fabric};
 use spec::patterns::{self, Unit};
 use spec::versions::FIELD_SPACING_M;
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::{self, Question};
 
 /// Least shortfall that is told as a problem, mm.
@@ -189,7 +189,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     let (garbs, notes): (Vec<Garb>, Vec<Vec<String>>) = read.into_iter().unzip();
     let (upright, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
     let body = asked.pose.map_or_else(|| Ok(upright.clone()), |pose| pose_body(&upright, pose))?;
-    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
     let parameters = Parameters::default();
     let wardrobe = Wardrobe { on: (&body, &field), garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
     let mut told = Told(progress);
@@ -208,7 +208,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     {
         let again = |seed: u32| {
             let mut parameters = Parameters::default();
-            parameters.set("fem.seed", seed.into()).map_err(StudyError::stage("sim"))?;
+            parameters.set("fem.seed", seed.into()).origin(Origin::Sim)?;
             Wardrobe { parameters: &parameters, ..wardrobe }.dress(&mut told)
         };
         let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
@@ -233,15 +233,19 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
 /// What cannot be asked for.
 fn check(asked: &Attempt) -> Result<()> {
     if asked.repeat > 1 && asked.simulator != Simulator::Fem {
-        return Err(StudyError::stage("sim")(
+        return Err(StudyError::refused(
+            Origin::Sim,
             "--repeat is for --sim fem: only that starts from a place that can be varied",
         ));
     }
     if asked.reach.is_some() && (asked.simulator != Simulator::Fem || asked.layers.len() > 1) {
-        return Err(StudyError::stage("sim")("--reach is for one garment and --sim fem: friction carries it along"));
+        return Err(StudyError::refused(
+            Origin::Sim,
+            "--reach is for one garment and --sim fem: friction carries it along",
+        ));
     }
     if asked.layers.len() > 1 && asked.repeat > 1 {
-        return Err(StudyError::stage("sim")("--repeat is for one garment; accepted of an outfit: one drape"));
+        return Err(StudyError::refused(Origin::Sim, "--repeat is for one garment; accepted of an outfit: one drape"));
     }
     Ok(())
 }
@@ -385,16 +389,19 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
     let (proposal, pieces) = seams::proposal(&pattern, &how)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
-        StudyError::stage("pattern")(format!(
-            "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
-            layer.pattern.display()
-        ))
+        StudyError::refused(
+            Origin::Pattern,
+            format!(
+                "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
+                layer.pattern.display()
+            ),
+        )
     })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().map(Question::to_string).chain(proposal.notes.iter().cloned()));
     let name = layer.pattern.file_stem().unwrap_or_default().to_string_lossy();
     let text = proposal.toml(&name);
-    let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;
+    let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").origin(Origin::Pattern)?;
     if style.measurements.is_empty() {
         style.measure_openings_and_seams();
     }
@@ -468,10 +475,10 @@ fn material(simulator: Simulator, number: usize) -> Material {
 fn four_views(body: &Body, cloths: &[TriMesh], materials: &[Material]) -> Result<Vec<u8>> {
     let worn = cloths.iter().zip(materials).map(|(cloth, material)| render::Layer::new(cloth, *material));
     let layers = [render::Layer::new(&body.mesh, Material::form())].into_iter().chain(worn).collect();
-    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
+    let scene = Scene::new(layers).origin(Origin::Render)?;
     let [width, height] = PICTURE;
     let meshes = [&body.mesh].into_iter().chain(cloths);
     let frame = Frame::enclosing(meshes, f64::from(width) / f64::from(height));
     let camera = |view| Camera::new(view, frame);
-    render::from_all_sides(&scene, camera, PICTURE).map_err(StudyError::stage("render"))
+    render::from_all_sides(&scene, camera, PICTURE).origin(Origin::Render)
 }

@@ -5,7 +5,7 @@ use pattern::Garment;
 use sim::{Drape, Fabric, Monitor};
 use spec::Parameters;
 use spec::versions::FIELD_SPACING_M;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Carries a drape from one pose of a body into another: the body in all poses on the way, and the drape in the last.
 ///
@@ -18,7 +18,7 @@ pub(crate) fn carry(
     (drape, parameters): (&Drape, &Parameters),
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<Body>, Drape)> {
-    let bodies = body::way(upright, from, to, sim::fem::carry::TURN_DEG).map_err(StudyError::stage("body"))?;
+    let bodies = body::way(upright, from, to, sim::fem::carry::TURN_DEG).origin(Origin::Body)?;
     let carried = sim::fem::carry::carry((&bodies, FIELD_SPACING_M), cloth, drape, &parameters.fem()?, monitor);
     Ok((bodies, carried.map_err(StudyError::sim)?))
 }

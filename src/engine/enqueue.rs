@@ -11,7 +11,7 @@ use geom::units::mm;
 use spec::{Change, Inputs, JobSpec, Limits, Selection, Study};
 use store::owner::Watch;
 use store::queue::{self, Event};
-use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
+use store::{JobId, Origin, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
 /// Why a job runs, or why it need not.
@@ -97,10 +97,13 @@ fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
         let JobSpec { garment, size, subject, .. } = spec;
         let earlier = size_of.entry(spec.inputs.hash()).or_insert(spec);
         if earlier.size != *size {
-            return Err(StudyError::stage("queue")(format!(
-                "{garment}: sizes `{}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued",
-                earlier.size
-            )));
+            return Err(StudyError::refused(
+                Origin::Queue,
+                format!(
+                    "{garment}: sizes `{}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued",
+                    earlier.size
+                ),
+            ));
         }
     }
     Ok(())

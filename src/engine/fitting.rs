@@ -13,7 +13,7 @@ use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
 use sim::{self, Distortion, Drape, Fabric, Monitor};
 use spec::Parameters;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Difference of two lengths that are one, m.
 const SAME_LENGTH_M: f64 = 1e-6;
@@ -58,7 +58,8 @@ impl Fitting<'_> {
         let garment = self.meshes.finest()?;
         is_of(garment, self.style)?;
         let chis = measure::measure(garment, &drape.positions);
-        let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
+        let metrics =
+            measure::metrics(&chis).ok_or_else(|| StudyError::refused(Origin::Measure, "nothing to measure"))?;
         let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
         // Hybrid-GS sets a length unless the study leaves it free; FEM-GS sets none.
         let left_free = match self.simulator {
@@ -155,7 +156,7 @@ pub(crate) fn is_of(garment: &Garment, style: &Style) -> Result<()> {
     let fault = |what: String| {
         let text =
             format!("{what}: the mesh is not that of this pattern and size, a fault of Toile; nothing is stored");
-        Err(StudyError::stage("measure")(text))
+        Err(StudyError::refused(Origin::Measure, text))
     };
     let (meshed, flat) = (&garment.measurements, &style.measurements);
     if meshed.len() != flat.len() {
@@ -176,7 +177,7 @@ pub(crate) fn is_of(garment: &Garment, style: &Style) -> Result<()> {
 
 /// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
 fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
-    let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
+    let distortion = Distortion::of(garment, &drape.positions).origin(Origin::Sim)?;
     let limit = params.distortion_limit;
     let told = (distortion.stretch > limit)
         .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit));

@@ -19,7 +19,7 @@ use spec::{Selection, Study};
 use store::cache::Cache;
 use store::owner::Owner;
 use store::queue::{self, Event};
-use store::{Access, JobId, Result, Status, Store, StudyError, columns, evidence, now_ms};
+use store::{Access, InOrigin, JobId, Origin, Result, Status, Store, StudyError, columns, evidence, now_ms};
 
 /// A job that was handed out.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +108,7 @@ pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
 /// # Errors
 /// When the job file cannot be read, or the result cannot be written.
 pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> Result<Ran> {
-    let job: JobFile = read_json(path, "job")?;
+    let job: JobFile = read_json(path, Origin::Job)?;
     if database.is_some() {
         own_process::end_with_parent();
     }
@@ -156,9 +156,9 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
 
 /// Merges one result file; the name of its study.
 fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
-    let result: ResultFile = read_json(path, "result")?;
+    let result: ResultFile = read_json(path, Origin::Result)?;
     let spec = &result.spec;
-    let refuse = |message: String| StudyError::stage("merge")(format!("{}: {message}", path.display()));
+    let refuse = |message: String| StudyError::refused(Origin::Merge, format!("{}: {message}", path.display()));
     if spec.inputs.hash() != result.input_hash {
         return Err(refuse("its inputs are not those it was made from".into()));
     }
@@ -211,7 +211,7 @@ fn take_products(transaction: &Transaction<'_>, products: &[Product]) -> Result<
     let sql = "INSERT OR IGNORE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
     let mut statement = transaction.prepare_cached(sql)?;
     for product in products {
-        let packed = BASE64_STANDARD.decode(&product.packed).map_err(StudyError::stage("merge"))?;
+        let packed = BASE64_STANDARD.decode(&product.packed).origin(Origin::Merge)?;
         statement.execute(params![product.hash, product.kind, packed, now_ms()])?;
     }
     Ok(())

@@ -15,7 +15,7 @@ use crate::own_process::{Clock, Line};
 use crate::pipeline::Pipeline;
 use sim::{Monitor, Progress};
 use spec::{JobSpec, Limits};
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// Time between two looks at a process.
 const LOOK: Duration = Duration::from_millis(50);
@@ -111,14 +111,14 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
 /// Why a process left no result.
 fn ended(status: ExitStatus, said: &str, limits: &Limits) -> StudyError {
     let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
-    let other = || StudyError::stage("job")(format!("its process ended with {status}: {last}"));
+    let other = || StudyError::refused(Origin::Job, format!("its process ended with {status}: {last}"));
     out_of_memory(said, limits).unwrap_or_else(other)
 }
 
 /// The error of a job with a memory limit that says in some words that it got no more.
 fn out_of_memory(said: &str, limits: &Limits) -> Option<StudyError> {
     let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
-    Some(StudyError::stage("limit")(format!("needed more than its memory limit of {megabytes} MB")))
+    Some(StudyError::refused(Origin::Limit, format!("needed more than its memory limit of {megabytes} MB")))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::outcome::{Outcome, Provenance};
 use spec::JobSpec;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Layout of the files; raised when it changes.
 pub(crate) const FORMAT: u32 = 1;
@@ -53,7 +53,7 @@ pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
 
 /// What came of a job, from its result file.
 pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
-    let result: ResultFile = read_json(path, "result")?;
+    let result: ResultFile = read_json(path, Origin::Result)?;
     result.outcome.map_err(|message| StudyError::Elsewhere { message })
 }
 
@@ -77,15 +77,15 @@ pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// Reads one of the files.
-pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'static str) -> Result<T> {
+pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, origin: Origin) -> Result<T> {
     #[derive(Deserialize)]
     struct Head {
         format: u32,
     }
     let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-    let refuse = |found: String| StudyError::stage(what)(format!("{}: {found}", path.display()));
+    let refuse = |found: String| StudyError::refused(origin, format!("{}: {found}", path.display()));
     let head: Head =
-        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {what} file: {error}")))?;
+        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {origin} file: {error}")))?;
     if head.format != FORMAT {
         return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
     }
@@ -94,7 +94,7 @@ pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'stati
 
 /// Writes a file that is there whole or not at all, whenever the program ends.
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let bytes = serde_json::to_vec(value).map_err(StudyError::stage("store"))?;
+    let bytes = serde_json::to_vec(value).origin(Origin::Store)?;
     let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));
     std::fs::write(&part, bytes).map_err(StudyError::io(&part))?;
     std::fs::File::open(&part).and_then(|file| file.sync_all()).map_err(StudyError::io(&part))?;

@@ -12,7 +12,7 @@ use pattern::Style;
 use sim::outfit::{self, Layer};
 use sim::{Drape, Fabric, Monitor};
 use spec::{Inputs, JobSpec, Outfit, Parameters};
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// Drapes of all layers, the inmost first, as the cache keeps them.
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -73,9 +73,10 @@ impl<'a> Wardrobe<'a> {
             (_, Simulator::Fem) => {
                 outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(StudyError::sim)
             }
-            (_, Simulator::Hybrid) => {
-                Err(StudyError::stage("sim")("Hybrid-GS drapes one garment at a time; FEM-GS (fem) drapes outfits"))
-            }
+            (_, Simulator::Hybrid) => Err(StudyError::refused(
+                Origin::Sim,
+                "Hybrid-GS drapes one garment at a time; FEM-GS (fem) drapes outfits",
+            )),
         }
     }
 

@@ -13,7 +13,7 @@ use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
 use sim::sewn::Sewn;
 use sim::{Drape, Fabric};
-use store::{JobId, Result, StudyError};
+use store::{InOrigin, JobId, Origin, Result};
 
 /// Square centimetres in a square metre.
 pub(crate) const CM2: f64 = 1e4;
@@ -93,9 +93,9 @@ impl WornOn {
         drape: &Drape,
         simulator: Simulator,
     ) -> Result<Self> {
-        let sewn = Sewn::new(garment, fabric, &drape.positions).map_err(StudyError::stage("measure"))?;
+        let sewn = Sewn::new(garment, fabric, &drape.positions).origin(Origin::Measure)?;
         let cut = |site: Site| Section::cut(site, &body.mesh, &sewn.mesh).filter(|section| !section.cloth.is_empty());
-        let surface = Surface::new(&body.mesh).map_err(StudyError::stage("measure"))?;
+        let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let gap_m: Vec<f64> = sewn.mesh.positions.iter().map(|p| surface.signed_distance(p)).collect();
         let tension_n_m = sewn.welded(&sewn.tensions_n_m());
         let worn = worn::Worn { cloth: &sewn.mesh, gap_m: &gap_m, tension_n_m: &tension_n_m };

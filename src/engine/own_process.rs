@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use sim::{Monitor, Progress, Step};
 use spec::Limits;
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// Time between two lines in which a process says how far it is.
 const LINES: Duration = Duration::from_millis(200);
@@ -32,7 +32,10 @@ impl Clock {
 
     /// The error of a job that has.
     pub fn error(&self) -> StudyError {
-        StudyError::stage("limit")(format!("took longer than its time limit of {} s", self.limit_s.unwrap_or_default()))
+        StudyError::refused(
+            Origin::Limit,
+            format!("took longer than its time limit of {} s", self.limit_s.unwrap_or_default()),
+        )
     }
 }
 
@@ -44,7 +47,7 @@ pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     let Some(megabytes) = limits.memory_mb else { return Ok(()) };
     let most = Some(u64::from(megabytes) * 1_000_000);
     setrlimit(Resource::Data, Rlimit { current: most, maximum: most })
-        .map_err(|error| StudyError::stage("limit")(format!("memory_limit_mb = {megabytes}: {error}")))
+        .map_err(|error| StudyError::refused(Origin::Limit, format!("memory_limit_mb = {megabytes}: {error}")))
 }
 
 /// Ends this process with the one that started it.

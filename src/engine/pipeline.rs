@@ -13,7 +13,7 @@ use sim::{self, Drape, Monitor};
 use spec::file::Subject;
 use spec::{JobSpec, Outfit, Person, versions};
 use store::cache::{Cache, Used};
-use store::{Result, StageKind, StudyError};
+use store::{InOrigin, Origin, Result, StageKind};
 
 /// The stages of one database.
 pub struct Pipeline {
@@ -39,7 +39,7 @@ impl Pipeline {
 
     fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
         self.cache.get(StageKind::Field, &spec.inputs.stage_hash(StageKind::Field), || {
-            DistanceField::build(&model.body.mesh, versions::FIELD_SPACING_M).map_err(StudyError::stage("field"))
+            DistanceField::build(&model.body.mesh, versions::FIELD_SPACING_M).origin(Origin::Field)
         })
     }
 

@@ -12,7 +12,7 @@ use pattern::Garment;
 use sim::sewn::Sewn;
 use sim::{Drape, Fabric, Monitor};
 use spec::Parameters;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Share of a piece that its greatest tension leaves out: single vertices say little.
 const LEFT_OUT: f64 = 0.01;
@@ -69,7 +69,7 @@ pub(crate) fn reached(
     let parameters = Parameters::default();
     let ([_, to], garment, fabric) = (poses, garb.meshes.finest()?, &garb.fabric);
     let (bodies, after) = carry(upright, poses, (garment, fabric), (drape, &parameters), monitor)?;
-    let [first, .., last] = &bodies[..] else { return Err(StudyError::stage("body")("no pose to go to")) };
+    let [first, .., last] = &bodies[..] else { return Err(StudyError::refused(Origin::Body, "no pose to go to")) };
     let kept = after.kept.as_deref().unwrap_or_default();
     let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|one| ReachedOpening {
         opening: one.opening,
@@ -99,7 +99,7 @@ struct Loads {
 }
 
 fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> Result<Loads> {
-    let sewn = Sewn::new(garment, fabric, &drape.positions).map_err(StudyError::stage("measure"))?;
+    let sewn = Sewn::new(garment, fabric, &drape.positions).origin(Origin::Measure)?;
     let tensions = sewn.tensions_n_m();
     let greatest = |own: &[f64]| {
         let mut sorted = own.to_vec();

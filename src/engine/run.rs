@@ -6,11 +6,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
-use crate::enqueue::Planned;
+use crate::enqueue::{self, Planned};
 use crate::isolated::Isolated;
-use crate::outcome::{Executor, Provenance};
+use crate::outcome::{self, Executor, Provenance};
 use crate::pipeline::Pipeline;
-use crate::{ease, enqueue, outcome, workers};
+use crate::{ease, workers};
 use body::Body;
 use pattern::Style;
 use spec::{Selection, Study, patterns};

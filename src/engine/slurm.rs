@@ -12,7 +12,7 @@ use crate::enqueue::Planned;
 use crate::handout::{self, HandedOut, Merged};
 use crate::job_files::result_of;
 use spec::{Selection, Study};
-use store::{JobId, Result, Store, StudyError};
+use store::{JobId, Origin, Result, Store, StudyError};
 
 /// Tasks of one array: Slurm's own limit is 1001 where nobody raised it.
 const ARRAY: usize = 1000;
@@ -139,10 +139,13 @@ impl SlurmRun {
             return Ok(());
         }
         let arrays = self.arrays.join(", ");
-        Err(StudyError::stage("slurm")(format!(
-            "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
+        Err(StudyError::refused(
+            Origin::Slurm,
+            format!(
+                "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
              start again to go on waiting, nothing is submitted twice"
-        )))
+            ),
+        ))
     }
 
     /// Takes the arrays out of Slurm.
@@ -210,7 +213,7 @@ impl SlurmRun {
         if let Some((file, _)) = self.open.values().find(|(_, tries)| *tries >= TRIES) {
             let why = self.arrays.last().map(|array| last_words(array)).unwrap_or_default();
             let message = format!("{} was submitted {TRIES} times and has no result; {why}", file.display());
-            return Err(StudyError::stage("slurm")(message));
+            return Err(StudyError::refused(Origin::Slurm, message));
         }
         self.arrays.clear();
         let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
@@ -271,7 +274,7 @@ fn states_of(array: &str) -> Option<String> {
 
 /// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
-    let fail = |message: String| StudyError::stage("slurm")(format!("{program}: {message}"));
+    let fail = |message: String| StudyError::refused(Origin::Slurm, format!("{program}: {message}"));
     let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };
     let mut child = Command::new(program)
         .args(arguments)

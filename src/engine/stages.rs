@@ -3,7 +3,7 @@
 use body::Body;
 use pattern::{Garment, Style};
 use spec::{Inputs, JobSpec, Person, patterns, subject_inputs, versions};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// The inputs of a subject's body, the same as among those of any job on it.
 pub fn body_inputs(name: &str, person: &Person) -> Inputs {
@@ -33,13 +33,13 @@ impl Meshes {
     /// When a piece cannot be meshed.
     pub fn of(style: &Style, edge_length_m: f64) -> Result<Self> {
         let edges = sim::fem::level_edges(edge_length_m).into_iter();
-        let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+        let meshes = edges.map(|edge| style.mesh(edge).origin(Origin::Mesh));
         Ok(Self(meshes.collect::<Result<_>>()?))
     }
 
     /// The mesh that results are on.
     pub fn finest(&self) -> Result<&Garment> {
-        self.0.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))
+        self.0.last().ok_or_else(|| StudyError::refused(Origin::Mesh, "no mesh"))
     }
 }
 

@@ -19,7 +19,7 @@ use spec::file::{GarmentEntry, SizeFile, Subject};
 use spec::{JobSpec, Parameters, Schedule, Selection, Study};
 use store::files::SourceFile;
 use store::queue::{self, Event};
-use store::{Access, JobFilter, JobId, Result, Status, Store, StudyError, Value, read, sql};
+use store::{Access, JobFilter, JobId, Origin, Result, Status, Store, StudyError, Value, read, sql};
 use wardrobe::catalogue;
 
 /// A store in a folder of its own.
@@ -284,7 +284,7 @@ fn a_failing_job_and_a_panic_are_told_and_can_be_retried() {
     let mut bench = Bench::new();
     let planned =
         bench.run(&study(0.1), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.size, &*spec.subject) {
-            ("s", "ii") => Err(StudyError::stage("sim")("diverged")),
+            ("s", "ii") => Err(StudyError::refused(Origin::Sim, "diverged")),
             ("s", "v") => panic!("index out of range"),
             _ => Ok(outcome(spec)),
         });
@@ -428,7 +428,7 @@ fn what_waits_for_a_failed_job_is_cancelled_and_retried_with_it() {
     let mut bench = Bench::new();
     let planned =
         bench.run(&chained(), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.garment, &*spec.subject) {
-            ("tee", "v") => Err(StudyError::stage("sim")("diverged")),
+            ("tee", "v") => Err(StudyError::refused(Origin::Sim, "diverged")),
             _ => Ok(outcome(spec)),
         });
     let status = |bench: &Bench, garment: &str, subject: &str| -> Vec<Status> {

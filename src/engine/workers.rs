@@ -21,7 +21,7 @@ use geom::units::mm;
 use sim::{Monitor, Progress};
 use spec::JobSpec;
 use store::owner::{Owner, Watch};
-use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, evidence, now_ms, queue};
+use store::{Access, JobId, JobProgress, Live as LiveView, Origin, Result, StudyError, evidence, now_ms, queue};
 
 /// Time between two looks of the pump, and of a worker that waits for jobs of others.
 const TICK: Duration = Duration::from_millis(200);
@@ -142,7 +142,7 @@ impl Run<'_> {
         let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
-            .unwrap_or_else(|panic| Err(StudyError::stage("panic")(panic_text(&*panic))));
+            .unwrap_or_else(|panic| Err(StudyError::refused(Origin::Panic, panic_text(&*panic))));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
                 // Where it cannot be written, the end of this process puts the job back.
@@ -162,7 +162,7 @@ impl Run<'_> {
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
             Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
                 let message = format!("the result cannot be stored: {error}");
-                let failure = Err(StudyError::stage("store")(message));
+                let failure = Err(StudyError::refused(Origin::Store, message));
                 outcome::finish(connection, id, spec, owner, &failure, &self.provenance).map(drop)
             }
             written => written.map(drop),

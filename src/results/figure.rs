@@ -8,7 +8,7 @@ use body::{Dimension, Girths, Mass};
 use engine::stages::{self, Model};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 use store::cache::{self, Cache};
-use store::{Result, StageKind, Store, StudyError, SubjectId};
+use store::{InOrigin, Origin, Result, StageKind, Store, StudyError, SubjectId};
 use wardrobe::catalogue;
 
 /// Room around a body in its picture, m.
@@ -27,7 +27,7 @@ pub struct Figure {
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     let (_, model) = model(store, id)?;
     let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
-    let scene = scene.map_err(StudyError::stage("render"))?;
+    let scene = scene.origin(Origin::Render)?;
     Ok(Figure { model, scene })
 }
 
@@ -69,7 +69,8 @@ impl Figure {
     /// When the picture is too small or too large.
     pub fn picture(&self, width: u32, height: u32) -> Result<RgbaImage> {
         let mesh = &self.model.body.mesh;
-        let (low, high) = mesh.bounds().ok_or_else(|| StudyError::stage("render")("the body has no vertices"))?;
+        let (low, high) =
+            mesh.bounds().ok_or_else(|| StudyError::refused(Origin::Render, "the body has no vertices"))?;
         let size = high - low;
         // Across: the front, then the side, each with a margin; x points sideways, y to the front, z up.
         let across = [size.x + MARGIN_M, size.y + MARGIN_M];
@@ -81,8 +82,8 @@ impl Figure {
         let mut whole = RgbaImage::new(width, height);
         for (view, at, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
             let picture = render::cutout(&self.scene, &Camera::new(view, frame), across, height);
-            let picture = picture.map_err(StudyError::stage("render"))?;
-            whole.copy_from(&picture, at, 0).map_err(StudyError::stage("render"))?;
+            let picture = picture.origin(Origin::Render)?;
+            whole.copy_from(&picture, at, 0).origin(Origin::Render)?;
         }
         Ok(whole)
     }

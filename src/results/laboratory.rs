@@ -1,12 +1,12 @@
 //! The laboratory: mechanics beside what is known of them.
 
 use sim::laboratory::bench::{Experiment, Finding};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Runs an experiment.
 ///
 /// # Errors
 /// Never with the specimens as they are: none has a triangle without area.
 pub fn laboratory(experiment: Experiment) -> Result<Vec<Finding>> {
-    experiment.run().map_err(StudyError::stage("sim"))
+    experiment.run().origin(Origin::Sim)
 }

@@ -24,7 +24,7 @@ use spec::bodies::{LengthUnit, Sex};
 use spec::file::read_body;
 use spec::patterns;
 use spec::versions::FIELD_SPACING_M;
-use store::{Result, Store, StudyError, SubjectId};
+use store::{InOrigin, Origin, Result, Store, StudyError, SubjectId};
 use wardrobe::seams::workpiece::Workpiece;
 
 /// Edge length of the cloth that is looked at, and of cloth that is tried on, m.
@@ -71,7 +71,7 @@ impl Mannequin {
     }
 
     fn of((name, model): (String, Arc<Model>)) -> Result<Self> {
-        let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+        let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { name, model, field })
     }
 }
@@ -128,7 +128,7 @@ impl Mannequin {
     ) -> Result<Preview> {
         let style = patterns::read_style(&piece.pattern, piece.seams.as_ref(), Some(&piece.size), piece.unit)?;
         let meshes = match care {
-            Care::Glance => Meshes(vec![style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?]),
+            Care::Glance => Meshes(vec![style.mesh(EDGE_M).origin(Origin::Mesh)?]),
             Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
         };
         let garment = meshes.finest()?;
@@ -147,7 +147,7 @@ impl Mannequin {
         let pieces = if hung == Hung::Not { vec![] } else { layers(garment, &positions, &free) };
         let mut all = vec![Layer::new(&self.model.body.mesh, Material::form())];
         all.extend(pieces.iter().map(|(mesh, material)| Layer::new(mesh, *material)));
-        let scene = Scene::new(all).map_err(StudyError::stage("render"))?;
+        let scene = Scene::new(all).origin(Origin::Render)?;
         let shown = match hung {
             Hung::Not => vec![self.model.body.mesh.clone()],
             _ => vec![TriMesh { positions, triangles: garment.triangles.clone() }],
@@ -166,7 +166,7 @@ impl Preview {
             let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
             look.camera(&self.shown, VIEW[0], VIEW[1])
         };
-        render::from_all_sides(&self.scene, camera, VIEW).map_err(StudyError::stage("render"))
+        render::from_all_sides(&self.scene, camera, VIEW).origin(Origin::Render)
     }
 
     /// The garment from any side, as large as it can be.
@@ -175,7 +175,7 @@ impl Preview {
     /// When the picture is too small or too large.
     pub fn picture(&self, look: Look, width: u32, height: u32) -> Result<RgbaImage> {
         let camera = look.camera(&self.shown, width, height);
-        render::cutout(&self.scene, &camera, width, height).map_err(StudyError::stage("render"))
+        render::cutout(&self.scene, &camera, width, height).origin(Origin::Render)
     }
 }
 

@@ -10,7 +10,7 @@ use geom::units::{from_mm, mm};
 use sim::Silent;
 use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
 use store::cache::Cache;
-use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, StageRow, Store, StudyError, SubjectId, read};
+use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Origin, Result, StageRow, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue::{self, read_fabric, read_style};
 
 /// Where a result was made.
@@ -179,7 +179,7 @@ pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: 
 pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;
-    let refuse = |message: String| StudyError::stage("rerun")(message);
+    let refuse = |message: String| StudyError::refused(Origin::Rerun, message);
     let edge_mm: f64 = inputs
         .iter()
         .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)

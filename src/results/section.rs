@@ -11,7 +11,7 @@ use geom::section::Outline;
 use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Worn, section_chart};
-use store::{JobId, JobRow, Result, StageKind, Store, StudyError, read};
+use store::{InOrigin, JobId, JobRow, Origin, Result, StageKind, Store, StudyError, read};
 
 /// Where a body is cut.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,11 +147,7 @@ pub fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -
         let height_mm = mm(section.site.height_m());
         let level_name = level.level.replace('_', " ");
         let title = format!("{} on {}: {level_name}, {height_mm:.0} mm above the floor", job.garment, job.subject);
-        Some(
-            section_chart(&title, &sizes)
-                .map(|chart| (level.level.clone(), chart))
-                .map_err(StudyError::stage("report")),
-        )
+        Some(section_chart(&title, &sizes).map(|chart| (level.level.clone(), chart)).origin(Origin::Report))
     };
     cuts.iter().filter_map(chart).collect()
 }

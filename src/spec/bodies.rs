@@ -5,7 +5,7 @@ use std::path::Path;
 
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 use store::files::SourceFile;
-use store::{InFile, Result, StudyError};
+use store::{InFile, InOrigin, Origin, Result, StudyError};
 
 pub use body::{
     Body, Dimension, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
@@ -17,7 +17,7 @@ pub use body::{
 /// # Errors
 /// When a measurement is impossible.
 pub fn build_body(measurements: &Measurements) -> Result<Body> {
-    body::build(measurements).map_err(StudyError::stage("body"))
+    body::build(measurements).origin(Origin::Body)
 }
 
 /// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
@@ -84,7 +84,7 @@ pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>)
 /// # Errors
 /// When a part of the body is not found.
 pub fn measured(scan: &Scan) -> Result<Measured> {
-    scan.measured().map_err(StudyError::stage("body"))
+    scan.measured().origin(Origin::Body)
 }
 
 /// A scan as a body that wears garments.
@@ -100,11 +100,11 @@ pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
 /// # Errors
 /// When its limbs do not reach there, or would touch.
 pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
-    body::pose(body, pose).map_err(StudyError::stage("body"))
+    body::pose(body, pose).origin(Origin::Body)
 }
 
 fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
-    |source| StudyError::stage("body")(InFile { file: scan.name.clone(), source })
+    |source| StudyError::refused(Origin::Body, InFile { file: scan.name.clone(), source })
 }
 
 /// Lens of a camera.
@@ -134,9 +134,8 @@ pub fn read_pictures(
         }
         Lens::FieldDeg(field_deg) => Ok(body::Camera::of_field(field_deg, distance_m)),
     });
-    let camera = camera.transpose().map_err(StudyError::stage("body"))?;
-    body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m)
-        .map_err(StudyError::stage("body"))
+    let camera = camera.transpose().origin(Origin::Body)?;
+    body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m).origin(Origin::Body)
 }
 
 /// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
@@ -145,7 +144,7 @@ pub fn read_pictures(
 /// # Errors
 /// When the JSON cannot be written.
 pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
-    let json = body::write_control(body).map_err(|error| StudyError::stage("body")(error.to_string()))?;
+    let json = body::write_control(body).map_err(|error| StudyError::refused(Origin::Body, error.to_string()))?;
     let obj = body.control.write_obj();
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
@@ -161,9 +160,8 @@ pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<
         Layer::new(&tapes, Material::hybrid()),
         Layer::new(&lines, Material::fem()),
     ];
-    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
+    let scene = Scene::new(layers).origin(Origin::Render)?;
     let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
-    let picture =
-        render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
-    render::png(&picture).map_err(StudyError::stage("render"))
+    let picture = render::render(&scene, &Camera::new(view, frame), width, height).origin(Origin::Render)?;
+    render::png(&picture).origin(Origin::Render)
 }

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::fields::{FABRIC_NUMBERS, MEASUREMENTS};
-use crate::fields::{millimetres, sex_name};
+use crate::fields::{FABRIC_NUMBERS, MEASUREMENTS, millimetres, sex_name};
 use crate::file::{GarmentEntry, ScanFile, Study, Subject};
 use crate::job;
 use crate::schedule::Schedule;

@@ -4,8 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::export::{list, quoted};
-use crate::fields::MEASUREMENTS;
-use crate::fields::sex_name;
+use crate::fields::{MEASUREMENTS, sex_name};
 use crate::parameters::SIMULATORS;
 use crate::patterns::Model;
 use body::{Dimension, Measurements, Sex};

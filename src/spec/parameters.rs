@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::inputs::Inputs;
 use fit::Simulator;
 use sim::{fem, hybrid};
-use store::{Result, StudyError, nearest};
+use store::{InOrigin, Origin, Result, nearest};
 
 /// The simulators there are.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
@@ -91,9 +91,9 @@ impl Parameters {
         if self.0.is_empty() {
             return Ok(default.clone());
         }
-        let mut tree = serde_json::to_value(default).map_err(StudyError::stage("sim"))?;
+        let mut tree = serde_json::to_value(default).origin(Origin::Sim)?;
         fill(&mut tree, simulator.as_str(), &self.0);
-        serde_json::from_value(tree).map_err(StudyError::stage("sim"))
+        serde_json::from_value(tree).origin(Origin::Sim)
     }
 }
 

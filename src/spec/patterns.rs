@@ -6,7 +6,7 @@ use geom::units::mm;
 use pattern::dxf::PatternFile;
 use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 pub use pattern::check::{Finding, of_garment as garment_findings};
 pub use pattern::draft::Model;
@@ -40,7 +40,7 @@ pub fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
             "{}: found {others} files, none of them a pattern; accepted: DXF, GarmentCode JSON, features as JSON",
             top.display()
         );
-        return Err(StudyError::stage("pattern")(message));
+        return Err(StudyError::refused(Origin::Pattern, message));
     }
     found.sort();
     Ok(found)
@@ -80,8 +80,7 @@ pub struct Nest {
 impl Nest {
     /// Reads a file, or all of a folder.
     pub fn read(pattern: &SourceFile, unit: Option<Unit>) -> Result<Self> {
-        let read =
-            |part: &SourceFile| source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"));
+        let read = |part: &SourceFile| source::read(&part.bytes, &part.name, unit).origin(Origin::Pattern);
         Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
     }
 
@@ -131,8 +130,8 @@ impl Nest {
         let mut pieces = Vec::new();
         for file in &self.files {
             let is_nest = file.sizes().len() > 1;
-            for piece in file.to_sew(is_nest.then_some(size)).map_err(StudyError::stage("pattern"))? {
-                let mut piece = piece.with_allowance(self.allowance_m).map_err(StudyError::stage("pattern"))?;
+            for piece in file.to_sew(is_nest.then_some(size)).origin(Origin::Pattern)? {
+                let mut piece = piece.with_allowance(self.allowance_m).origin(Origin::Pattern)?;
                 if !is_nest && !size.is_empty() {
                     piece.size = Some(size.to_owned());
                 }
@@ -162,19 +161,19 @@ pub fn read_style(
     unit: Option<Unit>,
 ) -> Result<Style> {
     let mut style = if pattern.holds_seams() {
-        let read = garmentcode::read(&pattern.bytes, &pattern.name).map_err(StudyError::stage("pattern"))?;
+        let read = garmentcode::read(&pattern.bytes, &pattern.name).origin(Origin::Pattern)?;
         let mut style = read.style();
         if let Some(seams) = seams {
-            style.measure(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+            style.measure(&seams.bytes, &seams.name).origin(Origin::Pattern)?;
         }
         style
     } else {
         let Some(seams) = seams else {
             let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
-            return Err(StudyError::stage("pattern")(message));
+            return Err(StudyError::refused(Origin::Pattern, message));
         };
         let pieces = pieces(pattern, size, unit)?;
-        Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+        Style::read(&pieces, &seams.bytes, &seams.name).origin(Origin::Pattern)?
     };
     check_scale(&style, &pattern.name)?;
     if style.measurements.is_empty() {
@@ -187,13 +186,19 @@ pub fn read_style(
 fn check_scale(style: &Style, file: &str) -> Result<()> {
     if style.pieces.is_empty() {
         let accepted = "at least one piece (`toile pattern propose` proposes what it recognises)";
-        return Err(StudyError::stage("pattern")(format!("{file}: found no piece to sew; accepted: {accepted}")));
+        return Err(StudyError::refused(
+            Origin::Pattern,
+            format!("{file}: found no piece to sew; accepted: {accepted}"),
+        ));
     }
     let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
     match scale::doubt(longest_m, Unit::M) {
-        Some(_) => Err(StudyError::stage("pattern")(format!(
-            "{file}: found a longest piece of {longest_m:.2} m; accepted: 0.08 to 6 m for a person; the unit of the file is wrong"
-        ))),
+        Some(_) => Err(StudyError::refused(
+            Origin::Pattern,
+            format!(
+                "{file}: found a longest piece of {longest_m:.2} m; accepted: 0.08 to 6 m for a person; the unit of the file is wrong"
+            ),
+        )),
         None => Ok(()),
     }
 }
@@ -203,8 +208,8 @@ fn check_scale(style: &Style, file: &str) -> Result<()> {
 /// # Errors
 /// When the edge length is out of range or the outline cannot be meshed.
 pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
-    let garment = style.mesh(edge_length_m).map_err(StudyError::stage("mesh"))?;
-    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::stage("mesh")("no triangles"))?;
+    let garment = style.mesh(edge_length_m).origin(Origin::Mesh)?;
+    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::refused(Origin::Mesh, "no triangles"))?;
     Ok((garment, quality))
 }
 

@@ -13,7 +13,7 @@ use flate2::write::ZlibEncoder;
 use rusqlite::{Connection, OptionalExtension, params};
 
 use crate::connection::{self, Access};
-use crate::error::{Result, StudyError};
+use crate::error::{InOrigin, Origin, Result, StudyError};
 use crate::rows::StageKind;
 use crate::transaction::now_ms;
 use geom::DistanceField;
@@ -49,7 +49,7 @@ json_artefact!(sim::Drape);
 /// # Errors
 /// When a number is not finite.
 pub fn to_json(artefact: &impl serde::Serialize) -> Result<Vec<u8>> {
-    serde_json::to_vec(artefact).map_err(StudyError::stage("store"))
+    serde_json::to_vec(artefact).origin(Origin::Store)
 }
 
 /// Reads an artefact from its JSON.
@@ -178,8 +178,8 @@ pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>
 /// Stores bytes by their hash, packed: most of a distance field is far from the body and constant; unreadable ones of an earlier program are replaced.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
-    packer.write_all(bytes).map_err(StudyError::stage("store"))?;
-    let packed = packer.finish().map_err(StudyError::stage("store"))?;
+    packer.write_all(bytes).origin(Origin::Store)?;
+    let packed = packer.finish().origin(Origin::Store)?;
     let sql = "INSERT OR REPLACE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
     connection.execute(sql, params![hash, stage.as_str(), packed, now_ms()])?;
     Ok(())

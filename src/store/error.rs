@@ -102,12 +102,12 @@ pub enum StudyError {
         /// What was asked for.
         name: String,
     },
-    /// A stage refused its input.
-    #[error("{stage}: {source}")]
-    Stage {
-        /// Stage of the pipeline (`body`, `pattern`, `mesh`, `sim`).
-        stage: &'static str,
-        /// What it said: the stage's own error, such as a [`sim::SimError`].
+    /// A part of the program refused its input.
+    #[error("{origin}: {source}")]
+    Refusal {
+        /// The part.
+        origin: Origin,
+        /// Its own error, such as a [`SimError`].
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Stored bytes are not what the program wrote.
@@ -141,13 +141,106 @@ impl StudyError {
     pub fn sim(error: SimError) -> Self {
         match error {
             SimError::Cancelled => Self::Interrupted,
-            other => Self::stage("sim")(other),
+            other => Self::refused(Origin::Sim, other),
         }
     }
 
-    /// A stage's error, or a sentence of ours.
-    pub fn stage<E: Into<Box<dyn std::error::Error + Send + Sync>>>(stage: &'static str) -> impl FnOnce(E) -> Self {
-        move |error| Self::Stage { stage, source: error.into() }
+    /// A refusal of a part of the program: its own error, or a sentence.
+    pub fn refused(origin: Origin, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        Self::Refusal { origin, source: source.into() }
+    }
+}
+
+/// Part of the program that an error comes from; messages begin with its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Alterations.
+    Alter,
+    /// Audits of a wardrobe.
+    Audit,
+    /// Bodies and scans.
+    Body,
+    /// Chances of fit.
+    Chance,
+    /// Distance fields.
+    Field,
+    /// Graded sizes.
+    Grade,
+    /// A job's process.
+    Job,
+    /// Limits of time and memory.
+    Limit,
+    /// Measuring a drape.
+    Measure,
+    /// Results merged from elsewhere.
+    Merge,
+    /// Meshes of garments.
+    Mesh,
+    /// A fault of the program.
+    Panic,
+    /// Patterns and their seams.
+    Pattern,
+    /// The queue.
+    Queue,
+    /// Pictures.
+    Render,
+    /// Reports.
+    Report,
+    /// A run made again.
+    Rerun,
+    /// A result file.
+    Result,
+    /// Simulators.
+    Sim,
+    /// The cluster's scheduler.
+    Slurm,
+    /// Queries.
+    Sql,
+    /// The database and its artefacts.
+    Store,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Alter => "alter",
+            Self::Audit => "audit",
+            Self::Body => "body",
+            Self::Chance => "chance",
+            Self::Field => "field",
+            Self::Grade => "grade",
+            Self::Job => "job",
+            Self::Limit => "limit",
+            Self::Measure => "measure",
+            Self::Merge => "merge",
+            Self::Mesh => "mesh",
+            Self::Panic => "panic",
+            Self::Pattern => "pattern",
+            Self::Queue => "queue",
+            Self::Render => "render",
+            Self::Report => "report",
+            Self::Rerun => "rerun",
+            Self::Result => "result",
+            Self::Sim => "sim",
+            Self::Slurm => "slurm",
+            Self::Sql => "sql",
+            Self::Store => "store",
+        })
+    }
+}
+
+/// Names the part of the program that an error comes from.
+pub trait InOrigin<T> {
+    /// Returns the value, or a [`StudyError::Refusal`] of this origin.
+    ///
+    /// # Errors
+    /// The error, with its origin.
+    fn origin(self, origin: Origin) -> Result<T>;
+}
+
+impl<T, E: Into<Box<dyn std::error::Error + Send + Sync>>> InOrigin<T> for std::result::Result<T, E> {
+    fn origin(self, origin: Origin) -> Result<T> {
+        self.map_err(|error| StudyError::refused(origin, error))
     }
 }
 

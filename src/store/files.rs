@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::error::{Result, StudyError};
+use crate::error::{Origin, Result, StudyError};
 use pattern::source::{self, Kind};
 use report::file_part;
 
@@ -85,7 +85,7 @@ impl SourceFile {
                 path.display(),
                 json.len()
             );
-            return Err(StudyError::stage("pattern")(message));
+            return Err(StudyError::refused(Origin::Pattern, message));
         }
         let mut bytes = Vec::new();
         for file in files {
@@ -192,7 +192,7 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
     if let Some((name, _)) = files.iter().find(|(name, _)| name.is_empty() || !is_within(name)) {
         let message =
             format!("{}: file `{name}` would not lie in it; accepted: names below the folder", folder.display());
-        return Err(StudyError::stage("store")(message));
+        return Err(StudyError::refused(Origin::Store, message));
     }
     let mut paths = Vec::new();
     for (name, bytes) in files {

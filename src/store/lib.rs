@@ -23,7 +23,7 @@ mod transaction;
 
 pub use connection::{Access, open, still_there};
 pub use database::Store;
-pub use error::{InFile, Problem, Result, StudyError, hidden_hint, nearest};
+pub use error::{InFile, InOrigin, Origin, Problem, Result, StudyError, hidden_hint, nearest};
 pub use evidence::PUBLISHED;
 pub use live::{Live, LiveFrame};
 pub use read::JobFilter;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::error::{Result, StudyError};
+use crate::error::{Origin, Result, StudyError};
 use crate::files::write_files;
 
 /// Queries that come with the program.
@@ -55,7 +55,7 @@ pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
         let problem = format!("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks");
-        return Err(StudyError::stage("sql")(problem));
+        return Err(StudyError::refused(Origin::Sql, problem));
     }
     write_files(folder, &[(format!("{name}.sql"), format!("{}\n", sql.trim_end()).into_bytes())]).map(drop)
 }

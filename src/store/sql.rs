@@ -10,7 +10,7 @@ use rusqlite::fallible_iterator::FallibleIterator;
 use rusqlite::types::ValueRef;
 
 use crate::database::Store;
-use crate::error::{Result, StudyError};
+use crate::error::{InOrigin, Origin, Result, StudyError};
 use crate::files::kind_of;
 use crate::rows::{Table, Value, csv_head, csv_row};
 
@@ -98,7 +98,7 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
 /// What SQLite says of the query; when the file has another ending, is there already or cannot be written; when it was
 /// stopped.
 pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
-    let is_json = kind_of(path, &[("csv", false), ("json", true)]).map_err(StudyError::stage("sql"))?;
+    let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
     let mut out = BufWriter::new(file);
     let mut rows = 0;

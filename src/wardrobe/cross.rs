@@ -12,7 +12,7 @@ use spec::file::{holds_measurements, read_measurements};
 use spec::new_study::{Outline, Worn};
 use spec::patterns::{self, Nest, Unit};
 use store::files::SourceFile;
-use store::{Problem, Result, StudyError};
+use store::{InOrigin, Origin, Problem, Result, StudyError};
 
 /// Endings of files that are bodies.
 const BODIES: [&str; 9] = ["obj", "ply", "stl", "glb", "toml", "smis", "vit", "yaml", "yml"];
@@ -73,10 +73,10 @@ impl Wardrobe {
         });
         if garments.is_empty() || bodies.is_empty() {
             let reasons = opened.refused.iter().map(|(path, why)| format!("{}: {why}", path.display()));
-            return Err(StudyError::stage("audit")(format!(
-                "nothing to dress: {}",
-                reasons.collect::<Vec<_>>().join("; ")
-            )));
+            return Err(StudyError::refused(
+                Origin::Audit,
+                format!("nothing to dress: {}", reasons.collect::<Vec<_>>().join("; ")),
+            ));
         }
         let text = self.text(&garments, &bodies, &wearers, &opened.files)?;
         opened.files.push(("study.toml".to_owned(), text.into_bytes()));
@@ -111,9 +111,10 @@ impl Wardrobe {
         found.sort();
         if found.is_empty() {
             let (folder, accepted) = (self.bodies.display(), BODIES.join(", "));
-            return Err(StudyError::stage("body")(format!(
-                "{folder}: found no body; accepted: files ending in {accepted}"
-            )));
+            return Err(StudyError::refused(
+                Origin::Body,
+                format!("{folder}: found no body; accepted: files ending in {accepted}"),
+            ));
         }
         Ok(found)
     }
@@ -168,7 +169,7 @@ impl Wardrobe {
         }
         let how = Asking { size: None, unit: self.unit, allowance_m: self.allowance_m, answers: &[] };
         let (proposal, _) = proposal(&pattern, &how)?;
-        let proposal = proposal.to_drape().map_err(StudyError::stage("pattern"))?;
+        let proposal = proposal.to_drape().origin(Origin::Pattern)?;
         let seams = SourceFile { name: seam_file(name), bytes: proposal.toml(name).into_bytes().into() };
         patterns::read_style(&pattern, Some(&seams), None, self.unit)?;
         files.push((seams.name, seams.bytes.to_vec()));

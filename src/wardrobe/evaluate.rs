@@ -9,7 +9,7 @@ use std::path::Path;
 use body::{Camera, Girths, Sex, from_pictures, from_scan};
 use geom::units::mm;
 use pattern::table;
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// A row of a table: values by column.
 type Row = BTreeMap<String, String>;
@@ -115,7 +115,7 @@ fn table(folder: &Path, name: &str) -> Result<Vec<Row>> {
     let path = folder.join(name);
     let refuse = |problem: String| {
         let accepted = "CSV tables manifest.csv and measurements.csv with a column id";
-        StudyError::stage("body")(format!("{}: {problem}; accepted: {accepted}", path.display()))
+        StudyError::refused(Origin::Body, format!("{}: {problem}; accepted: {accepted}", path.display()))
     };
     let bytes = std::fs::read(&path).map_err(|error| refuse(error.to_string()))?;
     let text = table::text(&bytes).map_err(|line| refuse(format!("line {line} is no UTF-8")))?;

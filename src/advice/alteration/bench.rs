@@ -10,7 +10,7 @@ use fit::target::Target;
 use geom::units::{from_mm, mm};
 use pattern::handle::HandleError;
 use pattern::{Handle, Style};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// How often the change is corrected by what it really does, and its squares weighed anew.
 const ROUNDS: usize = 12;
@@ -113,7 +113,7 @@ impl<'a> Bench<'a> {
             };
             let place = self.handles.iter().position(|handle| Some(*handle) == refused.handle());
             let Some(place) = place.filter(|place| limits_m[*place] > 0.0) else {
-                return Err(StudyError::stage("alter")(refused));
+                return Err(StudyError::refused(Origin::Alter, refused));
             };
             limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
         }
@@ -204,7 +204,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// When one of them cannot be.
     pub fn moved(&self, amounts: &[f64]) -> Result<Style> {
-        self.style.moved(&self.moves(amounts)).map_err(StudyError::stage("alter"))
+        self.style.moved(&self.moves(amounts)).origin(Origin::Alter)
     }
 
     /// Finds the handles that can be moved, what each changes of every level, and what cannot be moved.

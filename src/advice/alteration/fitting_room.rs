@@ -18,7 +18,7 @@ use sim::fem::{self, Params};
 use sim::{Drape, Silent};
 use spec::JobSpec;
 use spec::versions::FIELD_SPACING_M;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// By how much a handle is moved to see how a drape answers, m: the mesh is taken along, and no longer made anew.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
@@ -42,7 +42,7 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// When the body bounds no solid.
     pub fn new(spec: &'a JobSpec, body: &'a Body) -> Result<Self> {
-        let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+        let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { spec, body, field })
     }
 
@@ -95,7 +95,7 @@ impl<'a> FittingRoom<'a> {
         let drape = |seed: u64| {
             let params = Params { seed, ..self.spec.parameters.fem()? };
             let drape = fem::simulate(self.body, &self.field, &meshes.0, &self.spec.fabric, &params, &mut Silent);
-            place.readings(garment, &drape.map_err(StudyError::stage("sim"))?.positions)
+            place.readings(garment, &drape.origin(Origin::Sim)?.positions)
         };
         let all = STARTS.into_iter().map(drape).collect::<Result<Vec<_>>>()?;
         let of = |(name, reading): (&String, &Reading)| {
@@ -139,9 +139,8 @@ impl<'a> FittingRoom<'a> {
             params: &params,
             is_held: false,
         };
-        let stage = StudyError::stage("alter");
-        let cloth = sewn(garment, fabric).map_err(StudyError::stage("alter"))?;
-        let response = Response::of(lying, &cloth, &drape.positions).map_err(stage)?;
+        let cloth = sewn(garment, fabric).origin(Origin::Alter)?;
+        let response = Response::of(lying, &cloth, &drape.positions).origin(Origin::Alter)?;
         let place = Place::new(self.body, style, garment, fabric)?;
         let rested = response.positions();
         let answer = |handle: Handle| -> Result<Sensitivity> {
@@ -150,7 +149,7 @@ impl<'a> FittingRoom<'a> {
             let (Ok(more), Ok(less)) = (moved(TAKEN_ALONG_M), moved(-TAKEN_ALONG_M)) else {
                 return Ok(Sensitivity::new());
             };
-            let rates = response.rates([&less, &more], 2.0 * TAKEN_ALONG_M).map_err(StudyError::stage("alter"))?;
+            let rates = response.rates([&less, &more], 2.0 * TAKEN_ALONG_M).origin(Origin::Alter)?;
             let at = |by_m: f64| {
                 let drawn = along(garment, [&less, &more], by_m);
                 let positions: Vec<V3> = rested.iter().zip(&rates).map(|(p, rate)| p + rate * by_m).collect();

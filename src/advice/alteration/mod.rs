@@ -25,7 +25,7 @@ use pattern::{Handle, Style};
 use report::FileNames;
 use results::Sits;
 use spec::{JobSpec, Study};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// By how much a handle is moved to see what it changes, m.
 const STEP_M: f64 = 0.002;
@@ -259,7 +259,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         None => Tried::flat(&bench)?,
     };
     let moves = bench.moves(&found.amounts);
-    let changed = style.moved(&moves).map_err(StudyError::stage("alter"))?;
+    let changed = style.moved(&moves).origin(Origin::Alter)?;
     let mut names = FileNames::default();
     let name = names.part(&format!("{}-{}-{}", spec.garment, spec.size, spec.subject));
     let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard, &name)?;

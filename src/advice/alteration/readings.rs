@@ -13,7 +13,7 @@ use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
 use sim::Fabric;
 use sim::sewn::Sewn;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Directions either way from front, back, right or left that count to it: a quarter in all.
 const QUARTER: usize = DIRECTIONS / 8;
@@ -49,7 +49,7 @@ impl<'a> Place<'a> {
     /// # Errors
     /// When the body has no surface.
     pub fn new(body: &'a Body, style: &'a Style, garment: &'a Garment, fabric: &'a Fabric) -> Result<Self> {
-        let surface = Surface::new(&body.mesh).map_err(StudyError::stage("measure"))?;
+        let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let points = style.points_of_measure();
         let named = [Point::Shoulder, Point::Inseam, Point::CentreFrontLength, Point::CentreBackLength];
         let path = |point: Point| points.iter().find(|one| one.point == point).map(|one| one.path.as_slice());
@@ -66,7 +66,7 @@ impl<'a> Place<'a> {
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
     pub fn readings(&self, drawn: &Garment, positions: &[V3]) -> Result<Readings> {
-        let sewn = Sewn::new(drawn, self.fabric, positions).map_err(StudyError::stage("measure"))?;
+        let sewn = Sewn::new(drawn, self.fabric, positions).origin(Origin::Measure)?;
         let mut found = Readings::new();
         let hang = engine::levels::hang(self.style, self.garment, positions);
         found.extend(quantities(&hang).into_iter().map(|(name, value, unit)| (name, Reading { value, unit })));

@@ -6,7 +6,7 @@ use pattern::piece::Piece;
 use pattern::{Handle, Style, garmentcode, size_order};
 use spec::{JobSpec, patterns};
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// A changed pattern in files.
 pub struct Written {
@@ -29,7 +29,7 @@ pub fn written(
 ) -> Result<Written> {
     let sheet = (format!("{name}.svg"), pattern::drawing::changed_svg(style, changed).into_bytes());
     let Some(seams) = &spec.seams else {
-        let text = serde_json::to_vec_pretty(&garmentcode::document(changed)).map_err(StudyError::stage("alter"))?;
+        let text = serde_json::to_vec_pretty(&garmentcode::document(changed)).origin(Origin::Alter)?;
         let file = SourceFile { name: format!("{name}.json"), bytes: text.into() };
         let again = patterns::read_style(&file, None, None, None)?;
         return Ok(Written { files: vec![(file.name.clone(), file.bytes.to_vec()), sheet], again });
@@ -58,7 +58,7 @@ pub fn nest(
     let mut reseamed = None;
     for of in others.iter().chain([spec]) {
         let message = format!("{}: holds its own seams; accepted for a nest: DXF with a seam file", of.pattern.name);
-        let seams = of.seams.as_ref().ok_or_else(|| StudyError::stage("alter")(message))?;
+        let seams = of.seams.as_ref().ok_or_else(|| StudyError::refused(Origin::Alter, message))?;
         let sized = redrawn(of, seams, moves)?;
         pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(of.size.clone()), ..piece }));
         // The seam file beside the nest is that of the asked size, the last.
@@ -78,7 +78,7 @@ pub fn nest(
 fn redrawn(spec: &JobSpec, seams: &SourceFile, moves: &[(Handle, f64)]) -> Result<Redrawn> {
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
     let drawn = patterns::pieces(&spec.pattern, Some(&spec.size), unit)?;
-    handle::redrawn(&drawn, &seams.bytes, &seams.name, moves).map_err(StudyError::stage("alter"))
+    handle::redrawn(&drawn, &seams.bytes, &seams.name, moves).origin(Origin::Alter)
 }
 
 /// What a file says of itself.

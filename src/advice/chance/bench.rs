@@ -8,7 +8,7 @@ use fit::target::Target;
 use geom::units::from_mm;
 use pattern::Style;
 use spec::bodies;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Deviations of a normal distribution that its 80 % interval reaches.
 const REACH: f64 = 1.281_551_565_544_6;
@@ -93,7 +93,7 @@ impl Bench {
         let readings = scanned.map_or_else(|| measurements.clone(), |body| read_on(body, measurements));
         let error_factor = question.error_factor;
         let error = |dimension: Dimension| error_factor * dimension.reading_error();
-        let likely = Likely::of(&readings, error).map_err(StudyError::stage("body"))?;
+        let likely = Likely::of(&readings, error).origin(Origin::Body)?;
         let middle = likely.median();
         let is_open = |dimension: &Dimension| likely.spread(*dimension) > 1e-6;
         let dimensions: Vec<Dimension> = Dimension::ALL.into_iter().filter(is_open).collect();

@@ -19,7 +19,7 @@ use sim::fabric::{Kind, weights};
 use sim::{Fabric, Silent};
 use spec::versions::FIELD_SPACING_M;
 use spec::{JobSpec, bodies};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Where pieces begin before the body: from as near as they usually do to as far as the thesis had them [T 4.4.2], of the body's depth.
 const OFFSET_MU: [f64; 2] = [2.1, 4.1];
@@ -60,7 +60,7 @@ pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Resul
     let style = stages::style(job)?;
     let meshes = Meshes::of(&style, job.edge_length_m)?;
     let size = bench.sizes.iter().find(|size| size.size == job.size);
-    let size = size.ok_or_else(|| StudyError::stage("chance")("no such size"))?;
+    let size = size.ok_or_else(|| StudyError::refused(Origin::Chance, "no such size"))?;
     let mut draw = Draw::new(question.seed);
     let (mut drawn, mut refused) = (Vec::new(), Vec::new());
     for number in 1..=question.fem {
@@ -100,9 +100,9 @@ fn one(
     let fabric = drawn_fabric(&job.fabric, draw);
     let [near, far] = OFFSET_MU;
     let mut parameters = job.parameters.clone();
-    parameters.set("fem.offset_mu", json!(near + (far - near) * draw.share())).map_err(StudyError::stage("chance"))?;
+    parameters.set("fem.offset_mu", json!(near + (far - near) * draw.share())).origin(Origin::Chance)?;
     let body = bodies::build_body(&person)?;
-    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
     let simulator = Simulator::Fem;
     let fitting =
         Fitting { body: &body, field: &field, style, meshes, fabric: &fabric, simulator, parameters: &parameters };

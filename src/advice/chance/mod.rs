@@ -22,7 +22,7 @@ use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 use spec::{JobSpec, Study};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Whose fit is asked for, and what is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,7 +160,7 @@ impl Chance {
         };
         let rows: Vec<Probable> =
             self.sizes.iter().flat_map(|size| size.levels.iter().map(|level| row(size, level))).collect();
-        chance_chart(&title, &rows).map_err(StudyError::stage("report"))
+        chance_chart(&title, &rows).origin(Origin::Report)
     }
 }
 
@@ -170,7 +170,7 @@ impl Chance {
 /// [`StudyError::NotFound`] for a garment, subject or size that the study does not have; what body or pattern refuse.
 pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
-    let first = jobs.first().ok_or_else(|| StudyError::stage("chance")("the garment has no size"))?;
+    let first = jobs.first().ok_or_else(|| StudyError::refused(Origin::Chance, "the garment has no size"))?;
     let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?)));
     let styles = styles.collect::<Result<Vec<_>>>()?;

@@ -14,7 +14,7 @@ use fit::target::Target;
 use geom::units::mm;
 use pattern::Style;
 use spec::{Study, bodies};
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// A level over all people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -87,7 +87,7 @@ pub fn planted(study: &Study, question: &Question, people: usize, error_factor: 
     let cases: Vec<Result<Vec<Case>>> = thread::scope(|scope| {
         let work = |worker: usize| move || (worker..people).step_by(workers).map(|number| plot.case(number)).collect();
         let threads: Vec<_> = (0..workers).map(|worker| scope.spawn(work(worker))).collect();
-        let lost = |_| Err(StudyError::stage("chance")("a thread ended early"));
+        let lost = |_| Err(StudyError::refused(Origin::Chance, "a thread ended early"));
         threads.into_iter().map(|thread| thread.join().unwrap_or_else(lost)).collect()
     });
     let cases: Vec<Case> = cases.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();

@@ -4,7 +4,7 @@
 use crate::grading::people::{self, Figure};
 use fit::coverage::{Asked, Asks};
 use pattern::{Handle, Style};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// Sizes are drawn in steps of this, m.
 pub const STEP_M: f64 = 1e-3;
@@ -70,7 +70,7 @@ impl<'a> Knobs<'a> {
         let Some(lead) = handles.first() else {
             let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
             let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
-            return Err(StudyError::stage("grade")(message));
+            return Err(StudyError::refused(Origin::Grade, message));
         };
         let lead = *lead;
         let slope = |handle: Handle| slope(own, lead, handle);
@@ -124,7 +124,7 @@ impl<'a> Knobs<'a> {
     /// # Errors
     /// When a handle cannot be moved so far.
     pub fn drawn(&self, turns: &[i32]) -> Result<Style> {
-        self.style.moved(&self.moves(turns)).map_err(StudyError::stage("grade"))
+        self.style.moved(&self.moves(turns)).origin(Origin::Grade)
     }
 
     /// What everybody asks of a size at each level, from their ease on the base and what each knob changes of it. Where the base does not
@@ -139,7 +139,7 @@ impl<'a> Knobs<'a> {
         for knob in 0..self.handles.len() {
             let turned = |by_m: f64| -> Result<Vec<Vec<Option<f64>>>> {
                 let amounts_m: Vec<f64> = (0..self.handles.len()).map(|k| if k == knob { by_m } else { 0.0 }).collect();
-                let style = self.style.moved(&self.moves_by(&amounts_m)).map_err(StudyError::stage("grade"))?;
+                let style = self.style.moved(&self.moves_by(&amounts_m)).origin(Origin::Grade)?;
                 Ok(people::eases(&style, figures, &levels))
             };
             tried.push([turned(-TRIED_M)?, turned(TRIED_M)?]);

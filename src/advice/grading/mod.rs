@@ -26,7 +26,7 @@ use pattern::Style;
 use report::file_part;
 use spec::file::GarmentEntry;
 use spec::{JobSpec, Study, patterns};
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 use wardrobe::seams::Specification;
 
 /// Greatest turn of a knob either way, m.
@@ -264,7 +264,7 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
 }
 
 fn refused(message: String) -> StudyError {
-    StudyError::stage("grade")(message)
+    StudyError::refused(Origin::Grade, message)
 }
 
 /// What is asked for, found in the study.

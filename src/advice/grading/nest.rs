@@ -12,7 +12,7 @@ use pattern::{Piece, Style, handle};
 use report::FileNames;
 use spec::patterns;
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// How far a size that the rules make may lie from the size as drawn, m.
 const APART_M: f64 = 0.1e-3;
@@ -52,11 +52,11 @@ pub fn drawn(
     let mut nest: Option<PatternFile> = None;
     for (name, turns) in names.iter().zip(turns) {
         let pieces = handle::redrawn(&base, &seams.bytes, &seams.name, &knobs.moves(turns));
-        let mut pieces = pieces.map_err(StudyError::stage("grade"))?.pieces;
+        let mut pieces = pieces.origin(Origin::Grade)?.pieces;
         pieces.iter_mut().for_each(|piece| piece.size = Some(name.clone()));
         let file = format!("{}.dxf", parts.part(&format!("{garment}-{name}")));
         let written = dxf::write_pieces(&pieces, &texts(name), Standard::Aama);
-        let read = dxf::read(&written, &file, None).map_err(StudyError::stage("grade"))?;
+        let read = dxf::read(&written, &file, None).origin(Origin::Grade)?;
         files.push((file, written));
         match &mut nest {
             Some(nest) => nest.pieces.extend(read.pieces),
@@ -66,14 +66,14 @@ pub fn drawn(
     let nest = nest.ok_or_else(|| refused("no size".to_owned()))?;
     // The sample is the size in the middle, as pattern makers have it.
     let sample = &names[names.len().saturating_sub(1) / 2];
-    let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).map_err(StudyError::stage("grade"))?;
+    let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).origin(Origin::Grade)?;
     let texts = texts(sample).into_iter().chain([grade::named_in_pattern(&whole)]).collect::<Vec<_>>();
     let written = dxf::write_pieces(&pieces, &texts, Standard::Aama);
     let rules = grade::write(&table, &whole, Standard::Aama);
     let (again, apart_m) = again(&nest, &written, rules.as_bytes(), &whole)?;
     let style = |name: &String| {
-        let pieces = again.to_sew(Some(name)).map_err(StudyError::stage("grade"))?;
-        Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("grade"))
+        let pieces = again.to_sew(Some(name)).origin(Origin::Grade)?;
+        Style::read(&pieces, &seams.bytes, &seams.name).origin(Origin::Grade)
     };
     let styles = names.iter().map(style).collect::<Result<_>>()?;
     files.push((format!("{whole}.dxf"), written));
@@ -83,9 +83,9 @@ pub fn drawn(
 
 /// What the written sample size and rules make, and the greatest distance of it from the nest, m.
 fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result<(PatternFile, f64)> {
-    let sample = dxf::read(written, &format!("{name}.dxf"), None).map_err(StudyError::stage("grade"))?;
-    let table = grade::read(rules, &format!("{name}.rul")).map_err(StudyError::stage("grade"))?;
-    let again = grade::grade(&sample, &table).map_err(StudyError::stage("grade"))?;
+    let sample = dxf::read(written, &format!("{name}.dxf"), None).origin(Origin::Grade)?;
+    let table = grade::read(rules, &format!("{name}.rul")).origin(Origin::Grade)?;
+    let again = grade::grade(&sample, &table).origin(Origin::Grade)?;
     let mut apart_m: f64 = 0.0;
     for piece in &nest.pieces {
         let is_it = |other: &&Piece| other.name == piece.name && other.size == piece.size;

@@ -4,7 +4,7 @@ use rusqlite::{Connection, Row as SqlRow};
 
 use fit::Simulator;
 use store::columns::simulator;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Subjects of every table, in its columns.
 pub(super) const SUBJECTS: [&str; 6] = ["i", "ii", "iii", "iv", "v", "vi"];
@@ -189,7 +189,7 @@ fn metric(row: &SqlRow<'_>) -> Result<Metric> {
 
 fn six(row: &SqlRow<'_>, column: usize) -> Result<[f64; 6]> {
     let text: String = row.get(column)?;
-    serde_json::from_str(&text).map_err(StudyError::stage("store"))
+    serde_json::from_str(&text).origin(Origin::Store)
 }
 
 fn five(row: &SqlRow<'_>, first: usize) -> Result<[f64; 5]> {

@@ -8,7 +8,7 @@ use geom::units::from_mm;
 use pattern::Garment;
 use render::{self, Mapping, Print, Rgb, Texture, Weave};
 use sim::Fabric;
-use store::{Result, StudyError};
+use store::{Origin, Result, StudyError};
 
 /// One repeat of the check: squares of 20 mm, m.
 const CHECK_M: f64 = 0.04;
@@ -98,7 +98,7 @@ impl Cloth {
             Kind::Image(path) => {
                 let bytes = std::fs::read(path).map_err(|source| StudyError::Io { path: path.clone(), source })?;
                 let picture = image::load_from_memory(&bytes).map_err(|error| {
-                    StudyError::stage("render")(format!("{}: {error}; accepted: PNG and JPEG", path.display()))
+                    StudyError::refused(Origin::Render, format!("{}: {error}; accepted: PNG and JPEG", path.display()))
                 })?;
                 let texture = Texture::new(&picture.to_rgba8());
                 let repeat = self.repeat_mm.map(|mm| [from_mm(mm), from_mm(mm) * texture.aspect()]);

@@ -22,7 +22,7 @@ use render::export::{MeshFormat, Part};
 use render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
 use sim::sewn::Sewn;
 use sim::{self, Drape, Fabric};
-use store::{JobId, Result, StageKind, Store, StudyError, Value, cache, read, sql};
+use store::{InOrigin, JobId, Origin, Result, StageKind, Store, StudyError, Value, cache, read, sql};
 use wardrobe::catalogue::read_fabric;
 
 /// How far from a level of the body cloth still counts as at it, m.
@@ -88,7 +88,7 @@ impl Dressed {
         let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
         let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
         let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(&cloth, Material::popup())];
-        Some(Scene::new(layers).map_err(StudyError::stage("render")))
+        Some(Scene::new(layers).origin(Origin::Render))
     }
 
     /// The same with the garment as a stage left it; `None` where the simulator keeps no such stage.
@@ -118,7 +118,7 @@ impl Dressed {
 
     /// The sewn cloth.
     pub fn sewn(&self) -> Result<Sewn<'_>> {
-        Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).map_err(StudyError::stage("render"))
+        Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)
     }
 
     /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
@@ -136,7 +136,7 @@ impl Dressed {
             Map::Pressure => self.sewn()?.pressures_kpa(),
             Map::Gap => {
                 // The field that contact asks ends a few centimetres off the body; a gap may be wider.
-                let surface = |mesh| Surface::new(mesh).map_err(StudyError::stage("render"));
+                let surface = |mesh| Surface::new(mesh).origin(Origin::Render);
                 let skin = surface(&self.body)?;
                 let layers = self.under.iter().map(surface).collect::<Result<Vec<_>>>()?;
                 let gap_m = |p| {
@@ -158,7 +158,7 @@ impl Dressed {
         let (form, paint) = self.look(map, cloths, skin)?;
         let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
         let under = self.under.iter().map(|cloth| Layer::new(cloth, Material::under()));
-        Scene::new(own.into_iter().chain(under).collect()).map_err(StudyError::stage("render"))
+        Scene::new(own.into_iter().chain(under).collect()).origin(Origin::Render)
     }
 
     /// Shows another map in a scene of this result, which need not be lit again.
@@ -166,7 +166,7 @@ impl Dressed {
         let (form, paint) = self.look(map, &[], None)?;
         let painted = scene.paint(BODY, form, Paint::Plain);
         let painted = painted.and_then(|()| scene.paint(CLOTH, self.material_under(map), paint));
-        painted.map_err(StudyError::stage("render"))
+        painted.origin(Origin::Render)
     }
 
     /// How the body and the cloth look.
@@ -246,7 +246,7 @@ impl Scenes {
         let camera = look.camera(&kept.stage.meshes[1..], width, height);
         let picture = render::cutout(&kept.stage.scene, &camera, width, height);
         self.kept.push(kept);
-        picture.map_err(StudyError::stage("render"))
+        picture.origin(Origin::Render)
     }
 }
 
@@ -296,7 +296,7 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let garment = meshes
         .pop()
         .filter(fits)
-        .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
+        .ok_or_else(|| StudyError::refused(Origin::Store, format!("the mesh of job {id} does not fit its drape")))?;
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
     let fabric = fabric_of(store, id)?;
     let at = &model.body.levels;

@@ -6,7 +6,7 @@ use crate::picture::{self, Cloth, Dressed, Map};
 use geom::TriMesh;
 use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
 use sim::Stage;
-use store::{JobId, Result, Store, StudyError, read};
+use store::{InOrigin, JobId, Origin, Result, Store, StudyError, read};
 
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;
@@ -87,10 +87,9 @@ impl Order {
     }
 
     fn draw(&self, scene: &Scene, camera: &Camera) -> Result<RgbaImage> {
-        let mut picture =
-            render::render(scene, camera, self.size.0, self.size.1).map_err(StudyError::stage("render"))?;
+        let mut picture = render::render(scene, camera, self.size.0, self.size.1).origin(Origin::Render)?;
         if let Some(scale) = self.map.scale() {
-            render::draw_legend(&mut picture, &scale).map_err(StudyError::stage("render"))?;
+            render::draw_legend(&mut picture, &scale).origin(Origin::Render)?;
         }
         Ok(picture)
     }
@@ -134,7 +133,7 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
         [one] => render::png(&one.picture),
         _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
     };
-    picture.map_err(StudyError::stage("render"))
+    picture.origin(Origin::Render)
 }
 
 /// A result as a stage of its simulation left it.
@@ -159,5 +158,5 @@ pub fn turntable(store: &Store, id: JobId, order: &Order, pictures: u32) -> Resu
         order.draw(&scene, &order.camera(shot, whole, garments))
     });
     let frames = turned.collect::<Result<Vec<_>>>()?;
-    render::animated_png(&frames, TURN_MS / pictures.max(1)).map_err(StudyError::stage("render"))
+    render::animated_png(&frames, TURN_MS / pictures.max(1)).origin(Origin::Render)
 }

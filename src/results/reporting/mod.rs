@@ -13,7 +13,7 @@ use fit::Simulator;
 use report::data::{Fact, FitData, RawLink};
 use report::{self, FileNames, Purpose, ReportData};
 use spec::patterns;
-use store::{JobFilter, PUBLISHED, Result, Store, StudyError, Table, Value, evidence, read, sql};
+use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
 
 /// Views of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 13] = [
@@ -78,7 +78,7 @@ pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Ve
     let simulators = data.runs.iter().map(|run| run.simulator);
     let compares = Simulator::ALL.iter().all(|one| simulators.clone().any(|other| other == *one));
     let by_default = if compares { Purpose::Compare } else { Purpose::Fit };
-    files.extend(report::files(&data, purpose.unwrap_or(by_default)).map_err(StudyError::stage("report"))?);
+    files.extend(report::files(&data, purpose.unwrap_or(by_default)).origin(Origin::Report)?);
     Ok(files)
 }
 

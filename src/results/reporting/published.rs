@@ -9,7 +9,7 @@ use fit::measure::Chi;
 use fit::{Answer, Cuts, Ease, Simulator};
 use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Severity, TryOn, Verdict};
 use report::{self, Purpose, ReportData};
-use store::{PUBLISHED, Result, Store, StudyError, Value, evidence, sql};
+use store::{InOrigin, Origin, PUBLISHED, Result, Store, Value, evidence, sql};
 
 /// Tables of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 2] = [
@@ -59,7 +59,7 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
         raw: RAW.map(|(_, href, label)| RawLink { href: href.into(), label: format!("{href}: {label}") }).to_vec(),
         ..ReportData::default()
     };
-    let mut files = report::files(&data, Purpose::Compare).map_err(StudyError::stage("report"))?;
+    let mut files = report::files(&data, Purpose::Compare).origin(Origin::Report)?;
     for (view, file, _) in RAW {
         files.push((file.to_owned(), sql::query(store, &format!("SELECT * FROM {view}"))?.csv().into_bytes()));
     }

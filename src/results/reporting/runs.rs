@@ -12,7 +12,7 @@ use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};
 use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, RawLink, TryOn};
 use sim::Stage;
-use store::{JobId, JobRow, MetricsRow, Result, Status, Store, StudyError, Value, read, sql};
+use store::{InOrigin, JobId, JobRow, MetricsRow, Origin, Result, Status, Store, Value, read, sql};
 
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
@@ -213,21 +213,21 @@ struct Photographer<'a> {
 
 impl Photographer<'_> {
     fn shot(&self, scene: &Scene, view: View) -> Result<RgbaImage> {
-        render::render(scene, &Camera::new(view, self.frame), PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))
+        render::render(scene, &Camera::new(view, self.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
     }
 
     /// A picture for the page; the file beside it has the legend of its scale drawn in.
     fn keep(&mut self, shot: RgbaImage, name: &str, caption: String, scale: Option<&Scale>) -> Result<Picture> {
         let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.shrink).round() as u32);
         let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
-        let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
+        let bytes = render::jpeg(&small).origin(Origin::Render)?;
         let mut full = shot;
         if let Some(scale) = scale {
-            render::draw_legend(&mut full, scale).map_err(StudyError::stage("render"))?;
+            render::draw_legend(&mut full, scale).origin(Origin::Render)?;
         }
         let job = self.job;
         let file = format!("pictures/job-{}-{name}.jpg", job.id);
-        self.files.push((file.clone(), render::jpeg(&full).map_err(StudyError::stage("render"))?));
+        self.files.push((file.clone(), render::jpeg(&full).origin(Origin::Render)?));
         let alt = format!("{} {} on {}, {}, {caption}", job.garment, job.size, job.subject, job.simulator.as_str());
         Ok(Picture { bytes, file, alt, caption })
     }

@@ -26,7 +26,7 @@ use fit::target::Target;
 use fit::{Cuts, Simulator};
 use sim::Fabric;
 pub use store::files::SourceFile;
-use store::{InFile, Problem, Result, StudyError};
+use store::{InFile, Origin, Problem, Result, StudyError};
 
 /// A subject of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -343,7 +343,7 @@ pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> 
         return measurements(path, &text);
     }
     let source = SourceFile::read(path)?;
-    let in_file = |error| StudyError::stage("body")(InFile { file: source.name.clone(), source: error });
+    let in_file = |error| StudyError::refused(Origin::Body, InFile { file: source.name.clone(), source: error });
     body::read_foreign(&source.bytes, sex).map_err(in_file)
 }
 

@@ -5,8 +5,7 @@
 //! It stands where ratatui's own backend would, which sends every change at once. Sequences are those of ECMA-48 that the
 //! VT220 and all since understand; blanks are erased, not written.
 
-use std::io;
-use std::io::Write;
+use std::io::{self, Write};
 
 use crossterm::terminal;
 use ratatui::backend::{Backend, ClearType, WindowSize};

@@ -4,11 +4,11 @@ pub mod clipboard;
 pub mod editor;
 pub mod framed;
 
-use std::io::{IsTerminal, Stdout};
+use std::io::{self, IsTerminal, Stdout};
 use std::os::unix::net::UnixStream;
 use std::sync::Once;
 use std::time::{Duration, Instant};
-use std::{io, panic, thread};
+use std::{panic, thread};
 
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};

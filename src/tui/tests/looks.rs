@@ -4,7 +4,8 @@ use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;
 
 use super::{Bench, fixture};
-use crate::messages::{effect::Effect, message::Message};
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
 use crate::widgets::ascii::stand_in;
 use crate::widgets::picture::{Images, PictureEncoder};
 use crate::widgets::theme::Colours;

@@ -20,8 +20,9 @@ use ratatui::backend::TestBackend;
 use ratatui::layout::Size;
 
 use crate::app::frame;
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
 use crate::messages::snapshot::Snapshot;
-use crate::messages::{effect::Effect, message::Message};
 use crate::screens::state::{Abilities, State};
 use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::theme::{Colours, Theme};

@@ -11,7 +11,7 @@ use crate::threads::reading;
 use engine::{Executor, Outcome, RunOptions, run};
 use sim::Monitor;
 use spec::JobSpec;
-use store::{Status, Store, StudyError};
+use store::{Origin, Status, Store, StudyError};
 use wardrobe::catalogue;
 
 /// Refuses every job.
@@ -20,7 +20,7 @@ struct Refusing;
 impl Executor for Refusing {
     fn execute(&self, spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome, StudyError> {
         let message = format!("size {} does not go over the head", spec.size);
-        Err(StudyError::stage("sim")(message))
+        Err(StudyError::refused(Origin::Sim, message))
     }
 }
 

@@ -9,7 +9,7 @@ use std::time::Instant;
 use crate::messages::message::Message;
 use crate::messages::seams::{PreviewRequest, Previewed};
 use results::preview::{Mannequin, Preview, mannequin};
-use store::{Store, StudyError, SubjectId};
+use store::{Origin, Store, StudyError, SubjectId};
 use wardrobe::catalogue;
 use wardrobe::seams::Workpiece;
 
@@ -65,7 +65,7 @@ impl Room {
         request: &PreviewRequest,
         is_stale: &dyn Fn() -> bool,
     ) -> Result<(String, String, Preview), StudyError> {
-        let store = self.store.as_ref().map_err(|error| StudyError::stage("store")(error.clone()))?;
+        let store = self.store.as_ref().map_err(|error| StudyError::refused(Origin::Store, error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {
             self.ready = Some((request.subject, mannequin(store, request.subject)?));
         }

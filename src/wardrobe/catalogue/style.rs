@@ -12,7 +12,7 @@ use pattern::{Style, size_order, source};
 use spec::file::{self, Placed, Sewn, SizeFile};
 use spec::patterns::{self, Nest};
 use store::files::SourceFile;
-use store::{JobId, Problem, Result, Store, StudyError};
+use store::{InOrigin, JobId, Origin, Problem, Result, Store, StudyError};
 
 /// What is given of a style or a size; an edit keeps what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -287,7 +287,7 @@ fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
 /// Names of the sizes in a pattern file.
 fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
     let read = source::read(&pattern.bytes, &pattern.name, unit.and_then(patterns::unit_of));
-    let file = read.map_err(StudyError::stage("pattern"))?;
+    let file = read.origin(Origin::Pattern)?;
     Ok(file.sizes().into_iter().map(str::to_owned).collect())
 }
 

@@ -5,7 +5,7 @@ use toml_edit::DocumentMut;
 use pattern::StyleError;
 use pattern::seam_edit::{Edit, Sizes, edited};
 use pattern::seams::{PieceEntry, SeamEntry, SeamFile};
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Tables of a seam file that no proposal has.
 const OWN_TABLES: [&str; 3] = ["measurement", "reinforce", "fit"];
@@ -27,7 +27,7 @@ impl Reworked<'_> {
     /// # Errors
     /// When a text is no seam file.
     pub fn done_again(&self, other: String, sizes: &Sizes<'_>) -> Result<String> {
-        let read = |text: &str| SeamFile::parse(text.as_bytes(), self.file).map_err(StudyError::stage("pattern"));
+        let read = |text: &str| SeamFile::parse(text.as_bytes(), self.file).origin(Origin::Pattern);
         let (proposed, own) = (read(self.proposed)?, read(self.own)?);
         let text = self.with_own_tables(other)?;
         let text = self.applied(text, edits_of_pieces(&proposed, &own), sizes);
@@ -46,7 +46,7 @@ impl Reworked<'_> {
 
     /// A text with the tables that a person has written.
     fn with_own_tables(&self, text: String) -> Result<String> {
-        let parse = |text: &str| text.parse::<DocumentMut>().map_err(StudyError::stage("pattern"));
+        let parse = |text: &str| text.parse::<DocumentMut>().origin(Origin::Pattern);
         let own = parse(self.own)?;
         if !OWN_TABLES.iter().any(|key| own.contains_key(key)) {
             return Ok(text);

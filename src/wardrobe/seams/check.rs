@@ -12,7 +12,7 @@ use spec::Study;
 use spec::file::{GarmentEntry, SizeFile};
 use spec::patterns::{self, Nest, Style, Unit};
 use store::files::SourceFile;
-use store::{Access, Result, StudyError};
+use store::{Access, InOrigin, Origin, Result};
 
 /// Edge length of the mesh that a check makes, mm.
 pub const CHECK_EDGE_MM: f64 = 15.0;
@@ -152,8 +152,8 @@ pub(crate) fn of_files(
         return Ok(Vec::new());
     }
     let pieces = patterns::pieces(pattern, size, unit)?;
-    let style = Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
-    let entries = SeamFile::parse(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    let style = Style::read(&pieces, &seams.bytes, &seams.name).origin(Origin::Pattern)?;
+    let entries = SeamFile::parse(&seams.bytes, &seams.name).origin(Origin::Pattern)?;
     Ok(check::findings(&pieces, &entries, &style))
 }
 

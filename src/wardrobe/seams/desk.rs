@@ -13,7 +13,7 @@ use pattern::style::{EdgeRef, Style, StylePiece};
 use pattern::{Piece, Role, arrange};
 use spec::patterns::{self, Nest, Unit};
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Distance within which a notch lies at an edge, m.
 const NOTCH_M: f64 = 0.005;
@@ -193,7 +193,7 @@ pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
         return Ok(Proposed { proposal, desk: Desk::default() });
     }
     let text = proposal.toml("proposed");
-    let style = Style::read(&pieces, text.as_bytes(), "proposed").map_err(StudyError::stage("pattern"))?;
+    let style = Style::read(&pieces, text.as_bytes(), "proposed").origin(Origin::Pattern)?;
     let mut desk = Desk::of(&style);
     for (seam, proposed) in desk.seams.iter_mut().zip(&proposal.seams) {
         seam.confidence = Some(proposed.confidence);
@@ -206,7 +206,7 @@ pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Proposal, Vec
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
     let size = how.size.unwrap_or(nest.sample_size());
     let pieces = nest.pieces(size)?;
-    let mut proposal = propose::propose_answered(&pieces, how.answers).map_err(StudyError::stage("pattern"))?;
+    let mut proposal = propose::propose_answered(&pieces, how.answers).origin(Origin::Pattern)?;
     proposal.allowance_m = how.allowance_m;
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
     proposal.notes.push(nest.sewn_along());

@@ -12,7 +12,7 @@ use pattern::source::{self, Kind};
 use pattern::{Style, garmentcode, info};
 use spec::patterns::drawings;
 use store::files::SourceFile;
-use store::{Result, StudyError};
+use store::{InOrigin, Origin, Result, StudyError};
 
 /// What is said about a pattern beside its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,16 +35,15 @@ impl Beside<'_> {
         let mut notes = Vec::new();
         if let Some(path) = self.rules {
             let source = SourceFile::read(path)?;
-            let table = grade::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
-            let (table, note) =
-                grade::in_unit_of(table, pattern.unit, self.rule_unit).map_err(StudyError::stage("pattern"))?;
+            let table = grade::read(&source.bytes, &source.name).origin(Origin::Pattern)?;
+            let (table, note) = grade::in_unit_of(table, pattern.unit, self.rule_unit).origin(Origin::Pattern)?;
             notes.extend(note);
-            pattern = grade::grade(&pattern, &table).map_err(StudyError::stage("pattern"))?;
+            pattern = grade::grade(&pattern, &table).origin(Origin::Pattern)?;
         }
         if let Some(path) = self.info {
             let source = SourceFile::read(path)?;
-            let table = info::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
-            table.merge(&mut pattern).map_err(StudyError::stage("pattern"))?;
+            let table = info::read(&source.bytes, &source.name).origin(Origin::Pattern)?;
+            table.merge(&mut pattern).origin(Origin::Pattern)?;
         }
         Ok((pattern, notes))
     }
@@ -52,12 +51,12 @@ impl Beside<'_> {
     /// The pattern of a file, of the size that is asked for, that may be handed on: no piece of it is refused, and its
     /// unit is known; with what is to be said of the tables beside it.
     fn usable_pattern(&self, source: &SourceFile) -> Result<(PatternFile, Vec<String>)> {
-        let read = source::read(&source.bytes, &source.name, self.unit).map_err(StudyError::stage("pattern"))?;
+        let read = source::read(&source.bytes, &source.name, self.unit).origin(Origin::Pattern)?;
         let (mut pattern, notes) = self.complete(read)?;
         let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
         for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
             // A nest is no garment: every size for itself may be sewn.
-            pattern.to_sew(Some(&size)).map_err(StudyError::stage("pattern"))?;
+            pattern.to_sew(Some(&size)).origin(Origin::Pattern)?;
         }
         self.keep_size(&mut pattern);
         Ok((pattern, notes))
@@ -107,7 +106,7 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>
     let source = SourceFile::read(path)?;
     let (pattern, notes) = beside.usable_pattern(&source)?;
     let features = Features::of(&pattern.pieces, &source.name, &pattern.texts);
-    Ok((serde_json::to_string_pretty(&features).map_err(StudyError::stage("pattern"))?, notes))
+    Ok((serde_json::to_string_pretty(&features).origin(Origin::Pattern)?, notes))
 }
 
 /// A pattern as DXF by a standard, half pieces as halves: all its sizes as a nest; and what is to be said of the tables beside it.
@@ -139,7 +138,7 @@ pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, t
     let all = Beside { size: None, ..*beside };
     let (pattern, mut said) = all.usable_pattern(&SourceFile::read(path)?)?;
     let sample = beside.size.unwrap_or(pattern.sample_size());
-    let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).map_err(StudyError::stage("pattern"))?;
+    let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).origin(Origin::Pattern)?;
     let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key) && !grade::is_name_of_table(key);
     let sample = ("Sample Size".to_owned(), table.sizes[table.sample].clone());
     let own = [sample, grade::named_in_pattern(table_name)];
@@ -162,18 +161,16 @@ pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside
             notes = said;
             // A file of one size is of that size, whatever it is called.
             let size = beside.size.filter(|_| file.sizes().len() > 1);
-            let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
+            let pieces = file.to_sew(size).origin(Origin::Pattern)?;
             let seams = SourceFile::read(seams)?;
-            Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+            Style::read(&pieces, &seams.bytes, &seams.name).origin(Origin::Pattern)?
         }
-        (None, Kind::GarmentCode) => {
-            garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
-        }
+        (None, Kind::GarmentCode) => garmentcode::read(&source.bytes, &source.name).origin(Origin::Pattern)?.style(),
         (None, _) => {
             let message = format!("{}: GarmentCode JSON holds seams: name a seam file (--seams FILE)", source.name);
-            return Err(StudyError::stage("pattern")(message));
+            return Err(StudyError::refused(Origin::Pattern, message));
         }
     };
-    let text = serde_json::to_string_pretty(&garmentcode::document(&style)).map_err(StudyError::stage("pattern"))?;
+    let text = serde_json::to_string_pretty(&garmentcode::document(&style)).origin(Origin::Pattern)?;
     Ok((text, notes))
 }

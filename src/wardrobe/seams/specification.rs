@@ -11,7 +11,7 @@ use pattern::pom::Point;
 use pattern::progression::{Leap, leaps};
 use spec::patterns::{self, Nest};
 use store::files::SourceFile;
-use store::{Result, StudyError, Table, Value};
+use store::{Origin, Result, StudyError, Table, Value};
 
 /// A point of measure of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -84,7 +84,7 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
     if found.points.is_empty() {
         let message =
             format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
-        return Err(StudyError::stage("pattern")(message));
+        return Err(StudyError::refused(Origin::Pattern, message));
     }
     Ok(found)
 }

@@ -15,7 +15,7 @@ use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 use pattern::style::Style;
 use spec::patterns::{self, Nest, Unit};
 use store::files::SourceFile;
-use store::{Problem, Result, StudyError};
+use store::{InOrigin, Origin, Problem, Result, StudyError};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
@@ -95,7 +95,7 @@ impl Workpiece {
             };
             undecided.extend((0..desk.seams.len()).filter(is_new).filter_map(|seam| Undecided::unsure(&desk, seam)));
             undecided.splice(0..0, asked.into_iter().map(Undecided::asked));
-            let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
             tolerance_mm = entries.length_tolerance_mm;
             let found = self.findings(&style)?;
             // A piece that the file does not name is left out on purpose; the garment tells so where it is seen.
@@ -122,7 +122,7 @@ impl Workpiece {
     /// # Errors
     /// When the pattern holds its own seams, or the step cannot be done.
     pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
-        let refused = |message: String| StudyError::stage("pattern")(message);
+        let refused = |message: String| StudyError::refused(Origin::Pattern, message);
         if self.pattern.holds_seams() {
             let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
             return Err(refused(message));
@@ -132,14 +132,14 @@ impl Workpiece {
         }
         if let SeamStep::Written(file) = step {
             let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
-            Style::read(&pieces, &file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            Style::read(&pieces, &file.bytes, &file.name).origin(Origin::Pattern)?;
             return Ok(file.clone());
         }
         let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
             SeamStep::Edit(edit) => {
-                self.with_sizes(|sizes| edited(&text, &file.name, sizes, edit).map_err(StudyError::stage("pattern")))?
+                self.with_sizes(|sizes| edited(&text, &file.name, sizes, edit).origin(Origin::Pattern))?
             }
             SeamStep::Confirm(seam) => confirmed(&text, |name, _| name == seam)
                 .ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?,
@@ -189,14 +189,14 @@ impl Workpiece {
             let accepted: Vec<String> = asked.iter().map(Question::to_string).collect();
             let message =
                 format!("{question}: answer {}: accepted: {}", Question::letter(choice), accepted.join("; or "));
-            return Err(StudyError::stage("pattern")(message));
+            return Err(StudyError::refused(Origin::Pattern, message));
         }
         let given = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
         let before: Answers = given.collect();
         let mut answers = before.clone();
         answers.insert(question.to_owned(), choice);
         let file = self.seams.as_ref().map_or("", |file| file.name.as_str());
-        let entries = |text: &str| SeamFile::parse(text.as_bytes(), file).map_err(StudyError::stage("pattern"));
+        let entries = |text: &str| SeamFile::parse(text.as_bytes(), file).origin(Origin::Pattern);
         let old = entries(text)?;
         let proposed = |answers| {
             let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
@@ -224,12 +224,12 @@ impl Workpiece {
         let mut proposal = propose::propose_told(&pieces, answers);
         if proposal.is_empty() {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
-            return Err(StudyError::stage("pattern")(message));
+            return Err(StudyError::refused(Origin::Pattern, message));
         }
         hold_for(&mut proposal, &self.size, &pieces, others);
         let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
         let text = proposal.toml(style);
-        Style::read(&pieces, text.as_bytes(), &name).map_err(StudyError::stage("pattern"))?;
+        Style::read(&pieces, text.as_bytes(), &name).origin(Origin::Pattern)?;
         Ok(SourceFile { name, bytes: text.into_bytes().into() })
     }
 
@@ -245,7 +245,7 @@ impl Workpiece {
     /// When a file cannot be read.
     pub fn findings(&self, style: &Style) -> Result<Vec<Finding>> {
         let Some(file) = self.seams.as_ref().filter(|_| !self.pattern.holds_seams()) else { return Ok(Vec::new()) };
-        let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+        let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
         let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
         Ok(check::findings(&pieces, &entries, style))
     }
