@@ -4,10 +4,6 @@
 //! A garment that is too small still closes in FEM-GS, under whatever tension that takes. The measure is a quantile of
 //! the greater principal stretch over the area of the cloth: the value that 1 % of the area exceeds. Single triangles
 //! at a corner or at the tip of a dart do not reach that area. A strip over the hips does.
-//!
-//! A garment that is too small still closes in FEM-GS, under whatever tension that takes. The measure is the principal
-//! stretch that one part in a hundred of the cloth exceeds: single triangles, at a corner or in a dart's tip, do not
-//! count, a strip over the hips does.
 
 mod measure;
 

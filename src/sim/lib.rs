@@ -1,10 +1,7 @@
-//! The simulators: a body and a garment become a drape (the garment simulation module of [T 3.4]).
+//! The simulators, which turn a body and a garment into a drape (GSM in [T 3.4]).
 //!
 //! [`fem`] and [`hybrid`] never call each other. Both return a [`Drape`], and both use the cloth energies, the contact
 //! and the sewing of the modules beside them.
-//!
-//! [`fem`] and [`hybrid`] never call each other; both return a [`Drape`] made from the cloth energies, contact and
-//! sewing that are siblings here.
 
 pub mod cloth;
 mod constants;

@@ -179,7 +179,7 @@ mod tests {
         check(&garment, 1.4);
         garment.pieces = trunk_and(Role::Back);
         check(&garment, 1.7);
-        // Where it is not known what anything is worn as, all counts.
+        // Where no role is known, all pieces count.
         garment.pieces.iter_mut().for_each(|piece| piece.role = Role::Other);
         check(&garment, 1.7);
     }

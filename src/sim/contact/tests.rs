@@ -311,8 +311,8 @@ fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
 
 #[test]
 fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
-    // A triangle and, folded over it, another that is to be sewn to it at two corners: these have come out below it by a
-    // millimetre, beside their partners, its third corner lies above its middle.
+    // A triangle, and another folded over it that is to be sewn to it at two corners. These corners are a millimetre
+    // below it, beside their partners. The third corner is above its middle.
     let below = V3::new(0.0, 0.01, -1e-3);
     let corners = [V3::new(0.0, 0.0, 0.0), V3::new(0.06, 0.0, 0.0), V3::new(0.03, 0.06, 0.0)];
     let x =

@@ -139,7 +139,7 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     let row = edge * 0.75_f64.sqrt();
     let rows = (length / row).round() as usize;
     let fabric = isotropic(density, 1e7 * weight * length, 1.0);
-    // The strip's plane stands upright: u is up, v runs out of the clamp.
+    // The plane of the strip is vertical: u points up, and v out of the clamp.
     let strip = Specimen::new(hexagonal_sheet(columns, rows, edge), &fabric, |p| V3::new(0.0, p.y, p.x))?;
     let mut strip = strip.hold(|p| p.y < row + 1e-9);
     strip.rest(1.0, 1e-6, 50);
