@@ -138,7 +138,7 @@ impl<N: Number> Fibre<N> {
         self.parts(strain).0.mul_add(strain.splat(2.0) * self.rise, self.rest)
     }
 
-    /// Strain energy per area, N/m.
+    /// Strain energy per area, the integral of `sigma`, N/m: `K E^2 / 2 + R (w^3 / 3 + w b (w + b))`.
     #[must_use]
     #[inline(always)]
     pub fn energy(&self, strain: N) -> N {
@@ -258,7 +258,8 @@ impl<N: Number> Orthotropic<N> {
         }
     }
 
-    /// Strain energy per area of a strain, N/m.
+    /// Strain energy per area of a strain, N/m: `psi_1(E11) + psi_2(E22) + c12 E11 E22 + 2 G E12^2`, with the energies
+    /// `psi` of the two directions.
     #[must_use]
     #[inline(always)]
     pub fn energy(&self, strain: Tensor<N>) -> N {

@@ -96,7 +96,8 @@ struct Press {
     depth_m: f64,
     /// Penalty stiffness, N/m: that per area times the smallest rest area among the vertices.
     stiffness_n_m: f64,
-    /// Mollifier [Li 2020]: factor of the contact, less than 1 for nearly parallel edges.
+    /// Mollifier [Li 2020], the factor `e/e0 (2 - e/e0)` of the contact of two nearly parallel edges, and else 1. `e`
+    /// is the squared norm of their cross product, and `e0` its threshold.
     mollifier: f64,
     /// Gradient of the mollifier by the first edge and by the second, 1/m.
     mollifier_gradient: Option<[V3; 2]>,

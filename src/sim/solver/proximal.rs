@@ -1,7 +1,8 @@
 //! Proximal Newton method: each step reduces `E(x) + |x - x_n|^2_M / (2 h^2)` by one Newton step with a line search.
 //!
-//! There is no dynamics: the proximal term, with the step size `h` and the lumped masses `M`, keeps a step within the
-//! range of its linearisation. `h` grows while steps succeed, and the limit is static equilibrium.
+//! There is no dynamics. The proximal term, with the step size `h` and the lumped masses `M`, keeps a step within the
+//! range of its linearisation; the code calls it inertia. `h` grows while steps succeed, and the limit is static
+//! equilibrium.
 //!
 //! Cloth is a million times softer in bending than in its plane. A step along a soft mode rotates triangles and so
 //! stretches them, to second order. On its own it could go only a fraction of a millimetre. Each step is therefore

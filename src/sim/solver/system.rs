@@ -24,7 +24,8 @@ geom::constants! {
     "solver.system",
     /// Stiffness that holds a vertex, N/m. It exceeds that of any fabric by six orders of magnitude.
     const HELD_STIFFNESS: f64 = 1e10;
-    /// Penalty stiffness of walls and covers, N/m3.
+    /// Penalty stiffness `k` of walls and covers, N/m3. The energy of a vertex with the area `A` at the depth `d` is `k
+    /// A d^2 / 2`, J.
     const WALL_STIFFNESS: f64 = 1e5;
 }
 
