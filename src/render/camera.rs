@@ -1,23 +1,23 @@
-//! Where pictures are taken from: orthographic cameras that share one frame, so that one scale.
+//! Orthographic cameras. All cameras of one frame share their scale.
 
 use geom::{TriMesh, V3};
 use nalgebra::Vector3;
 
-/// The four views every drape is shown from.
+/// The four standard views of a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum View {
-    /// From `+y`; the subject's right at the picture's left.
+    /// From `+y`; the subject's right is at the left of the picture.
     Front,
-    /// From `+x`, the subject's right side; the subject faces the picture's right.
+    /// From `+x`, the subject's right side; the subject faces the right of the picture.
     Side,
-    /// From `-y`, behind the subject; the subject's right at the picture's right.
+    /// From `-y`, behind the subject; the subject's right is at the right of the picture.
     Back,
     /// From between front and side.
     Quarter,
 }
 
 impl View {
-    /// All four, in the order they are shown.
+    /// All views, in the order in which they are shown.
     pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::Back, Self::Quarter];
 
     /// Name under pictures and in file names.
@@ -43,7 +43,7 @@ impl View {
     }
 }
 
-/// What all pictures of a comparison show: a point and how much of the world fits a picture's height.
+/// Common frame of the pictures of a comparison: the point at their centre, and the height that they show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// World point at the picture's centre, m.
@@ -53,9 +53,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The least frame that holds all meshes from every view in pictures of the given width over height, with a margin;
-    /// the origin's surroundings where there are no vertices. Give it every subject of a study for one shared scale, or a
-    /// garment alone for a close view.
+    /// Smallest frame with a margin that contains all meshes in every view, for pictures of an aspect ratio (width over
+    /// height). Without vertices it shows the surroundings of the origin. Given every subject of a study it gives one
+    /// scale for all, and given a garment alone a close view.
     #[must_use]
     pub fn enclosing<'a>(meshes: impl IntoIterator<Item = &'a TriMesh>, aspect: f64) -> Self {
         let meshes: Vec<&TriMesh> = meshes.into_iter().collect();
@@ -76,7 +76,7 @@ impl Frame {
 /// An orthographic camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// What it shows.
+    /// Frame that it shows.
     pub frame: Frame,
     /// Angle about `z` from the front towards the subject's right, degrees.
     pub azimuth_deg: f64,
@@ -85,13 +85,13 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera of a view, a little above the horizon so that the floor shows.
+    /// Camera of a view, a little above the horizon so that the floor shows.
     #[must_use]
     pub fn new(view: View, frame: Frame) -> Self {
         Self { frame, azimuth_deg: view.azimuth_deg(), elevation_deg: 5.0 }
     }
 
-    /// Unit vectors of the picture in the world: to its right, up, and towards the viewer.
+    /// Unit vectors of the picture in world coordinates: to the right, up, and towards the viewer.
     #[must_use]
     pub fn axes(&self) -> [V3; 3] {
         let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
@@ -102,10 +102,10 @@ impl Camera {
     }
 }
 
-/// A camera with a picture size: world points to samples of the picture and back.
+/// Projection of world points to samples of a picture, and back.
 #[derive(Clone, Copy)]
 pub(super) struct Projection {
-    /// Picture right, up and towards the viewer, in the world.
+    /// Unit vectors to the right, up and towards the viewer, in world coordinates.
     pub axes: [Vector3<f32>; 3],
     centre: Vector3<f32>,
     /// Samples per metre.
@@ -123,7 +123,8 @@ impl Projection {
         }
     }
 
-    /// Parallel light along `towards` that covers a ball, on a square of `size` samples.
+    /// Projection along parallel light from the direction `towards`, which covers a ball with a square of `size`
+    /// samples.
     pub fn of_light(towards: Vector3<f32>, centre: Vector3<f32>, radius: f32, size: usize) -> Self {
         let helper = if towards.z.abs() > 0.9 { Vector3::x() } else { Vector3::z() };
         let right = helper.cross(&towards).normalize();
@@ -141,7 +142,7 @@ impl Projection {
         ]
     }
 
-    /// The world point of a sample at a depth; inverse of [`Projection::project`].
+    /// World point of a sample at a depth: the inverse of [`Projection::project`].
     pub fn unproject(&self, x: f32, y: f32, depth: f32) -> Vector3<f32> {
         self.centre + self.axes[0] * ((x - self.half[0]) / self.per_m)
             - self.axes[1] * ((y - self.half[1]) / self.per_m)

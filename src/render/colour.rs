@@ -1,17 +1,18 @@
-//! Colours: sRGB for people, linear light for shading, and scales for scalar fields that colour-blind readers can use.
+//! Colours: sRGB for input and output, linear light for shading, and colour maps that are distinguishable with colour
+//! vision deficiencies.
 
 /// A colour in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rgb(pub u8, pub u8, pub u8);
 
 impl Rgb {
-    /// As `#rrggbb`.
+    /// Formats the colour as `#rrggbb`.
     #[must_use]
     pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 
-    /// The colour of `rrggbb`, with or without a `#`; `None` where it is none.
+    /// Parses `rrggbb`, with or without a `#`; `None` where it is no colour.
     #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let hex = text.strip_prefix('#').unwrap_or(text);
@@ -40,15 +41,17 @@ impl Rgb {
     }
 }
 
+/// Linear light of an sRGB value, 0 to 1 [IEC 61966-2-1].
 fn decode(v: f32) -> f32 {
     if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
 }
 
+/// sRGB value of linear light, 0 to 1 [IEC 61966-2-1].
 fn encode(v: f32) -> f32 {
     if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Linear light to 8-bit sRGB by table.
+/// Conversion of linear light to 8-bit sRGB by a table.
 pub(super) struct Encoder(Vec<u8>);
 
 impl Encoder {
@@ -66,14 +69,14 @@ impl Encoder {
     }
 }
 
-/// A run of colours.
+/// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColourMap {
-    /// Blue, near white in the middle, orange: for values on both sides of a centre.
+    /// Blue, near white in the middle, orange. For values on both sides of a centre.
     Diverging,
-    /// Near white to orange and brown: for values that are mostly nought, and matter where they are not.
+    /// Near white to orange and brown. For values that are mostly zero, and matter where they are not.
     Rising,
-    /// Dark violet over teal to yellow, even in lightness: for values from little to much.
+    /// Dark violet over teal to yellow, with steadily rising lightness. For values from low to high.
     Sequential,
 }
 
@@ -106,7 +109,7 @@ impl ColourMap {
         }
     }
 
-    /// The colour at `t`, 0 to 1; beyond the ends the end colours.
+    /// Colour at `t`, 0 to 1; the end colours beyond.
     #[must_use]
     pub fn at(self, t: f64) -> Rgb {
         let stops = self.stops();
@@ -118,36 +121,36 @@ impl ColourMap {
     }
 }
 
-/// How values become colours, fixed for a whole study so that pictures compare.
+/// Mapping of values to colours. It is fixed for a whole study, so that its pictures are comparable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    /// The run of colours.
+    /// Colour map.
     pub map: ColourMap,
     /// Value of the first colour.
     pub low: f64,
     /// Value of the last colour.
     pub high: f64,
-    /// What is shown (`stretch along the warp`).
+    /// Quantity (`stretch along the warp`).
     pub label: String,
     /// Unit in the legend; empty for a ratio.
     pub unit: String,
 }
 
 impl Scale {
-    /// Blue to orange around `centre`, reaching `reach` to both sides.
+    /// Diverging scale around `centre`, by `reach` to both sides.
     #[must_use]
     pub fn diverging(centre: f64, reach: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         let (low, high) = (centre - reach, centre + reach);
         Self { map: ColourMap::Diverging, low, high, label: label.into(), unit: unit.into() }
     }
 
-    /// Near white to brown from 0 to `high`.
+    /// Scale from near white to brown, from 0 to `high`.
     #[must_use]
     pub fn rising(high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { map: ColourMap::Rising, low: 0.0, high, label: label.into(), unit: unit.into() }
     }
 
-    /// Violet to yellow from `low` to `high`.
+    /// Sequential scale from `low` to `high`.
     #[must_use]
     pub fn sequential(low: f64, high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { map: ColourMap::Sequential, low, high, label: label.into(), unit: unit.into() }

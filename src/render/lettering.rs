@@ -1,23 +1,23 @@
-//! Labels and legends on pictures, and several pictures on one sheet.
+//! Labels and legends on pictures, and contact sheets of several pictures.
 
 use super::colour::Scale;
 use super::{Camera, RenderError, Scene, View, png, rasterise_svg, render};
 use image::{Rgba, RgbaImage, imageops};
 use std::fmt::Write;
 
-/// One picture of a sheet and the line under it.
+/// A picture of a contact sheet, with its label.
 #[derive(Clone, Debug)]
 pub struct Cell {
     /// Picture that the cell shows.
     pub picture: RgbaImage,
-    /// The line under it.
+    /// Label below the picture.
     pub label: String,
 }
 
 const INK: &str = "#22262b";
 const PAPER: Rgba<u8> = Rgba([255, 255, 255, 255]);
 
-/// Sets pictures beside each other, `columns` a row, each with its label below it and a title above all (none if empty).
+/// Arranges pictures in rows of `columns`, each with its label below it, and a title above all (none if empty).
 ///
 /// # Errors
 /// [`RenderError::Size`] where there is nothing to show or the sheet would be too large.
@@ -47,7 +47,8 @@ pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<Rgba
     Ok(sheet)
 }
 
-/// A scene from its four named sides in one row, each `width` by `height` pixels, as a PNG file; `camera` is that of a view.
+/// Takes pictures of a scene in all four views, each `width` by `height` pixels, and arranges them in a row, as a PNG
+/// file. `camera` gives the camera of a view.
 ///
 /// # Errors
 /// [`RenderError::Size`] where the sheet would be too large.
@@ -78,9 +79,9 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Draws a scale into the lower left corner of a picture: a colour bar with five ticks, its label and unit.
+/// Draws the legend of a scale into the lower left corner of a picture: a colour bar with five ticks, its label and
+/// unit.
 ///
-/// # Errors
 /// None in practice; [`RenderError::Svg`] would be a fault of the drawing itself.
 pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderError> {
     let text = f64::from((picture.width() / 45).clamp(10, 24));

@@ -1,13 +1,14 @@
-//! Pictures of meshes without a GPU or a display (GRM, thesis 3.6): a z-buffer, soft light, and drawing colours.
+//! Pictures of meshes without a GPU or a display (GRM in [T 3.6]): a z-buffer, soft light, and scales of colours.
 //!
-//! A [`Scene`] is built once from its layers (body, cloth) and lit once for all views; [`render`] then takes a picture
-//! from a [`Camera`]. All cameras made from one [`Frame`] share their scale. Pixels follow the subject as a facing
-//! person sees it: from the front, the subject's right is at the picture's left.
+//! A [`Scene`] is built once from its layers (body, cloth) and lit once for all views. [`render`] then takes a picture
+//! from a [`Camera`]. All cameras of one [`Frame`] share their scale. Left and right are those that a viewer sees: from
+//! the front, the subject's right is at the left of the picture.
 
 mod bake;
 mod camera;
 mod colour;
 pub mod export;
+mod floor;
 mod lettering;
 mod raster;
 mod relief;
@@ -30,22 +31,22 @@ pub use weave::Weave;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
-/// Why a picture could not be made.
+/// Reason for which a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// A triangle names a vertex that is not there.
+    /// A triangle refers to a vertex that does not exist.
     #[error("layer {layer}, triangle {triangle}: vertex {vertex} does not exist; the mesh has {vertices} vertices")]
     NoSuchVertex {
         /// Index of the layer.
         layer: usize,
         /// Index of the triangle in its mesh.
         triangle: usize,
-        /// Vertex that the triangle names.
+        /// Vertex that the triangle refers to.
         vertex: usize,
-        /// How many there are.
+        /// Number of them.
         vertices: usize,
     },
-    /// A position is not a number.
+    /// A position is not finite.
     #[error(
         "layer {layer}, vertex {vertex}: position is not finite; every coordinate must be a finite number of metres"
     )]
@@ -65,34 +66,34 @@ pub enum RenderError {
         /// Vertices or triangles of the mesh.
         needed: usize,
     },
-    /// A triangle shows a picture that is not there.
+    /// A triangle refers to a texture that does not exist.
     #[error("layer {layer}: a triangle names a texture beyond the {textures} that are there")]
     NoSuchTexture {
         /// Index of the layer.
         layer: usize,
-        /// How many textures it has.
+        /// Number of its textures.
         textures: usize,
     },
-    /// A layer that the scene does not have.
+    /// The scene has no such layer.
     #[error("no layer {layer}; the scene has {layers}, counted from 0")]
     NoSuchLayer {
-        /// The index asked for.
+        /// Index that was given.
         layer: usize,
-        /// How many there are.
+        /// Number of them.
         layers: usize,
     },
-    /// No picture has this size.
+    /// The size of a picture is out of range.
     #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
     Size {
-        /// Width asked for, pixels.
+        /// Width that was given, pixels.
         width: u32,
-        /// Height asked for, pixels.
+        /// Height that was given, pixels.
         height: u32,
     },
-    /// A drawing could not be read.
+    /// An SVG drawing could not be read.
     #[error("SVG drawing: {0}")]
     Svg(String),
-    /// Pictures that cannot follow each other.
+    /// Pictures cannot be frames of one animation.
     #[error("animation: {0}")]
     Animation(String),
     /// An encoder refused a picture.
@@ -100,7 +101,7 @@ pub enum RenderError {
     Encode(#[from] image::ImageError),
 }
 
-/// The picture as a PNG file.
+/// Encodes a picture as a PNG file.
 ///
 /// # Errors
 /// [`RenderError::Encode`] for an empty picture.
@@ -116,8 +117,8 @@ pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     Ok(bytes)
 }
 
-/// Pictures of one size shown one after the other, each for so many milliseconds, for ever: an animated PNG file, which
-/// programs that know no animation show as the first picture.
+/// Encodes pictures of one size as an animated PNG file, each shown for `each_ms` milliseconds, in an endless loop.
+/// Programs without support for animation show the first picture.
 ///
 /// # Errors
 /// [`RenderError::Animation`] where there is no picture or their sizes differ.
@@ -140,7 +141,8 @@ pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, Ren
     Ok(bytes)
 }
 
-/// The picture as a JPEG file of quality 85, a quarter of the size of its PNG; transparency turns white.
+/// Encodes a picture as a JPEG file of quality 85, with a quarter of the size of the PNG file. Transparency becomes
+/// white.
 ///
 /// # Errors
 /// [`RenderError::Encode`] for an empty picture.

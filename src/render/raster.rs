@@ -1,12 +1,14 @@
-//! Triangles on a grid of samples.
+//! Rasterisation of triangles on a grid of samples.
 
-/// How far beyond its edges a triangle still covers a sample, as a share of its height: rounding leaves no pinholes.
+/// Margin by which a triangle covers samples beyond its edges, as a share of its height. It closes pinholes from
+/// rounding.
 pub(super) const RIM: f32 = 1e-4;
 
-/// Calls `plot(sample, depth)` for every sample (row by row, `width` a row) whose centre a triangle covers.
+/// Calls `plot(sample, depth)` for every sample whose centre a triangle covers. Samples are numbered row by row,
+/// `width` to a row.
 ///
-/// Corners are `[x, y, depth]` in samples; both windings count. Samples on a shared edge may be covered twice, which a
-/// depth test absorbs.
+/// Corners are `[x, y, depth]` in samples, in either orientation. Samples on a shared edge may be covered twice, which
+/// a depth test absorbs.
 pub(super) fn cover(corners: [[f32; 3]; 3], width: usize, height: usize, mut plot: impl FnMut(usize, f32)) {
     let [a, b, c] = corners;
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -19,7 +21,7 @@ pub(super) fn cover(corners: [[f32; 3]; 3], width: usize, height: usize, mut plo
         (low.ceil().max(0.0) as usize, (high.floor() + 1.0).clamp(0.0, limit as f32) as usize)
     };
     let ((left, right), (top, bottom)) = (range(0, width), range(1, height));
-    // Weights of b and c at a sample, and their change from one sample to the next to the right.
+    // Barycentric weights of b and c: their change from one sample to the next, and at a sample.
     let (wb_x, wc_x) = ((c[1] - a[1]) / area, (a[1] - b[1]) / area);
     let (wb_y, wc_y) = ((a[0] - c[0]) / area, (b[0] - a[0]) / area);
     let (dx, (slope_b, slope_c)) = (left as f32 + 0.5 - a[0], (b[2] - a[2], c[2] - a[2]));
@@ -36,7 +38,7 @@ pub(super) fn cover(corners: [[f32; 3]; 3], width: usize, height: usize, mut plo
     }
 }
 
-/// Weights of the three corners at a point of the picture, clamped to the triangle.
+/// Barycentric weights of the three corners at a point of the picture, clamped to the triangle.
 pub(super) fn weights(corners: [[f32; 3]; 3], x: f32, y: f32) -> [f32; 3] {
     let [a, b, c] = corners;
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -46,5 +48,5 @@ pub(super) fn weights(corners: [[f32; 3]; 3], x: f32, y: f32) -> [f32; 3] {
     [1.0 - wb - wc, wb, wc]
 }
 
-/// Number that stands where there is no triangle, or no fine pixel.
+/// Index that stands for no triangle, or for no supersampled pixel.
 pub(super) const NOTHING: u32 = u32::MAX;

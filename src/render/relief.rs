@@ -1,21 +1,21 @@
-//! Hollows and ridges from the depth buffer: a fold's bottom darkens and its crest lightens a little, so that cloth reads
+//! Relief shading from the depth buffer: hollows are darkened and crests lightened a little, so that folds are visible
 //! even in flat light.
 //!
-//! Each pixel is compared with pairs of opposite neighbours. A pair's mean depth cancels any slope and leaves curvature
-//! alone; a pair that reaches over an edge to another surface says nothing about this one and does not count, so nothing
-//! in front or behind leaves a halo.
+//! Each pixel is compared with pairs of opposite neighbours. The mean depth of a pair cancels any slope, so that only
+//! curvature remains. A pair that reaches over an edge to another surface does not count, so that edges have no halo.
 
-/// (distance of the neighbours, share of the light a full hollow takes): wrinkles and folds, m. None is shorter than the
-/// edges of a usual mesh, whose facets would show.
+/// Distance of the neighbours (m) and share of the light that a full hollow takes, for wrinkles and for folds. No
+/// distance is shorter than the edges of a usual mesh, whose facets would show.
 const RINGS: [(f32, f32); 2] = [(0.016, 0.20), (0.030, 0.30)];
 /// Pairs of opposite neighbours on each ring.
 const PAIRS: usize = 12;
-/// Depth of a hollow that takes half of what a full one takes, in distances of the neighbours.
+/// Depth of a hollow that has half of the full effect, as a share of the distance of the neighbours.
 const FULL: f32 = 0.2;
-/// Neighbours further off in depth than this many distances belong to another surface.
+/// Difference in depth above which a neighbour belongs to another surface, as a multiple of the distance.
 const REACH: f32 = 3.0;
 
-/// Light gain of each pixel, around 1. `depth` in metres, infinite where there is nothing; `per_m` pixels a metre.
+/// Factor of the light of each pixel, around 1. `depth` is in metres, infinite where there is nothing; `per_m` is in
+/// pixels per metre.
 pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     let mut gain = vec![1.0_f32; depth.len()];
     for (distance, strength) in RINGS {
@@ -30,15 +30,15 @@ pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     gain
 }
 
-/// The neighbours of a pixel at one distance.
+/// Neighbours of a pixel at one distance.
 struct Ring<'a> {
     depth: &'a [f32],
     width: usize,
-    /// How far off they are, m.
+    /// Distance of the neighbours, m.
     distance: f32,
-    /// Half of them, in pixels; the other half lies opposite.
+    /// Offsets of half of them, in pixels; the other half is opposite.
     offsets: [(isize, isize); PAIRS],
-    /// Pixels from the picture's border within which some neighbours are outside.
+    /// Distance from the border of the picture within which some neighbours are outside, pixels.
     border: usize,
 }
 
@@ -49,14 +49,14 @@ impl<'a> Ring<'a> {
             let (sin, cos) = (std::f32::consts::PI * (k as f32 + 0.5) / PAIRS as f32).sin_cos();
             ((radius * cos).round() as isize, (radius * sin).round() as isize)
         });
-        // Where pixels are coarser than the ring, the neighbours are further off than asked.
+        // Where pixels are larger than the distance, the neighbours are farther away than asked.
         Self { depth, width, distance: distance.max(1.0 / per_m), offsets, border: radius.ceil() as usize }
     }
 
-    /// How deep a pixel lies below its neighbours, from -1 (a crest) to 1 (a hollow).
+    /// Depth of a pixel below its neighbours, from -1 (a crest) to 1 (a hollow).
     fn hollow(&self, pixel: usize) -> f32 {
         let (x, y, height) = (pixel % self.width, pixel / self.width, self.depth.len() / self.width);
-        let is_inner = |at: usize, of: usize| at >= self.border && at + self.border < of;
+        let is_inner = |place: usize, size: usize| place >= self.border && place + self.border < size;
         let sum: f32 = if is_inner(x, self.width) && is_inner(y, height) {
             let pair = |&(dx, dy): &(isize, isize)| {
                 let offset = dy * self.width as isize + dx;
@@ -65,20 +65,20 @@ impl<'a> Ring<'a> {
             };
             self.offsets.iter().map(pair).sum()
         } else {
-            let at = |dx: isize, dy: isize| {
+            let depth_at = |dx: isize, dy: isize| {
                 let place = (x.checked_add_signed(dx), y.checked_add_signed(dy));
                 match place {
                     (Some(x), Some(y)) if x < self.width && y < height => self.depth[y * self.width + x],
                     _ => f32::INFINITY,
                 }
             };
-            self.offsets.iter().map(|&(dx, dy)| self.pair(pixel, at(dx, dy), at(-dx, -dy))).sum()
+            self.offsets.iter().map(|&(dx, dy)| self.pair(pixel, depth_at(dx, dy), depth_at(-dx, -dy))).sum()
         };
         let mean = sum / PAIRS as f32;
         mean / (1.0 + mean.abs())
     }
 
-    /// What the depths of two opposite neighbours say.
+    /// Contribution of two opposite neighbours with the depths `a` and `b`.
     fn pair(&self, pixel: usize, a: f32, b: f32) -> f32 {
         let (a, b) = (a - self.depth[pixel], b - self.depth[pixel]);
         let apart = a.abs().max(b.abs()) / (REACH * self.distance);
@@ -86,8 +86,8 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Weight of a pair whose neighbours are this share of the reach off: it falls over the second half, so that no line is
-/// drawn where pairs stop to count.
+/// Weight of a pair whose neighbours are at a share of the reach. It decreases over the second half, so that no line
+/// appears where pairs cease to count.
 fn weight_of(apart: f32) -> f32 {
     (2.0 - 2.0 * apart).min(1.0)
 }

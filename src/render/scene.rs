@@ -1,24 +1,24 @@
-//! What is shown: meshes with materials, painted with scalar fields or textures.
+//! Scenes: meshes with materials, painted with scalar fields or textures.
 
 use super::RenderError;
-use super::bake::{self, Floor};
 use super::colour::{Rgb, Scale};
+use super::floor::Floor;
 use super::raster::NOTHING;
 use super::texture::Texture;
 use geom::{TriMesh, V2, V3};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// How a surface looks.
+/// Appearance of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Colour of the side its normals point to.
     pub front: Rgb,
     /// Colour of the other side.
     pub back: Rgb,
-    /// How far it is drawn behind where it is, m: skin gives way to cloth that lies on it.
+    /// Distance by which it is drawn behind its true place, m. Skin recedes behind cloth that lies on it.
     pub recede_m: f64,
-    /// Whether the lines along which its pieces meet are drawn.
+    /// True if the lines along which its pieces meet are drawn.
     pub seams: bool,
 }
 
@@ -29,7 +29,7 @@ impl Material {
         Self::body(Rgb(0xd8, 0xd1, 0xc8))
     }
 
-    /// A dress form under a map: a mid grey of no colour, darker than cloth whose value is near the middle of its scale.
+    /// A dress form under a map: a neutral mid grey, darker than cloth whose value is near the middle of its scale.
     #[must_use]
     pub fn form_under_map() -> Self {
         Self::body(Rgb(0x8e, 0x92, 0x98))
@@ -45,7 +45,7 @@ impl Material {
         Self { front: colour, back: Rgb(0x60, 0x58, 0x52), recede_m: 0.005, seams: false }
     }
 
-    /// Cloth of a colour, its wrong side darker and greyer.
+    /// Cloth of a colour, with a darker and greyer wrong side.
     #[must_use]
     pub fn cloth(front: Rgb) -> Self {
         let grey = (u16::from(front.0) + u16::from(front.1) + u16::from(front.2)) / 3;
@@ -53,13 +53,13 @@ impl Material {
         Self { front, back: Rgb(dull(front.0), dull(front.1), dull(front.2)), recede_m: 0.0, seams: true }
     }
 
-    /// FEM-GS results: green.
+    /// Results of FEM-GS: green.
     #[must_use]
     pub fn fem() -> Self {
         Self::cloth(Rgb(0x62, 0xb3, 0x8c))
     }
 
-    /// A garment under the one that is shown: the grey of undyed linen.
+    /// A garment below the one that is shown: the grey of undyed linen.
     #[must_use]
     pub fn under() -> Self {
         Self::cloth(Rgb(0xc4, 0xbd, 0xae))
@@ -78,63 +78,63 @@ impl Material {
     }
 }
 
-/// One value for each vertex (blended between them) or each triangle (flat).
+/// Values for each vertex (interpolated) or for each triangle (constant).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// One a vertex.
+    /// One value for each vertex.
     Vertices(Vec<f64>),
-    /// One a triangle.
+    /// One value for each triangle.
     Triangles(Vec<f64>),
 }
 
-/// What colours the outer side of a layer.
+/// Paint of the outer side of a layer.
 #[derive(Clone, Debug)]
 pub enum Paint {
-    /// Its material's colour.
+    /// The colour of its material.
     Plain,
-    /// Values and the scale that colours them.
+    /// Values with the scale that colours them.
     Field(Values, Scale),
-    /// Pictures on the cloth.
+    /// Textures on the cloth.
     Printed(Print),
 }
 
-/// Pictures on a layer: a garment may be cut from several cloths.
+/// Textures on a layer. A garment may be cut from several cloths.
 #[derive(Clone, Debug)]
 pub struct Print {
-    /// One picture for each cloth.
+    /// One texture for each cloth.
     pub textures: Vec<Texture>,
-    /// Which of them each triangle shows.
+    /// Index of the texture of each triangle.
     pub of: Vec<usize>,
-    /// Where on it each vertex lies, in repeats.
+    /// Texture coordinates of each vertex, in repeats.
     pub places: Vec<V2>,
 }
 
-/// A mesh with its look.
+/// A mesh with its appearance.
 #[derive(Clone, Debug)]
 pub struct Layer<'a> {
-    /// The surface, m; the paint goes on the side its normals point to.
+    /// The surface, m. The paint is on the side to which its normals point.
     pub mesh: &'a TriMesh,
-    /// Colours of both sides, and how the surface is drawn.
+    /// Colours of both sides and other properties of the drawing.
     pub material: Material,
-    /// What colours its outer side.
+    /// Paint of its outer side.
     pub paint: Paint,
 }
 
 impl<'a> Layer<'a> {
-    /// A layer in its material's colour.
+    /// Makes a layer in the colour of its material.
     #[must_use]
     pub fn new(mesh: &'a TriMesh, material: Material) -> Self {
         Self { mesh, material, paint: Paint::Plain }
     }
 
-    /// The same layer painted.
+    /// Returns the same layer with a paint.
     #[must_use]
     pub fn painted(self, paint: Paint) -> Self {
         Self { paint, ..self }
     }
 }
 
-/// What a layer adds to a scene besides geometry.
+/// Appearance of a layer in a scene.
 pub(super) struct Look {
     pub material: Material,
     pub paint: Paint,
@@ -143,8 +143,8 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// What tells the colours of two triangles apart where they meet: flat values differ from triangle to triangle, prints
-    /// from cloth to cloth.
+    /// Group of a triangle within which colours are continuous: the triangle itself where values are constant on
+    /// triangles, and its cloth where textures are printed.
     pub fn parts(&self, triangle: usize) -> usize {
         let own = triangle - self.first_triangle;
         match &self.paint {
@@ -155,14 +155,14 @@ impl Look {
     }
 }
 
-/// An edge and the triangles on it.
+/// An edge with its triangles.
 pub(super) struct Edge {
     pub ends: [u32; 2],
-    /// The second is [`NOTHING`] at a border, and where more than two triangles meet.
+    /// The triangles. The second is [`NOTHING`] at a border, and where more than two triangles meet.
     pub faces: [u32; 2],
 }
 
-/// Meshes joined into one, with everything about their light that does not depend on the camera.
+/// Meshes joined into one, with the light that does not depend on the camera.
 pub struct Scene {
     pub(super) positions: Vec<Vector3<f32>>,
     pub(super) normals: Vec<Vector3<f32>>,
@@ -170,11 +170,11 @@ pub struct Scene {
     /// Layer of each triangle.
     pub(super) layer_of: Vec<usize>,
     pub(super) looks: Vec<Look>,
-    /// Every edge once.
+    /// Distinct edges.
     pub(super) edges: Vec<Edge>,
-    /// Vertex pairs joined by a seam line.
+    /// Ends of the segments of seam lines.
     pub(super) seams: Vec<[usize; 2]>,
-    /// Share of the sky each vertex sees from its front and its back side, 0 to 1.
+    /// Share of the sky that each vertex sees from its front and its back side, 0 to 1.
     pub(super) openness: Vec<[f32; 2]>,
     pub(super) floor: Floor,
     pub(super) centre: Vector3<f32>,
@@ -182,10 +182,10 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Joins the layers and computes how much light reaches each vertex from all round (about 0.1 s for a dressed body).
+    /// Joins the layers and computes the light that reaches each vertex from all around (about 0.1 s for a dressed
+    /// body).
     ///
-    /// # Errors
-    /// A triangle without its vertices, a position that is not finite, or a field that does not fit its mesh.
+    /// When a triangle refers to a missing vertex, a position is not finite, or a field does not fit its mesh.
     pub fn new(layers: Vec<Layer<'_>>) -> Result<Self, RenderError> {
         let mut scene = Self {
             positions: Vec::new(),
@@ -209,15 +209,15 @@ impl Scene {
             let (low, high) = scene.positions.iter().fold((first, first), |(l, h), p| (l.inf(p), h.sup(p)));
             scene.centre = (low + high) / 2.0;
             scene.radius = ((high - low).norm() / 2.0).max(1e-3);
-            bake::light(&mut scene, low.z);
+            scene.bake(low.z);
         }
         Ok(scene)
     }
 
-    /// Gives a layer another look; the light, which takes longest, is computed again only where the layer is drawn elsewhere.
+    /// Gives a layer another appearance. The light, which takes longest, is computed again only where the layer recedes
+    /// by another distance.
     ///
-    /// # Errors
-    /// A field or texture that does not fit the layer's mesh; a layer that is not there.
+    /// When a field or texture does not fit the mesh of the layer, or there is no such layer.
     pub fn paint(&mut self, layer: usize, material: Material, paint: Paint) -> Result<(), RenderError> {
         let next = self.looks.get(layer + 1).map(|look| [look.first_vertex, look.first_triangle]);
         let [vertices, triangles] = next.unwrap_or([self.positions.len(), self.triangles.len()]);
@@ -227,7 +227,7 @@ impl Scene {
         let moves = look.material.recede_m != material.recede_m;
         (look.material, look.paint) = (material, paint);
         if moves && !self.positions.is_empty() {
-            bake::light(self, self.floor.z);
+            self.bake(self.floor.z);
         }
         Ok(())
     }
@@ -250,13 +250,13 @@ impl Scene {
         self.looks.push(Look { material: layer.material, paint: layer.paint, first_vertex, first_triangle });
     }
 
-    /// The corners of a triangle, given every vertex in some picture.
+    /// Corners of a triangle among projected vertices.
     pub(super) fn corners(&self, triangle: usize, projected: &[[f32; 3]]) -> [[f32; 3]; 3] {
         let [a, b, c] = self.triangles[triangle];
         [projected[a], projected[b], projected[c]]
     }
 
-    /// How far a triangle is drawn behind where it is, m.
+    /// Distance by which a triangle is drawn behind its true place, m.
     pub(super) fn recede(&self, triangle: usize) -> f32 {
         self.looks[self.layer_of[triangle]].material.recede_m as f32
     }
@@ -289,14 +289,14 @@ fn check_paint(layer: usize, paint: &Paint, vertices: usize, triangles: usize) -
     if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer, found, needed }) }
 }
 
-/// For each vertex the first vertex at the same place (to 0.01 mm): the two sides of a sewn seam are one surface.
+/// First vertex at the place of each vertex, to 0.01 mm: the two sides of a sewn seam are one surface.
 fn twins(positions: &[V3]) -> Vec<usize> {
     let mut first_at = BTreeMap::new();
     let place = |p: &V3| [p.x, p.y, p.z].map(|c| (c * 1e5).round() as i64);
     positions.iter().enumerate().map(|(i, p)| *first_at.entry(place(p)).or_insert(i)).collect()
 }
 
-/// Vertex normals that run on across seams; surfaces that touch back to back keep their own.
+/// Vertex normals that are continuous across seams. Surfaces that touch back to back keep their own.
 fn seamless_normals(mesh: &TriMesh, twins: &[usize]) -> Vec<Vector3<f32>> {
     let own = mesh.vertex_normals();
     let mut shared = vec![V3::zeros(); own.len()];
@@ -314,7 +314,7 @@ fn seamless_normals(mesh: &TriMesh, twins: &[usize]) -> Vec<Vector3<f32>> {
         .collect()
 }
 
-/// Every edge of a mesh once, in the order of its ends.
+/// Distinct edges of a mesh, in the order of their ends.
 fn edges(mesh: &TriMesh) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (face, t) in (0..).zip(&mesh.triangles) {
@@ -324,18 +324,18 @@ fn edges(mesh: &TriMesh) -> Vec<Edge> {
     sides.sort_unstable();
     let edge = |sides: &[([u32; 2], u32)]| Edge {
         ends: sides[0].0,
-        faces: if let [one, other] = sides { [one.1, other.1] } else { [sides[0].1, NOTHING] },
+        faces: if let [first, second] = sides { [first.1, second.1] } else { [sides[0].1, NOTHING] },
     };
     sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
 }
 
-/// Edges along which borders lie on each other: where pieces were sewn together.
+/// Edges along which borders coincide: seams between pieces.
 fn seam_lines(edges: &[Edge], twins: &[usize]) -> Vec<[usize; 2]> {
-    let at = |edge: &Edge| {
+    let ends = |edge: &Edge| {
         let [a, b] = edge.ends.map(|v| twins[v as usize]);
         [a.min(b), a.max(b)]
     };
-    let mut borders: Vec<[usize; 2]> = edges.iter().filter(|edge| edge.faces[1] == NOTHING).map(at).collect();
+    let mut borders: Vec<[usize; 2]> = edges.iter().filter(|edge| edge.faces[1] == NOTHING).map(ends).collect();
     borders.sort_unstable();
     borders.chunk_by(|a, b| a == b).filter(|same| same.len() > 1).map(|same| same[0]).collect()
 }

@@ -1,4 +1,5 @@
-//! From scene and camera to pixels: visibility, three soft lights with a shadow map, occlusion, relief, floor.
+//! Shading: from scene and camera to pixels. Visibility, three soft lights with a shadow map, ambient occlusion,
+//! relief, floor.
 
 use super::RenderError;
 use super::camera::{Camera, Projection};
@@ -10,26 +11,34 @@ use super::visible::{Fine, SAMPLES, Visible, offset};
 use image::RgbaImage;
 use nalgebra::{Vector2, Vector3};
 
-/// Samples along a side of the key light's shadow map.
+/// Samples along a side of the shadow map of the key light.
 const SHADOW: usize = 1280;
-/// How many places around a point the shadow map is asked at.
+/// Number of samples of the shadow map for one point (percentage-closer filtering).
 const TAPS: usize = 32;
-/// The outermost of them, which are asked first.
+/// Number of outermost samples, which are evaluated first.
 const RIM: usize = 8;
-/// How far around, in map samples: the width of a shadow's soft edge.
+/// Radius of the samples in the map, in map samples: the width of the soft edge of a shadow.
 const SOFT: f32 = 9.0;
-/// How light the wrong side of printed cloth is.
+/// Brightness of the wrong side of printed cloth.
 const WRONG_SIDE: f32 = 0.6;
-/// Steps of a scale of colours.
+/// Number of steps of a tabulated scale of colours.
 const RAMP: usize = 1024;
 
-/// Offsets of the taps, in map samples, and their distances: a disc filled evenly by a golden-angle spiral [Vogel 1979].
-fn taps() -> [(f32, f32, f32); TAPS] {
+/// Offset of a sample of the shadow map from a point, in map samples.
+#[derive(Clone, Copy)]
+struct Tap {
+    dx: f32,
+    dy: f32,
+    distance: f32,
+}
+
+/// Offsets of the samples: a disc filled evenly by a golden-angle spiral [Vogel 1979].
+fn taps() -> [Tap; TAPS] {
     let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
     std::array::from_fn(|k| {
         let radius = SOFT * ((k as f32 + 0.5) / TAPS as f32).sqrt();
         let (sin, cos) = (golden * k as f32).sin_cos();
-        (radius * cos, radius * sin, radius)
+        Tap { dx: radius * cos, dy: radius * sin, distance: radius }
     })
 }
 
@@ -58,15 +67,15 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     shoot(scene, camera, (width, height), 255)
 }
 
-/// [`render`], transparent where nothing stands: the colours there are those of backdrop and floor still.
+/// Takes a picture as [`render`] does, transparent where there is no mesh. The colours there are still those of
+/// backdrop and floor.
 ///
-/// # Errors
-/// As there.
+/// As [`render`].
 pub fn cutout(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
     shoot(scene, camera, (width, height), 0)
 }
 
-/// A picture whose backdrop and floor are as opaque as asked.
+/// Takes a picture; `backdrop` is the opacity of backdrop and floor.
 fn shoot(scene: &Scene, camera: &Camera, (width, height): (u32, u32), backdrop: u8) -> Result<RgbaImage, RenderError> {
     if !(1..=8192).contains(&width) || !(1..=8192).contains(&height) {
         return Err(RenderError::Size { width, height });
@@ -83,11 +92,11 @@ fn shoot(scene: &Scene, camera: &Camera, (width, height): (u32, u32), backdrop: 
     Ok(picture)
 }
 
-/// Depth along the key light.
+/// Shadow map: depth along the key light.
 struct ShadowMap {
     projection: Projection,
     depth: Vec<f32>,
-    taps: [(f32, f32, f32); TAPS],
+    taps: [Tap; TAPS],
 }
 
 impl ShadowMap {
@@ -107,16 +116,16 @@ impl ShadowMap {
     /// Share of the light that reaches a point, 0 to 1.
     fn reaches(&self, point: &Vector3<f32>) -> f32 {
         let [x, y, depth] = self.projection.project(point);
-        let is_open = |&(dx, dy, distance): &(f32, f32, f32)| {
+        let is_open = |&Tap { dx, dy, distance }: &Tap| {
             let (x, y) = (x + dx, y + dy);
             let inside = x >= 0.0 && y >= 0.0 && x < SHADOW as f32 && y < SHADOW as f32;
-            // A tilted surface would shadow itself: forgive what the tap's distance can explain.
+            // A tilted surface would shadow itself, so the bias grows with the distance of the sample.
             let bias = (1.5 + 0.8 * distance) / self.projection.per_m;
             !inside || depth - bias <= self.depth[y as usize * SHADOW + x as usize]
         };
         let (within, rim) = self.taps.split_at(TAPS - RIM);
         let open = rim.iter().filter(|tap| is_open(tap)).count();
-        // Where centre and rim agree there is no edge of a shadow between them.
+        // Where centre and rim agree, no edge of a shadow lies between them.
         match (open, is_open(&self.taps[0])) {
             (RIM, true) => 1.0,
             (0, false) => 0.0,
@@ -128,13 +137,13 @@ impl ShadowMap {
 /// Linear light: red, green, blue.
 type Colour = Vector3<f32>;
 
-/// Everything needed to colour a pixel.
+/// Data for the colour of a pixel.
 struct Studio<'a> {
     scene: &'a Scene,
     projection: Projection,
     /// Pixels across and down.
     size: [usize; 2],
-    /// Vertices in the picture.
+    /// Vertices projected to the picture.
     projected: Vec<[f32; 3]>,
     visible: Visible,
     shadow: ShadowMap,
@@ -142,7 +151,7 @@ struct Studio<'a> {
     lights: [Vector3<f32>; 3],
     /// Front and back colour of each layer.
     colours: Vec<[Colour; 2]>,
-    /// Colours of each layer's scale, from its low end to its high one; none where it has none.
+    /// Tabulated scale of each layer ([`ramp`]); empty where it has none.
     ramps: Vec<Vec<Colour>>,
     backdrop: [Colour; 2],
 }
@@ -169,7 +178,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// Colour of a pixel; `gain` is what its relief makes of the light.
+    /// Colour of a pixel; `gain` is the factor of its relief.
     fn pixel(&self, pixel: usize, gain: f32) -> Colour {
         let (x, y) = ((pixel % self.size[0]) as f32, (pixel / self.size[0]) as f32);
         match self.visible.closer(pixel) {
@@ -178,7 +187,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// A pixel that is looked at closer: each triangle it shows is shaded once, at the middle of the samples it covers.
+    /// Colour of a supersampled pixel. Each triangle in it is shaded once, at the mean of the samples that it covers.
     fn blend(&self, fine: &Fine, [left, top]: [f32; 2], gain: f32) -> Colour {
         let mut colour = Colour::zeros();
         let mut done = [false; SAMPLES];
@@ -200,12 +209,12 @@ impl<'a> Studio<'a> {
         colour
     }
 
-    /// Colour of what is seen at a place: a triangle, or the ground where there is none.
+    /// Colour at a place of the picture: of a triangle, or of the ground where there is none.
     fn seen(&self, triangle: u32, x: f32, y: f32, gain: f32) -> Colour {
         if triangle == NOTHING { self.ground(x, y) } else { self.surface(triangle as usize, x, y) * gain }
     }
 
-    /// Backdrop and floor: one seamless light sheet, darker where the subject stands.
+    /// Colour of backdrop and floor: one seamless light sheet, with the shadow of the subject.
     fn ground(&self, x: f32, y: f32) -> Colour {
         let t = y / self.size[1] as f32;
         let viewer = self.projection.axes[2];
@@ -235,37 +244,38 @@ impl<'a> Studio<'a> {
         let reaches = self.shadow.reaches(&(point + normal * 0.004));
         let mut lit = self.lit(&albedo, &normal, openness(usize::from(back)), reaches);
         if back {
-            // Light from outside shines through cloth: a garment's inside is dark, never black.
+            // Light from outside shines through cloth, so the inside of a garment is dark, but not black.
             lit += albedo * (0.16 * openness(0));
         }
-        // A colour that codes a value must stay readable in the shade: half of it shines by itself.
+        // A colour that encodes a value must stay readable in the shade, so half of it is emissive.
         if coded { lit * 0.5 + albedo * 0.42 } else { lit }
     }
 
-    /// Sky, key, fill and rim light on a matt surface.
+    /// Light of sky, key, fill and rim light from a matt surface.
     fn lit(&self, albedo: &Colour, normal: &Vector3<f32>, open: f32, shadow: f32) -> Colour {
-        let from = |light: usize| normal.dot(&self.lights[light]).max(0.0);
+        let cosine = |light: usize| normal.dot(&self.lights[light]).max(0.0);
         let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
         let sky = 0.35 + 0.12 * normal.z;
-        let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * from(2)) * open;
-        // Cloth and skin pass light on: a hollow keeps a fifth of the sky.
+        let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * cosine(2)) * open;
+        // Cloth and skin scatter light, so a hollow keeps a fifth of the sky.
         let occlusion = 0.2 + 0.8 * open * open * (1.4 - 0.4 * open);
         let (warm, cool) = (Colour::new(1.04, 1.0, 0.95), Colour::new(0.97, 1.0, 1.05));
-        let matt = cool * (sky * occlusion + 0.16 * from(1) * open) + warm * (0.73 * from(0) * shadow);
+        let matt = cool * (sky * occlusion + 0.16 * cosine(1) * open) + warm * (0.73 * cosine(0) * shadow);
         albedo.component_mul(&matt.add_scalar(0.26 * edge)).add_scalar(0.04 * edge)
     }
 
-    /// How much of a texture a pixel spans: the rms change of its coordinates from one pixel to the next.
+    /// Span of a pixel in the texture: the root mean square change of the texture coordinates from one pixel to the
+    /// next.
     fn texture_span(&self, triangle: usize, places: &[Vector2<f32>; 3]) -> f32 {
         let [a, b, c] = self.scene.corners(triangle, &self.projected);
         let (x1, y1, x2, y2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
-        let (one, two) = (places[1] - places[0], places[2] - places[0]);
+        let (first, second) = (places[1] - places[0], places[2] - places[0]);
         let area = x1 * y2 - x2 * y1;
-        let (right, down) = (one * y2 - two * y1, two * x1 - one * x2);
+        let (right, down) = (first * y2 - second * y1, second * x1 - first * x2);
         (0.5 * (right.norm_squared() + down.norm_squared())).sqrt() / area.abs().max(1e-6)
     }
 
-    /// Own colour of a surface point, and whether it stands for a value.
+    /// Colour of a point of the surface, and `true` if it encodes a value.
     fn albedo(&self, triangle: usize, back: bool, w: [f32; 3]) -> (Colour, bool) {
         let layer = self.scene.layer_of[triangle];
         let look = &self.scene.looks[layer];
@@ -295,14 +305,14 @@ fn linear(colour: Rgb) -> Colour {
     Colour::from(colour.linear())
 }
 
-/// Colours of a scale as it is looked up: one for values that are none, then from its low end to its high one.
+/// Tabulated colours of a scale: first the one for undefined values, then those from its low end to its high end.
 fn ramp(paint: &Paint) -> Vec<Colour> {
     let Paint::Field(_, scale) = paint else { return vec![] };
     let step = |k: usize| linear(scale.map.at(k as f64 / RAMP as f64));
     [linear(scale.colour(f64::NAN))].into_iter().chain((0..=RAMP).map(step)).collect()
 }
 
-/// The colour of a value on a [`ramp`].
+/// Colour of a value on a [`ramp`].
 fn look_up(ramp: &[Colour], scale: &Scale, value: f64) -> Colour {
     let t = (value - scale.low) / (scale.high - scale.low);
     if t.is_finite() { ramp[1 + (t.clamp(0.0, 1.0) * RAMP as f64).round() as usize] } else { ramp[0] }

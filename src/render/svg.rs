@@ -1,11 +1,11 @@
-//! SVG drawings to pixels, with an embedded font so that no machine's fonts matter.
+//! Rasterisation of SVG drawings, with embedded fonts, so that the result does not depend on the fonts of the machine.
 
 use super::RenderError;
 use image::RgbaImage;
 use resvg::usvg::{self, fontdb};
 use std::sync::{Arc, OnceLock};
 
-/// The fonts drawings may name: DejaVu Sans, regular and bold.
+/// Fonts that drawings may use: DejaVu Sans, regular and bold.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
@@ -18,7 +18,7 @@ fn fonts() -> Arc<fontdb::Database> {
     FONTS.get_or_init(load).clone()
 }
 
-/// Draws an SVG at `scale` pixels a unit; where it draws nothing the picture is transparent.
+/// Rasterises an SVG drawing at `scale` pixels per unit, on a transparent ground.
 ///
 /// # Errors
 /// [`RenderError::Svg`] where it is not SVG, [`RenderError::Size`] where it has no size or is too large.

@@ -151,7 +151,7 @@ fn a_scene_painted_anew_is_a_new_scene() {
     assert!(matches!(scene.paint(2, far, Paint::Plain), Err(RenderError::NoSuchLayer { layer: 2, layers: 2 })));
 }
 
-/// A sheet of cloth in front of the camera, stretched by 5 % across its grain and short of its pattern by 3 % along it.
+/// A sheet of cloth in front of the camera, stretched by 5 % across its grain and compressed by 3 % along it.
 #[test]
 fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
     const SIDE: usize = 41;
@@ -169,7 +169,8 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
     let scene = Scene::new(vec![Layer::new(&sheet, Material::fem()).painted(check)]).unwrap();
     let frame = Frame { centre: V3::new(-0.21, 0.0, 0.194), height_m: 0.3 };
     let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();
-    // Half a millimetre a pixel: where the check turns from light to dark or back, along one line of the picture.
+    // Half a millimetre to a pixel. Finds the places along a line of the picture where the check changes between light
+    // and dark.
     let squares = |at: &dyn Fn(u32) -> [i32; 3]| {
         let values: Vec<i32> = (60..540).map(|k| at(k)[0]).collect();
         let middle = (values.iter().max().unwrap() + values.iter().min().unwrap()) / 2;
@@ -191,7 +192,8 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
     }
 }
 
-/// Cloth wound round a cylinder without strain: squares look narrower towards its sides, along the cloth they are 20 mm.
+/// Cloth wound around a cylinder without strain: squares look narrower towards its sides, but are 20 mm along the
+/// cloth.
 #[test]
 fn a_check_on_a_cylinder_measures_20_mm_along_the_cloth() {
     const RADIUS: f64 = 0.15;
@@ -219,7 +221,8 @@ fn a_check_on_a_cylinder_measures_20_mm_along_the_cloth() {
     let turns: Vec<f64> = values
         .windows(9)
         .filter_map(|near| {
-            // Light falls off round the cylinder: a turn is where the colour changes fast, not where it passes a level.
+            // Light decreases around the cylinder, so a turn is where the colour changes fast, and not where it passes
+            // a level.
             let steps: Vec<i32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
             let greatest = *steps.iter().max()?;
             (greatest > 8 && steps[3] == greatest && steps[..3].iter().all(|s| *s < greatest))

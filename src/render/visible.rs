@@ -1,26 +1,27 @@
-//! Which surface each pixel shows: one sample at its middle, and nine where an outline, a seam or another layer passes it.
+//! Visible surface of each pixel: one sample at its centre, and nine where an outline, a seam or the edge of a layer
+//! passes through it.
 //!
-//! Within a smooth surface nine samples would see one colour. What can change within a pixel changes at a contour, an
-//! edge between a triangle that faces the viewer and one that does not. It also changes at the border of a mesh, at a
-//! seam line or where layers meet. So only those pixels are looked at closer.
+//! Within a smooth surface nine samples would have one colour. The colour can change within a pixel at a contour, which
+//! is an edge between a triangle that faces the viewer and one that does not. It can also change at the border of a
+//! mesh, at a seam line or where layers meet. So only those pixels are supersampled.
 
 use super::raster::{NOTHING, RIM, cover};
 use super::scene::{Edge, Scene};
 
-/// Samples along a side of a pixel that is looked at closer.
+/// Samples along a side of a supersampled pixel.
 const FINE: usize = 3;
-/// Samples of such a pixel.
+/// Samples of a supersampled pixel.
 pub(super) const SAMPLES: usize = FINE * FINE;
-/// How far behind what is seen a seam line still shows, m: skin and cloth lie on each other.
+/// Depth behind the visible surface at which a seam line is still drawn, m. Skin and cloth lie on each other.
 const SEAM_DEPTH: f32 = 0.006;
 
-/// A pixel looked at closer: what each sample shows, row by row.
+/// A supersampled pixel: the visible triangle of each sample, row by row.
 #[derive(Clone)]
 pub(super) struct Fine {
     depth: [f32; SAMPLES],
     /// Triangle, `NOTHING` where there is none.
     pub triangle: [u32; SAMPLES],
-    /// Whether a seam line passes.
+    /// True for each sample on a seam line.
     pub stitched: [bool; SAMPLES],
 }
 
@@ -29,28 +30,27 @@ impl Fine {
         Self { depth: [f32::INFINITY; SAMPLES], triangle: [NOTHING; SAMPLES], stitched: [false; SAMPLES] };
 }
 
-/// Nearest surfaces of a picture.
+/// Visible surfaces of a picture.
 pub(super) struct Visible {
     width: usize,
     height: usize,
-    /// Distance of each pixel's middle behind the centre plane, m; infinite where there is nothing.
+    /// Depth at the centre of each pixel behind the centre plane, m; infinite where there is nothing.
     pub depth: Vec<f32>,
-    /// Triangle at each pixel's middle, `NOTHING` where there is none.
+    /// Triangle at the centre of each pixel, `NOTHING` where there is none.
     pub triangle: Vec<u32>,
-    /// Where each pixel stands among the fine ones; `NOTHING` for most.
+    /// Index of each pixel in `fine`; `NOTHING` for most.
     place: Vec<u32>,
     fine: Vec<Fine>,
 }
 
-/// Where sample `k` of a pixel lies within it.
+/// Offset of sample `k` within its pixel.
 pub(super) fn offset(k: usize) -> [f32; 2] {
     let middle = |cell: usize| (cell as f32 + 0.5) / FINE as f32;
     [middle(k % FINE), middle(k / FINE)]
 }
 
 impl Visible {
-    /// Draws the triangles of a scene. `projected` are its vertices in pixels, with their depth, m; `recede` says how far
-    /// behind that a triangle is drawn, m.
+    /// Rasterises the triangles of a scene. `projected` are its vertices in pixels, with their depth, m.
     pub fn new(scene: &Scene, projected: &[[f32; 3]], width: usize, height: usize) -> Self {
         let pixels = width * height;
         let (depth, triangle) = (vec![f32::INFINITY; pixels], vec![NOTHING; pixels]);
@@ -79,7 +79,7 @@ impl Visible {
         visible
     }
 
-    /// The samples of a pixel that is looked at closer.
+    /// Samples of a pixel, if it is supersampled.
     pub fn closer(&self, pixel: usize) -> Option<&Fine> {
         self.fine.get(self.place[pixel] as usize)
     }
@@ -91,13 +91,14 @@ impl Visible {
         }
     }
 
-    /// The pixel that holds a place.
+    /// Pixel that contains a place of the picture.
     fn pixel(&self, x: f32, y: f32) -> Option<usize> {
         let inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
         inside.then(|| y as usize * self.width + x as usize)
     }
 
-    /// Where the next pixel to the right or below shows another layer, or another triangle of one painted flat.
+    /// Marks pixels whose neighbour to the right or below shows another layer, or another group of a layer that is not
+    /// continuous.
     fn mark_layers(&mut self, scene: &Scene) {
         let differ = |a: u32, b: u32| {
             a != b
@@ -119,7 +120,7 @@ impl Visible {
         }
     }
 
-    /// Along contours and borders that are not hidden.
+    /// Marks pixels along visible contours and borders.
     fn mark_contours(&mut self, scene: &Scene, projected: &[[f32; 3]]) {
         let faces_us = |triangle: usize| {
             let [a, b, c] = scene.corners(triangle, projected);
@@ -127,8 +128,8 @@ impl Visible {
         };
         let faces: Vec<bool> = (0..scene.triangles.len()).map(faces_us).collect();
         let is_contour = |edge: &&Edge| {
-            let [one, other] = edge.faces.map(|face| face as usize);
-            edge.faces[1] == NOTHING || faces[one] != faces[other]
+            let [first, second] = edge.faces.map(|face| face as usize);
+            edge.faces[1] == NOTHING || faces[first] != faces[second]
         };
         for edge in scene.edges.iter().filter(is_contour) {
             let recede = scene.recede(edge.faces[0] as usize);
@@ -143,7 +144,7 @@ impl Visible {
         }
     }
 
-    /// The greatest depth of a pixel and its neighbours.
+    /// Greatest depth of a pixel and its neighbours.
     fn farthest_around(&self, pixel: usize) -> f32 {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let rows = y.saturating_sub(1)..(y + 2).min(self.height);
@@ -151,8 +152,13 @@ impl Visible {
         rows.flat_map(|row| &self.depth[row * self.width..][columns.clone()]).fold(f32::NEG_INFINITY, |a, &b| a.max(b))
     }
 
-    /// Calls `at(self, pixel, sample, depth)` along every seam line, which is two samples wide.
-    fn along_seams(&mut self, scene: &Scene, projected: &[[f32; 3]], mut at: impl FnMut(&mut Self, usize, usize, f32)) {
+    /// Calls `visit(self, pixel, sample, depth)` along every seam line, which is two samples wide.
+    fn along_seams(
+        &mut self,
+        scene: &Scene,
+        projected: &[[f32; 3]],
+        mut visit: impl FnMut(&mut Self, usize, usize, f32),
+    ) {
         let sample = 1.0 / FINE as f32;
         for seam in &scene.seams {
             walk(seam.map(|v| projected[v]), FINE as f32, |[x, y, depth]| {
@@ -160,7 +166,7 @@ impl Visible {
                     let (x, y) = (x + dx * sample, y + dy * sample);
                     if let Some(pixel) = self.pixel(x, y) {
                         let cell = |t: f32| ((t.fract() * FINE as f32) as usize).min(FINE - 1);
-                        at(self, pixel, cell(y) * FINE + cell(x), depth);
+                        visit(self, pixel, cell(y) * FINE + cell(x), depth);
                     }
                 }
             });
@@ -183,7 +189,7 @@ impl Visible {
         });
     }
 
-    /// Draws a triangle into the samples of the pixels that are looked at closer.
+    /// Rasterises a triangle into the samples of supersampled pixels.
     fn refine(&mut self, triangle: u32, [a, b, c]: [[f32; 3]; 3]) {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 {
@@ -212,12 +218,12 @@ impl Visible {
     }
 }
 
-/// Calls `at` along a line, `per_pixel` times a pixel or more.
-fn walk([a, b]: [[f32; 3]; 2], per_pixel: f32, mut at: impl FnMut([f32; 3])) {
+/// Calls `visit` at points along a line, at least `per_pixel` times to a pixel.
+fn walk([a, b]: [[f32; 3]; 2], per_pixel: f32, mut visit: impl FnMut([f32; 3])) {
     let steps = (per_pixel * (b[0] - a[0]).abs().max((b[1] - a[1]).abs())).ceil().clamp(1.0, 8192.0);
     for step in 0..=steps as usize {
         let t = step as f32 / steps;
         let between = |k: usize| a[k] + t * (b[k] - a[k]);
-        at([between(0), between(1), between(2)]);
+        visit([between(0), between(1), between(2)]);
     }
 }

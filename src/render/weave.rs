@@ -1,4 +1,4 @@
-//! Cloth drawn from its yarns, at true scale: one repeat of a weave or a knit.
+//! Textures of weaves and knits, drawn from their yarns at true scale.
 
 use std::f32::consts::PI;
 
@@ -6,30 +6,32 @@ use image::RgbaImage;
 
 use super::colour::{Encoder, Rgb};
 
-/// How yarns cross.
+/// Structure of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weave {
-    /// One over, one under.
+    /// Plain weave: one over, one under.
     Plain,
-    /// Three over, one under, a step aside with each pick: the diagonals of denim.
+    /// Twill 3/1: three over, one under, shifted by one with each pick. Denim has its diagonals.
     Twill,
-    /// Loops of one yarn, the face side: columns of V.
+    /// Face side of a single jersey: columns of V-shaped loops.
     Jersey,
-    /// A column of the face and a sunken one of the back, in turn.
+    /// Rib 1x1: columns of the face and the back in turn, the latter sunken.
     Rib,
 }
 
-/// Weight of a yarn by its bulk, kg/m3: cotton of 1.1 cm3/g [Peirce 1937].
+/// Density of a yarn, kg/m3: cotton of 1.1 cm3/g [Peirce 1937].
 const YARN_DENSITY: f64 = 909.0;
-/// Texels across a yarn of a weave, and across a loop of a knit.
+/// Texels across a yarn of a weave.
 const YARN: u32 = 16;
+/// Texels across a loop of a knit.
 const LOOP: u32 = 40;
-/// Width and height of a loop in diameters of its yarn, and the length of yarn in it: a close jersey [Peirce 1947].
+/// Width and height of a loop in diameters of its yarn, for a close jersey [Peirce 1947].
 const LOOP_DIAMETERS: [f64; 2] = [4.0, 3.46];
+/// Length of yarn in a loop, in diameters of the yarn [Peirce 1947].
 const LOOP_YARN_DIAMETERS: f64 = 16.66;
 
 impl Weave {
-    /// All of them.
+    /// All structures.
     pub const ALL: [Self; 4] = [Self::Plain, Self::Twill, Self::Jersey, Self::Rib];
 
     /// Name in the command line.
@@ -43,11 +45,11 @@ impl Weave {
         }
     }
 
-    /// Length of one repeat across and along the grain, m, of a cloth of this weight and thickness.
+    /// Length of one repeat across and along the grain, m, for a cloth of an areal density and a thickness.
     ///
-    /// Woven, two yarns lie on each other, so the diameter of each is half the thickness, and their distance follows from the
-    /// weight of both sets [Peirce 1937]; they cannot lie closer than they are thick. A knit's loops follow from its weight
-    /// alone: they are as close as yarns allow [Peirce 1947].
+    /// In a weave two yarns lie on each other, so the diameter of each is half of the thickness. Their spacing follows
+    /// from the weight of both sets of yarns [Peirce 1937], and is at least a diameter. The loops of a knit follow from
+    /// its weight alone: they are as close as the yarns allow [Peirce 1947].
     #[must_use]
     pub fn repeat_m(self, density_kg_m2: f64, thickness_m: f64) -> [f64; 2] {
         let yarn_kg_m = |diameter: f64| YARN_DENSITY * std::f64::consts::PI * diameter * diameter / 4.0;
@@ -60,7 +62,7 @@ impl Weave {
             }
             Self::Jersey | Self::Rib => {
                 let [width, height] = LOOP_DIAMETERS;
-                // Weight of a loop over its area, for a yarn 1 m thick.
+                // Mass of a loop over its area, for a yarn of 1 m in diameter.
                 let density_of_one = LOOP_YARN_DIAMETERS * yarn_kg_m(1.0) / (width * height);
                 let diameter = density_kg_m2 / density_of_one;
                 let columns = if self == Self::Rib { 2.0 } else { 1.0 };
@@ -69,7 +71,7 @@ impl Weave {
         }
     }
 
-    /// Yarns of a repeat each way; of a knit, columns of loops.
+    /// Number of yarns in a repeat in each direction; for a knit, of columns of loops.
     fn yarns(self) -> u32 {
         match self {
             Self::Plain | Self::Rib => 2,
@@ -78,7 +80,8 @@ impl Weave {
         }
     }
 
-    /// A picture of one repeat, `v` (up the picture) along the grain; on average it is as light as its yarns.
+    /// Draws one repeat, with `v` (up in the picture) along the grain. Its mean brightness is that of the colours of
+    /// its yarns.
     #[must_use]
     pub fn picture(self, warp: Rgb, weft: Rgb) -> RgbaImage {
         let (width, height) = match self {
@@ -105,7 +108,7 @@ impl Weave {
         })
     }
 
-    /// Which yarn lies on top at a place of the repeat (0 the warp, 1 the weft), and how much light it gives back.
+    /// Yarn on top at a place of the repeat (0 the warp, 1 the weft), and the light that it reflects.
     fn woven(self, u: f32, v: f32) -> (usize, f32) {
         let n = self.yarns() as f32;
         let (x, y) = (u * n, v * n);
@@ -115,7 +118,7 @@ impl Weave {
             _ => (end + pick).is_multiple_of(2),
         };
         let above = is_warp(end, pick);
-        // Along the upper yarn: how many crossings it stays up, before and behind.
+        // Along the upper yarn: whether it is also on top at the next crossing and at the one before.
         let same = |step: u32| {
             let next = if above { is_warp(end, pick + step) } else { is_warp(end + step, pick) };
             next == above
@@ -128,13 +131,13 @@ impl Weave {
         (usize::from(!above), (0.25 + 0.75 * round) * (0.35 + 0.65 * arched))
     }
 
-    /// How much light a knit gives back at a place of the repeat.
+    /// Light that a knit reflects at a place of the repeat.
     fn knitted(self, u: f32, v: f32) -> f32 {
         let columns = self.yarns() as f32;
         let x = u * columns;
         let is_back = self == Self::Rib && x >= 1.0;
         let (x, mut light) = (x.fract() - 0.5, 0.12_f32);
-        // Loops of the rows below and above reach into this one.
+        // Loops of the rows below and above extend into this one.
         for row in [-1.0, 0.0, 1.0] {
             let t = v - row + 0.25;
             if (0.0..=1.5).contains(&t) {
@@ -145,7 +148,8 @@ impl Weave {
     }
 }
 
-/// Light from the legs of a loop that begins at height 0 and ends at 1.5 rows: they part as they rise, and dive at both ends.
+/// Light from the legs of a loop that extends from height 0 to 1.5 rows. The legs part as they rise, and dip at both
+/// ends.
 fn leg(x: f32, t: f32) -> f32 {
     let middle = 0.06 + 0.26 * (PI / 2.0 * (t / 1.2).min(1.0)).sin();
     let off = (x.abs() - middle) / 0.17;
@@ -153,7 +157,7 @@ fn leg(x: f32, t: f32) -> f32 {
     round * (0.3 + 0.7 * (PI * t / 1.5).sin())
 }
 
-/// Light from the heads of loops seen from behind: an arc across the column.
+/// Light from the heads of loops seen from the back: an arc across the column.
 fn purl(x: f32, t: f32) -> f32 {
     let off = (t - 0.75 - 0.2 * (2.0 * PI * x).cos()) / 0.3;
     (1.0 - off * off).max(0.0).sqrt()
@@ -176,7 +180,7 @@ mod tests {
         // A jersey of 187 g/m2: yarn of 0.218 mm, 11.5 columns and 13.3 rows a centimetre.
         check(Weave::Jersey, 0.187, 0.41e-3, 0.871, 0.754);
         check(Weave::Rib, 0.187, 0.41e-3, 1.743, 0.754);
-        // So heavy for its thickness that the yarns would overlap: they touch.
+        // So heavy for its thickness that the yarns would overlap: they touch instead.
         check(Weave::Plain, 2.0, 0.4e-3, 0.4, 0.4);
     }
 

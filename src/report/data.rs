@@ -1,4 +1,4 @@
-//! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
+//! Data of a report: plain values, lengths in metres, times in seconds. The page formats them.
 
 use fit::measure::{Chi, Metrics, metrics};
 use fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
@@ -7,26 +7,27 @@ use render::Scale;
 use super::chart::Chart;
 use super::viewer::Drapes;
 
-/// Everything one report shows.
+/// All data of a report.
 #[derive(Clone, Debug, Default)]
 pub struct ReportData {
     /// Name of the study.
     pub title: String,
-    /// What the study asks, one sentence.
+    /// Question of the study, one sentence.
     pub question: String,
-    /// When and by which program the report was made (`2025-03-01, toile 0.1.0`).
+    /// Date and program of the report (`2025-03-01, toile 0.1.0`).
     pub made: String,
-    /// The answer to "which simulator?" for every garment and fit class.
+    /// Recommended simulator for every garment and fit class.
     pub verdicts: Vec<Verdict>,
-    /// What does not add up: exclusions, mismatches of inputs. Failed and unconverged runs need not be listed.
+    /// Findings of the audit, such as exclusions and mismatches of inputs. Failed and unconverged runs need not be
+    /// listed.
     pub audit: Vec<AuditNote>,
-    /// Program version, git commit, machine, seeds, solver parameters: in the order given.
+    /// Program version, git commit, machine, seeds and solver parameters, in the order of the page.
     pub provenance: Vec<Fact>,
     /// Input files and their hashes.
     pub inputs: Vec<Fact>,
-    /// Numbers of each fabric and where they are from.
+    /// Properties of each fabric, with their source.
     pub fabrics: Vec<FabricFacts>,
-    /// Measurements of the subjects, one a row.
+    /// Measurements of the subjects, one subject to a row.
     pub subjects: SubjectTable,
     /// Pattern drawings with numbered measurements.
     pub drawings: Vec<Drawing>,
@@ -34,64 +35,64 @@ pub struct ReportData {
     pub cuts: Cuts,
     /// Ease of every subject and size, garment by garment.
     pub ease: Vec<EaseMatrix>,
-    /// Which size each subject should wear.
+    /// Recommended size of each garment for each subject.
     pub sizes: Vec<SizeTip>,
-    /// How each garment fits each subject.
+    /// Fit of each garment on each subject.
     pub fit: FitData,
-    /// All runs, failed ones too.
+    /// All runs, including failed ones.
     pub runs: Vec<TryOn>,
-    /// The cases that both simulators drew.
+    /// Cases that both simulators draped.
     pub pairs: Vec<Pair>,
-    /// What they say.
+    /// Statistics of these cases.
     pub evidence: Option<Evidence>,
-    /// How it was done, a paragraph each.
+    /// Methods, one paragraph each.
     pub methods: Vec<String>,
-    /// What it does not show, a paragraph each.
+    /// Limits of the study, one paragraph each.
     pub limits: Vec<String>,
     /// Files with the raw numbers, as addresses relative to the page.
     pub raw: Vec<RawLink>,
 }
 
-/// One answer to "which simulator?".
+/// Recommendation of a simulator.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Fit class that the answer is for.
+    /// Fit class of the recommendation.
     pub class: FitClass,
-    /// The simulator to use.
+    /// Recommended simulator.
     pub recommended: Simulator,
-    /// Why this one.
+    /// Basis of the recommendation.
     pub basis: Basis,
-    /// What the study's numbers say by themselves.
+    /// Finding of the study.
     pub finding: Finding,
-    /// Mean EI of FEM less that of Hybrid, where both ran.
+    /// Mean EI of FEM-GS less that of Hybrid-GS, if both ran.
     pub effect: Option<f64>,
-    /// The ends of its interval, of two subjects or more.
+    /// Ends of its confidence interval, for two subjects or more.
     pub interval: Option<(f64, f64)>,
-    /// p of the sign-flip test after Holm, where there are subjects enough.
+    /// p of the sign-flip test after Holm's correction, if there are enough subjects.
     pub p_holm: Option<f64>,
-    /// Subjects behind the numbers.
+    /// Number of subjects.
     pub subjects: usize,
     /// One sentence of explanation.
     pub reason: String,
-    /// What would settle or flip it.
+    /// Evidence that would settle or reverse it.
     pub would_settle: String,
 }
 
-/// How much a note of the audit weighs.
+/// Severity of a note of the audit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// Results are missing or wrong.
     Failure,
     /// Results need care.
     Warning,
-    /// Results stand; the reader should know.
+    /// Results are valid; the note is for information.
     Note,
 }
 
 impl Severity {
-    /// Word and style class of a note.
+    /// Word and style class of the severity.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -101,7 +102,7 @@ impl Severity {
         }
     }
 
-    /// Sign before a note.
+    /// Symbol before a note.
     #[must_use]
     pub fn glyph(self) -> &'static str {
         match self {
@@ -112,10 +113,10 @@ impl Severity {
     }
 }
 
-/// One thing the audit found.
+/// A note of the audit.
 #[derive(Clone, Debug)]
 pub struct AuditNote {
-    /// How much it weighs with the results.
+    /// Severity of the note.
     pub severity: Severity,
     /// The finding, one or two sentences.
     pub text: String,
@@ -130,34 +131,34 @@ pub struct Fact {
     pub value: String,
 }
 
-/// A fabric's numbers.
+/// Properties of a fabric.
 #[derive(Clone, Debug)]
 pub struct FabricFacts {
     /// Name of the fabric, as the study has it.
     pub name: String,
     /// Its properties with units.
     pub facts: Vec<Fact>,
-    /// Where they are from.
+    /// Source of the properties.
     pub source: String,
 }
 
 /// A column of the subject table.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Measurement by its ISO 8559-1 name.
+    /// Name of the measurement in ISO 8559-1.
     pub name: String,
-    /// Unit of the values (`mm`, `kg`); they are shown as given.
+    /// Unit of the values (`mm`, `kg`), which are shown unchanged.
     pub unit: String,
-    /// Decimals to which its values are shown.
+    /// Number of decimals of its values.
     pub decimals: usize,
 }
 
 /// The subjects and their measurements.
 #[derive(Clone, Debug, Default)]
 pub struct SubjectTable {
-    /// What was measured.
+    /// Measurements.
     pub columns: Vec<Column>,
-    /// Who was measured.
+    /// Subjects.
     pub rows: Vec<Subject>,
 }
 
@@ -168,7 +169,7 @@ pub struct Subject {
     pub name: String,
     /// Words about the subject (sex, source of the body).
     pub note: String,
-    /// One value a column; `None` where it is not known.
+    /// A value for each column; `None` if it is not known.
     pub values: Vec<Option<f64>>,
 }
 
@@ -179,7 +180,7 @@ pub struct Drawing {
     pub garment: String,
     /// Name of the size that is drawn.
     pub size: String,
-    /// The drawing as SVG; shown as a picture, so that nothing in it can run.
+    /// Drawing as SVG. It is shown as a picture, so that no script in it runs.
     pub svg: String,
 }
 
@@ -188,62 +189,62 @@ pub struct Drawing {
 pub struct EaseMatrix {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Sizes, one a row.
+    /// Sizes, one to a row.
     pub sizes: Vec<String>,
-    /// Subjects, one a column.
+    /// Subjects, one to a column.
     pub subjects: Vec<String>,
-    /// Deciding ease by size, then subject; `None` where a girth is not known.
+    /// Deciding ease by size, then subject; `None` if a girth is not known.
     pub cells: Vec<Vec<Option<Ease>>>,
 }
 
-/// Which size of a garment a subject should wear.
+/// Recommended size of a garment for a subject.
 #[derive(Clone, Debug)]
 pub struct SizeTip {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Name of the size to wear.
+    /// Name of the recommended size.
     pub size: String,
-    /// Why that size, in words.
+    /// Reason for that size, in words.
     pub reason: String,
-    /// Tension at each level in the FEM-GS drape of that size, where there is one.
+    /// Tension at each level in the FEM-GS drape of that size, if there is one.
     pub tension: String,
-    /// Which picture of it a customer should see.
+    /// Picture of it that a customer should see.
     pub shown: String,
 }
 
-/// What the fit report shows besides the runs.
+/// Data of the fit report besides the runs.
 #[derive(Clone, Debug, Default)]
 pub struct FitData {
-    /// How each garment fits each subject.
+    /// Fit of each garment on each subject.
     pub sheets: Vec<FitSheet>,
     /// Pattern drawings with numbered points of measure.
     pub points: Vec<Drawing>,
-    /// Each point of measure that any of them has, and how it is measured.
+    /// Definition of each point of measure in these drawings.
     pub definitions: Vec<Fact>,
-    /// Drapes to turn in the page.
+    /// Drapes for the three-dimensional viewer of the page.
     pub drapes: Drapes,
 }
 
-/// How a garment fits a subject, in the size to wear and those beside it.
+/// Fit of a garment on a subject, in the recommended size and its neighbours.
 #[derive(Clone, Debug)]
 pub struct FitSheet {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Intended fit; empty where none is meant.
+    /// Intended fit; empty if there is none.
     pub intended: String,
-    /// Which size to wear, and what is worst with it.
+    /// Recommended size, and its worst deviation.
     pub verdict: String,
-    /// How the size to wear hangs and presses, in words; empty without its drape.
+    /// Balance and pressure of the recommended size, in words; empty without its drape.
     pub drape: String,
-    /// The size to wear and those beside it, in order.
+    /// The recommended size and its neighbours, in order.
     pub sizes: Vec<FitSize>,
-    /// Whose drapes are measured, where there are any.
+    /// Simulator of the measured drapes, if there are any.
     pub simulator: Option<Simulator>,
-    /// Ease by level, what hangs and presses, points of measure.
+    /// Tables of ease by level, balance and pressure, and points of measure.
     pub tables: Vec<FitTable>,
     /// Cross sections of all sizes that have a drape.
     pub sections: Vec<Chart>,
@@ -254,20 +255,20 @@ pub struct FitSheet {
 pub struct FitSize {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Whether it is the one to wear.
+    /// True for the recommended size.
     pub is_to_wear: bool,
-    /// Whether it fits; where the one to wear does not, none does.
+    /// True if it fits. If the recommended size does not, none does.
     pub fits: bool,
-    /// What is worst with it.
+    /// Its worst deviation.
     pub words: String,
 }
 
 /// A table of a fit sheet.
 #[derive(Clone, Debug)]
 pub struct FitTable {
-    /// What it holds, and in which unit.
+    /// Content of the table, with the unit.
     pub caption: String,
-    /// Heads of its columns besides the names of its rows.
+    /// Headings of its columns, except that of the names.
     pub columns: Vec<String>,
     /// Rows, from the top; each has a cell for every column.
     pub rows: Vec<FitRow>,
@@ -276,24 +277,24 @@ pub struct FitTable {
 /// A row of a fit sheet's table.
 #[derive(Clone, Debug)]
 pub struct FitRow {
-    /// What the row is about, such as a level of the body.
+    /// Subject of the row, such as a level of the body.
     pub name: String,
-    /// A cell a column.
+    /// A cell for each column.
     pub cells: Vec<FitCell>,
 }
 
-/// A number of a fit sheet in words.
+/// A cell of a table of a fit sheet.
 #[derive(Clone, Debug, Default)]
 pub struct FitCell {
     /// The number as text, in the unit of the table.
     pub text: String,
-    /// What is to be said of it.
+    /// Remark on the number.
     pub note: String,
-    /// Where it lies beside its target, where it has one.
+    /// Position relative to its target, if it has one.
     pub verdict: Option<FitVerdict>,
 }
 
-/// Where an ease lies beside its target.
+/// Position of an ease relative to its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitVerdict {
     /// Below the target: too little ease.
@@ -304,16 +305,16 @@ pub enum FitVerdict {
     Loose,
 }
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Residual within tolerance, seams closed.
     Converged,
-    /// Stopped before that; measured all the same.
+    /// Stopped before convergence, and measured nevertheless.
     NotConverged,
-    /// No result, and why.
+    /// No result, for this reason.
     Failed(String),
-    /// Numbers that somebody printed; nothing is known of how they came to be.
+    /// Published numbers; the course of the computation is not known.
     Printed,
 }
 
@@ -324,37 +325,37 @@ pub struct Measured {
     pub name: String,
     /// Number, pattern and garment length.
     pub chi: Chi,
-    /// Whether it is a closed girth; an open length otherwise.
+    /// True for a closed girth, false for an open length.
     pub closed: bool,
-    /// Whether it lies on an edge that nothing is sewn to.
+    /// True if it lies on a free edge, to which nothing is sewn.
     pub free_edge: bool,
-    /// Whether the simulator restores it by construction.
+    /// True if the simulator restores its length by construction.
     pub controlled: bool,
-    /// The chi the thesis printed for the same case, where there is one.
+    /// Value of chi in the thesis for the same case, if there is one.
     pub published_chi: Option<f64>,
-    /// The chi that is printed where it is not the ratio of the lengths printed beside it.
+    /// Printed value of chi, if it is not the ratio of the lengths printed beside it.
     pub misprint: Option<f64>,
 }
 
 /// A picture file.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// PNG or JPEG; the page tells by the first bytes.
+    /// Bytes of a PNG or JPEG file, recognised by its first bytes.
     pub bytes: Vec<u8>,
-    /// The same at full size, a file at this address relative to the page; empty where there is none.
+    /// Address of the full-size file relative to the page; empty if there is none.
     pub file: String,
-    /// Words in its place for those who cannot see it.
+    /// Alternative text.
     pub alt: String,
-    /// The line under it.
+    /// Caption.
     pub caption: String,
 }
 
-/// A picture coloured by values; the page sets its legend below it.
+/// A picture of a scalar field. The page puts its legend below it.
 #[derive(Clone, Debug)]
 pub struct FieldMap {
     /// The picture, without a legend of its own.
     pub picture: Picture,
-    /// What its colours mean.
+    /// Scale of its colours.
     pub scale: Scale,
 }
 
@@ -363,9 +364,9 @@ pub struct FieldMap {
 pub struct TryOn {
     /// Name of the garment in the study.
     pub garment: String,
-    /// The garment without the seed of its start: what is the same but for this is a repeat.
+    /// Name of the garment without the seed of its start. Runs that differ in the seed alone are repeats.
     pub case: String,
-    /// Which of several simulations of the same inputs, from 1.
+    /// Number of the run among several with the same inputs, from 1.
     pub repeat: u32,
     /// Name of the size, such as `M`.
     pub size: String,
@@ -375,19 +376,19 @@ pub struct TryOn {
     pub simulator: Simulator,
     /// Name of the fabric, as the study has it.
     pub fabric: String,
-    /// How it ended.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// Ease that decides its fit class.
     pub ease: Option<Ease>,
     /// Its measurements; empty when it failed.
     pub measured: Vec<Measured>,
-    /// Vertices once sewn.
+    /// Number of vertices after sewing.
     pub vertices: usize,
-    /// Triangles of the mesh that was draped.
+    /// Number of triangles of the draped mesh.
     pub faces: usize,
-    /// Iterations over all levels.
+    /// Number of iterations over all mesh levels.
     pub iterations: u32,
-    /// Final rms residual over the mean vertex weight.
+    /// Final root mean square residual over the mean weight of a vertex.
     pub residual: f64,
     /// Residual by iteration.
     pub residuals: Vec<(u32, f64)>,
@@ -404,21 +405,21 @@ pub struct TryOn {
 }
 
 impl TryOn {
-    /// E, SD, EI over the measurements that `keep` keeps; `None` when none are left.
+    /// E, SD and EI over the measurements that `keep` selects; `None` if there are none.
     #[must_use]
     pub fn metrics(&self, keep: impl Fn(&Measured) -> bool) -> Option<Metrics> {
         let chis: Vec<Chi> = self.measured.iter().filter(|m| keep(m)).map(|m| m.chi.clone()).collect();
         metrics(&chis)
     }
 
-    /// Its measurement of a number.
+    /// Returns its measurement with a number.
     #[must_use]
     pub fn measurement(&self, no: u32) -> Option<&Measured> {
         self.measured.iter().find(|m| m.chi.no == no)
     }
 }
 
-/// The measurements that any of the runs has, by number; the first run's description of each.
+/// Measurements that any of the runs has, in the order of their numbers, each as the first run describes it.
 pub(super) fn measurements<'a>(runs: &[&'a TryOn]) -> Vec<&'a Measured> {
     let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
     all.sort_by_key(|m| m.chi.no);
@@ -431,6 +432,6 @@ pub(super) fn measurements<'a>(runs: &[&'a TryOn]) -> Vec<&'a Measured> {
 pub struct RawLink {
     /// Its relative address.
     pub href: String,
-    /// What it holds.
+    /// Content of the file.
     pub label: String,
 }

@@ -1,4 +1,5 @@
-//! What the pairs of both simulators say: statistics, differences with intervals, crossovers, and what they rest on.
+//! Section of the page on the evidence from cases that both simulators draped: statistics, differences with intervals,
+//! crossovers, and sensitivity to single measurements.
 
 use super::ReportError;
 use super::chart::{Chart, Difference, crossover_chart, difference_chart};
@@ -6,36 +7,36 @@ use super::data::ReportData;
 use super::text::{fit_glyph, number, signed};
 use fit::{Analysis, Pair, crossover, rule_score};
 
-/// The section on the evidence.
+/// Data of the section.
 pub(super) struct EvidencePart {
     pub statistics: Vec<Statistic>,
-    /// Means with intervals of every answer and garment.
+    /// Chart of means with intervals, for every answer and garment.
     pub differences: Option<Chart>,
     pub crossovers: Vec<Crossing>,
-    /// A chart a garment: the difference without each measurement in turn.
+    /// A chart for each garment: the difference without each measurement in turn.
     pub without: Vec<Chart>,
     /// Differences without free edges and without controlled measurements.
     pub told_apart: Vec<ToldApart>,
-    /// How often the thesis's rule was right.
+    /// Success rate of the rule of the thesis, in words.
     pub rule: String,
 }
 
 /// A row of statistics.
 pub(super) struct Statistic {
     pub name: String,
-    /// Class of its fit; empty over all fits.
+    /// Style class of its fit; empty for all fits together.
     pub class: &'static str,
     pub fit: String,
     pub cells: Vec<String>,
 }
 
-/// A chart of cases against ease and what it says.
+/// A chart of cases against ease, with its conclusion.
 pub(super) struct Crossing {
     pub chart: Chart,
     pub words: String,
 }
 
-/// One garment with all measurements and without some.
+/// A garment with all measurements, or without some.
 pub(super) struct ToldApart {
     pub name: String,
     pub what: String,
@@ -43,7 +44,7 @@ pub(super) struct ToldApart {
 }
 
 impl EvidencePart {
-    /// The section of a study; `None` without a case that both simulators drew.
+    /// Makes the section of a study; `None` without a case that both simulators draped.
     pub fn new(data: &ReportData) -> Result<Option<Self>, ReportError> {
         let Some(evidence) = data.evidence.as_ref().filter(|_| !data.pairs.is_empty()) else { return Ok(None) };
         let of_answers = evidence.answers.iter().filter(|answer| answer.analysis.cases > 0).map(|answer| {
@@ -79,7 +80,7 @@ impl EvidencePart {
         }))
     }
 
-    /// All charts of the section, in the order of the page.
+    /// Returns all charts of the section, in the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         self.differences.iter_mut().chain(self.crossovers.iter_mut().map(|c| &mut c.chart)).chain(&mut self.without)
     }
@@ -89,7 +90,8 @@ fn dash() -> String {
     "–".into()
 }
 
-/// Subjects, cases, mean, interval, effect size, p, p after Holm, equivalence p, lower EI, regret.
+/// Cells of a row: subjects, cases, mean, interval, effect size, p, p after Holm, p of equivalence, cases with the
+/// lower EI, regret.
 fn cells(analysis: &Analysis, p_holm: Option<f64>, regret: String) -> Vec<String> {
     let estimate = analysis.estimate.as_ref();
     let p = |p: Option<f64>| p.map_or_else(dash, |p| if p < 0.001 { "< 0.001".into() } else { number(p, 3) });
@@ -108,7 +110,7 @@ fn cells(analysis: &Analysis, p_holm: Option<f64>, regret: String) -> Vec<String
     ]
 }
 
-/// Every answer and every garment as a row.
+/// Chart with a row for every answer and every garment.
 fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
     let Some(evidence) = &data.evidence else { return Ok(None) };
     let row = |label: String, analysis: &Analysis| {
@@ -126,7 +128,7 @@ fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
     Ok(if rows.is_empty() { None } else { Some(difference_chart(&data.title, "differences", &rows, None)?) })
 }
 
-/// All garments together, then each, where there are several.
+/// Charts of all garments together, then of each, if there are several.
 fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
     let garments = super::text::distinct(data.pairs.iter().map(|pair| pair.garment.as_str()));
     let each = if garments.len() > 1 { garments } else { vec![] };
@@ -137,17 +139,17 @@ fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
         let found = crossover(&pairs);
         let title = garment.unwrap_or("all garments");
         if let Some(chart) = crossover_chart(title, &pairs, found.as_ref(), &data.cuts)? {
-            let said = found.map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string());
+            let place = found.map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string());
             all.push(Crossing {
                 chart,
-                words: format!("{title}: EI difference of every case against its ease. Crossover: {said}."),
+                words: format!("{title}: EI difference of every case against its ease. Crossover: {place}."),
             });
         }
     }
     Ok(all)
 }
 
-/// The difference of a garment without each measurement in turn.
+/// Chart of the difference of a garment without each measurement in turn.
 fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, ReportError> {
     let row =
         |rest: &fit::Without| Difference { label: format!("without {}", rest.what), mean: rest.mean, interval: None };
@@ -156,7 +158,7 @@ fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, Repor
     Ok(if rows.is_empty() { None } else { Some(difference_chart(name, "without", &rows, whole)?) })
 }
 
-/// A garment with all measurements, then without free edges and controlled ones.
+/// Rows of a garment with all measurements, then without free edges and without controlled ones.
 fn told(name: &str, analysis: &Analysis) -> Vec<ToldApart> {
     let row = |what: String, mean: f64, [fem, hybrid]: [usize; 2]| ToldApart {
         name: name.to_owned(),

@@ -1,17 +1,20 @@
-//! The report of a study: one HTML page that needs nothing else, and its charts.
+//! Report of a study: self-contained HTML pages, and their charts.
 //!
-//! [`ReportData`] holds plain values; [`files`] turns them into pages without addresses of other machines: pictures and pattern
-//! drawings are inside. The fit report has one script, that of its viewer; the page that compares simulators has none. Pictures are best JPEG ([`render::jpeg`]): six runs of five stay
-//! under 3 MB. Charts are SVG in the page; [`Chart::png`] gives the same as a file.
+//! [`ReportData`] holds plain values, and [`files`] turns them into pages. A page refers to no other machine: pictures
+//! and pattern drawings are embedded. The fit report has one script, that of its viewer. The page that compares
+//! simulators has none. Pictures are best given as JPEG ([`render::jpeg`]): six runs with five pictures each stay below
+//! 3 MB. Charts are SVG in the page, and [`Chart::png`] gives the same as a file.
 
 pub mod chart;
 pub mod data;
 mod evidence;
+mod images;
 mod names;
 mod page;
 mod repeats;
 mod runs;
 mod sheet;
+mod spread;
 mod text;
 mod theme;
 pub mod viewer;
@@ -22,7 +25,7 @@ pub use names::{FileNames, file_part};
 
 use askama::Template;
 
-/// Why a report could not be made.
+/// Reason for which a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A chart could not be drawn.
@@ -40,21 +43,21 @@ pub enum ReportError {
     /// A picture is neither PNG nor JPEG.
     #[error("picture \"{0}\" is neither PNG nor JPEG")]
     PictureFormat(String),
-    /// A link leads away from the report.
+    /// A link leads outside the report.
     #[error("link \"{0}\" must be an address relative to the report, like chi.csv")]
     Link(String),
 }
 
-/// What a report is for; it opens with that, and the other page lies beside it.
+/// Purpose of a report. Its first page serves the purpose, and the other page is beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Whether garments fit, where not, and by how much.
+    /// Fit of the garments.
     Fit,
-    /// How true each simulator stays to the pattern.
+    /// Comparison of the simulators: agreement of their drapes with the pattern.
     Compare,
 }
 
-/// The page that compares the simulators.
+/// Makes the page that compares the simulators.
 ///
 /// # Errors
 /// A link that is not relative, a picture that is neither PNG nor JPEG, or a chart that cannot be drawn.
@@ -62,8 +65,8 @@ pub fn html(data: &ReportData) -> Result<String, ReportError> {
     Ok(page(data, None, &mut FileNames::default())?.render()?)
 }
 
-/// The files of a report by their relative paths: `index.html` for its purpose, the other page beside it where garments are fitted,
-/// and charts as SVG and PNG.
+/// Makes the files of a report, by their relative paths: `index.html` for its purpose, the other page where garments
+/// are fitted, and charts as SVG and PNG.
 ///
 /// # Errors
 /// As [`html`], and where a chart cannot be turned into pixels.
@@ -91,7 +94,7 @@ pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>
     Ok(files)
 }
 
-/// The page that compares the simulators, its charts named apart.
+/// Makes the page that compares the simulators, with distinct names of its charts.
 fn page<'a>(data: &'a ReportData, fit: Option<&'a str>, names: &mut FileNames) -> Result<page::Page<'a>, ReportError> {
     let mut page = page::Page::new(data, fit)?;
     page.charts().for_each(|chart| chart.name_among(names));

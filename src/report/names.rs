@@ -1,25 +1,26 @@
-//! Names that become parts of file names: those of garments, sizes, subjects, fabrics and studies are free texts.
+//! Parts of file names made from free texts: the names of garments, sizes, subjects, fabrics and studies.
 
 use std::collections::BTreeSet;
 
-/// Most bytes of a part. File systems take names of 255 bytes, and a part gets words and an ending beside it.
+/// Greatest length of a part, bytes. File systems allow names of 255 bytes, and a part is combined with words and an
+/// extension.
 const MOST_BYTES: usize = 160;
-/// What a name without a letter or digit is called.
+/// Replacement for a name without letter or digit.
 const NAMELESS: &str = "unnamed";
-/// Names of devices, which no file of Windows may have before its first dot.
+/// Device names, which no file on Windows may have before its first dot.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
-/// Devices that have a number after their name.
+/// Device names that are followed by a number.
 const NUMBERED: [&str; 2] = ["com", "lpt"];
 
-/// A name as a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay; whatever else stands
-/// between them becomes one `-`. It is never empty, begins with no dot and has a bounded length. Different names may get
-/// the same part: [`FileNames`] tells them apart.
+/// Converts a name to a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay. Anything
+/// else between them becomes one `-`. The part is not empty, does not begin with a dot and has a bounded length.
+/// Different names may give the same part: [`FileNames`] makes them distinct.
 #[must_use]
 pub fn file_part(name: &str) -> String {
     let mut part = String::new();
     let mut is_gap = false;
     for letter in name.chars() {
-        // A dot is one within a word: two in a row lead out of a folder.
+        // A dot stays only within a word, since two in a row lead out of a folder.
         if !stays(letter) || letter == '.' && (is_gap || part.ends_with('.')) {
             is_gap = true;
             continue;
@@ -39,14 +40,14 @@ pub fn file_part(name: &str) -> String {
     if is_device(part) { format!("{part}_") } else { part.to_owned() }
 }
 
-/// Whether a character may stand in a file name on any system, and in the address of a page unescaped.
+/// True if a character is allowed in a file name on any system, and unescaped in a URL.
 fn stays(letter: char) -> bool {
-    // Signs within words, such as vowels and tones, are marks of their scripts and no letters.
+    // Signs within words, such as vowels and tones, are combining marks of their scripts and no letters.
     let is_mark = matches!(letter, '\u{300}'..='\u{1fff}' | '\u{3099}' | '\u{309a}' | '\u{a800}'..='\u{abff}');
     letter.is_alphanumeric() || "_.+=".contains(letter) || (is_mark && !letter.is_whitespace())
 }
 
-/// Whether a name is that of a device of Windows.
+/// True if a name is that of a device on Windows.
 fn is_device(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or_default().to_lowercase();
     let is_numbered =
@@ -54,12 +55,12 @@ fn is_device(part: &str) -> bool {
     DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(is_numbered)
 }
 
-/// Parts of file names in one folder, no two of them equal where capitals do not count.
+/// Parts of file names in one folder, all distinct regardless of case.
 #[derive(Clone, Debug, Default)]
 pub struct FileNames(BTreeSet<String>);
 
 impl FileNames {
-    /// A name as a part that no other has; a number is added where the plain part is taken.
+    /// Converts a name to a part that no other name has. A number is appended if the plain part is taken.
     pub fn part(&mut self, name: &str) -> String {
         let plain = file_part(name);
         let numbered = (2..).map(|number: usize| format!("{plain}-{number}"));

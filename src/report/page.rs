@@ -1,19 +1,19 @@
-//! The page as its template sees it: every number already a text, every picture already an address.
+//! The page that compares simulators, as its template takes it: numbers are formatted, and pictures are data URLs.
 
 use super::ReportError;
 use super::chart::{Chart, ease_chart, time_chart};
-use super::data::{Outcome, Picture, ReportData, Severity, TryOn, Verdict};
+use super::data::{Outcome, ReportData, Severity, TryOn, Verdict};
 use super::evidence::EvidencePart;
+use super::images::address;
 use super::repeats::RepeatPart;
 use super::runs::{Group, groups};
 use super::text::{
     count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm,
     simulator_name,
 };
-use base64::Engine;
 use fit::{Basis, Ease, Finding, FitClass, Simulator, shown};
 
-/// What `report.html` is filled from.
+/// Data of the template `report.html`.
 #[derive(askama::Template)]
 #[template(path = "report.html")]
 pub(super) struct Page<'a> {
@@ -25,7 +25,7 @@ pub(super) struct Page<'a> {
     subjects: Vec<Row>,
     subject_statistics: [Row; 2],
     drawings: Vec<Plan>,
-    /// Where fit classes meet, mm.
+    /// Limits of the fit classes, mm.
     tight_below: String,
     loose_above: String,
     ease: Vec<Matrix<'a>>,
@@ -34,23 +34,23 @@ pub(super) struct Page<'a> {
     ease_chart: Option<Chart>,
     time_chart: Option<Chart>,
     repeats: Option<RepeatPart>,
-    /// Address of the fit report, where there is one.
+    /// Address of the fit report, if there is one.
     fit: Option<&'a str>,
 }
 
-/// A number worth seeing first.
+/// A key figure.
 struct Tile {
     value: String,
     name: String,
 }
 
-/// The answers for one garment.
+/// The recommendations for one garment.
 struct Garment {
     name: String,
     cards: Vec<Card>,
 }
 
-/// One answer to "which simulator?".
+/// A recommendation of a simulator.
 struct Card {
     class: &'static str,
     glyph: &'static str,
@@ -100,72 +100,14 @@ struct Fit {
     glyph: &'static str,
     ease: String,
     words: String,
-    /// The level that decides and the two girths there.
+    /// The deciding level and the two girths there.
     girths: String,
-    /// Which picture a customer should see.
+    /// Picture that a customer should see.
     shown: String,
 }
 
-/// A picture inside the page.
-pub(super) struct Image {
-    pub address: String,
-    /// The full-size file beside the page; empty where there is none.
-    pub file: String,
-    pub alt: String,
-    pub caption: String,
-}
-
-impl Image {
-    pub fn new(picture: &Picture) -> Result<Self, ReportError> {
-        let kind = match picture.bytes.as_slice() {
-            [0x89, b'P', b'N', b'G', ..] => "image/png",
-            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
-            _ => return Err(ReportError::PictureFormat(picture.caption.clone())),
-        };
-        Ok(Self {
-            address: address(kind, &picture.bytes),
-            file: picture.file.clone(),
-            alt: picture.alt.clone(),
-            caption: picture.caption.clone(),
-        })
-    }
-}
-
-/// A field map and its legend.
-pub(super) struct MapImage {
-    pub image: Image,
-    pub label: String,
-    pub low: String,
-    pub middle: String,
-    pub high: String,
-    /// Colours of the legend from low to high, as a style sheet writes them.
-    pub ramp: String,
-}
-
-impl MapImage {
-    pub fn new(map: &super::data::FieldMap) -> Result<Self, ReportError> {
-        let scale = &map.scale;
-        let decimals = if scale.high - scale.low >= 10.0 { 0 } else { 2 };
-        let unit = if scale.unit.is_empty() { String::new() } else { format!("\u{a0}{}", scale.unit) };
-        let tick = |t: f64| format!("{}{unit}", number(scale.low + t * (scale.high - scale.low), decimals));
-        let stops: Vec<String> = (0..=12).map(|k| scale.map.at(f64::from(k) / 12.0).hex()).collect();
-        Ok(Self {
-            image: Image::new(&map.picture)?,
-            label: scale.label.clone(),
-            low: tick(0.0),
-            middle: tick(0.5),
-            high: tick(1.0),
-            ramp: stops.join(","),
-        })
-    }
-}
-
-pub(super) fn address(kind: &str, bytes: &[u8]) -> String {
-    format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
-}
-
 impl<'a> Page<'a> {
-    /// All charts, in the order of the page.
+    /// Returns all charts, in the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         let of_evidence = self.evidence.iter_mut().flat_map(EvidencePart::charts);
         let of_repeats = self.repeats.iter_mut().flat_map(|part| &mut part.charts);
@@ -173,6 +115,7 @@ impl<'a> Page<'a> {
         of_groups.chain(of_evidence).chain(&mut self.ease_chart).chain(&mut self.time_chart).chain(of_repeats)
     }
 
+    /// Fills the page from the data of a study; `fit` is the address of the fit report.
     pub fn new(data: &'a ReportData, fit: Option<&'a str>) -> Result<Self, ReportError> {
         let pictures = data.runs.iter().flat_map(|r| r.views.iter().chain(r.maps.iter().map(|m| &m.picture)));
         let links = data.raw.iter().map(|l| &l.href).chain(pictures.map(|p| &p.file));
@@ -206,7 +149,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Whether the runs are numbers of somebody's tables.
+/// True if all runs are numbers from published tables.
 fn are_printed(runs: &[TryOn]) -> bool {
     runs.iter().all(|run| run.outcome == Outcome::Printed)
 }
@@ -217,7 +160,7 @@ fn mean_ei(runs: &[TryOn], simulator: Simulator) -> Option<f64> {
     mean.is_finite().then_some(mean)
 }
 
-/// What the study found, in two or three sentences.
+/// Findings of the study in two or three sentences.
 fn summary(runs: &[TryOn]) -> String {
     let garments = distinct(runs.iter().map(|r| r.garment.as_str())).join(", ");
     let subjects = distinct(runs.iter().map(|r| r.subject.as_str())).len();
@@ -287,16 +230,16 @@ fn tiles(runs: &[TryOn]) -> Vec<Tile> {
     tiles
 }
 
-/// A card for every garment and fit class: where the study has no answer, the rule's.
+/// A card for every garment and fit class. Where the study has no answer, it is the rule's.
 fn verdicts(data: &ReportData) -> Vec<Garment> {
     let names =
         distinct(data.verdicts.iter().map(|v| v.garment.as_str()).chain(data.runs.iter().map(|r| r.garment.as_str())));
-    let of = |name: &str, class: FitClass| {
+    let card_of = |name: &str, class: FitClass| {
         let given = data.verdicts.iter().find(|v| v.garment == name && v.class == class);
         card(given.unwrap_or(&by_rule(data, name, class)))
     };
     let classes = [FitClass::Tight, FitClass::Just, FitClass::Loose];
-    names.iter().map(|n| Garment { name: (*n).into(), cards: classes.map(|c| of(n, c)).into() }).collect()
+    names.iter().map(|n| Garment { name: (*n).into(), cards: classes.map(|c| card_of(n, c)).into() }).collect()
 }
 
 fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
@@ -305,7 +248,7 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
     let ran = distinct(data.runs.iter().filter(fits).map(|r| simulator_name(r.simulator)));
     let why = match ran.as_slice() {
         [] => "No run of this study has this fit".into(),
-        [one] => format!("Only {one} ran on this fit, so there is nothing to compare it with"),
+        [only] => format!("Only {only} ran on this fit, so there is nothing to compare it with"),
         _ => "The study gives no verdict for this fit".to_owned(),
     };
     Verdict {
@@ -348,7 +291,7 @@ fn card(verdict: &Verdict) -> Card {
     }
 }
 
-/// Failed and unconverged runs first, then what the study noted.
+/// Failed and unconverged runs first, then the notes of the study.
 fn audit(data: &ReportData) -> Vec<Note> {
     let of_run = |run: &TryOn| {
         let name = format!(

@@ -1,9 +1,9 @@
-//! The runs of one garment and size: pictures, tables, charts.
+//! Runs of one garment and size: pictures, tables, charts.
 
 use super::ReportError;
 use super::chart::{Chart, Metric, chi_chart, mean_sd_chart, metric_chart, residual_chart};
 use super::data::{Measured, Outcome, TryOn, measurements};
-use super::page::{Image, MapImage};
+use super::images::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
 use super::theme;
 
@@ -12,20 +12,20 @@ pub(super) struct Group {
     pub id: String,
     pub title: String,
     pub strips: Vec<Strip>,
-    /// Whether anything is known of how its runs went.
+    /// True if a run was simulated, so that its course is known.
     pub course: bool,
     pub series: Vec<Series>,
     pub metrics: Vec<MetricsRow>,
     pub heat: Heat,
-    /// Mean chi of each series, where there are several.
+    /// Mean chi of each series, if there are several.
     pub side_by_side: Option<Heat>,
-    /// E, SD and EI, each simulator beside the other.
+    /// Charts of E, SD and EI, with the simulators side by side.
     pub metric_charts: Vec<Chart>,
     pub residual_chart: Option<Chart>,
 }
 
 impl Group {
-    /// All charts of the group, in the order of the page.
+    /// Returns all charts of the group, in the order of the page.
     pub fn charts(&mut self) -> impl Iterator<Item = &mut Chart> {
         let of_series = self.series.iter_mut().flat_map(|s| [&mut s.chi_chart].into_iter().chain(&mut s.mean_chart));
         of_series.chain(&mut self.metric_charts).chain(&mut self.residual_chart)
@@ -39,13 +39,13 @@ pub(super) struct Strip {
     pub class: &'static str,
     pub fit: String,
     pub status: String,
-    /// Why there is no result.
+    /// Reason for which there is no result.
     pub failure: Option<String>,
     pub images: Vec<Image>,
     pub maps: Vec<MapImage>,
 }
 
-/// The runs of one simulator and fabric, measured side by side.
+/// The runs of one simulator and fabric, with their measurements side by side.
 pub(super) struct Series {
     pub title: String,
     pub subjects: Vec<String>,
@@ -57,7 +57,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// The line under its chart of chi.
+    /// Caption of its chart of chi.
     pub fn chi_words(&self) -> String {
         let published = if self.published { " Hollow marks are the published values." } else { "" };
         format!("{}: chi of each measurement and subject.{published}", self.title)
@@ -82,11 +82,11 @@ pub(super) struct ChiCell {
     pub l3d: String,
     pub chi: String,
     pub published: Option<String>,
-    /// What is printed in its place.
+    /// Value that is printed in its place.
     pub misprint: Option<String>,
 }
 
-/// Summary numbers of one run: how true it is, and how it went.
+/// Summary of one run: deviations from the pattern, and the course of the simulation.
 pub(super) struct MetricsRow {
     pub label: String,
     pub class: &'static str,
@@ -96,7 +96,7 @@ pub(super) struct MetricsRow {
     pub course: Vec<String>,
 }
 
-/// chi as a coloured table: measurements down, runs or series across.
+/// Table of chi with coloured cells: measurements in rows, runs or series in columns.
 pub(super) struct Heat {
     pub columns: Vec<String>,
     pub rows: Vec<(String, Vec<Option<HeatCell>>)>,
@@ -116,7 +116,7 @@ impl HeatCell {
     }
 }
 
-/// Groups runs by garment and size, in the order in which they first appear.
+/// Groups runs by garment and size, in the order of their first appearance.
 pub(super) fn groups(runs: &[TryOn]) -> Result<Vec<Group>, ReportError> {
     let fabrics = super::text::distinct(runs.iter().map(|r| r.fabric.as_str())).len();
     let mut keys: Vec<(&str, &str)> = Vec::new();
@@ -163,12 +163,12 @@ fn group(index: usize, title: String, runs: &[&TryOn], name_fabric: bool) -> Res
     })
 }
 
-/// The subject, and which repeat where it is not the first.
+/// Name of the subject, with the number of the repeat if it is not the first.
 fn wearer(run: &TryOn) -> String {
     if run.repeat > 1 { format!("{}, repeat {}", run.subject, run.repeat) } else { run.subject.clone() }
 }
 
-/// Class and words of a run's fit.
+/// Fit of a run as a style class and in words.
 fn fit(run: &TryOn) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
         (e.class.as_str(), format!("{} {}, {} mm", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m())))
@@ -220,7 +220,7 @@ fn series(title: &str, runs: &[&TryOn]) -> Result<Vec<Series>, ReportError> {
     Ok(all)
 }
 
-/// The measured runs by simulator and fabric.
+/// Groups the measured runs by simulator and fabric.
 fn by_series<'a>(runs: &[&'a TryOn]) -> Vec<(String, Vec<&'a TryOn>)> {
     let mut all: Vec<(String, Vec<&TryOn>)> = Vec::new();
     for &run in runs.iter().filter(|r| !r.measured.is_empty()) {
@@ -233,7 +233,7 @@ fn by_series<'a>(runs: &[&'a TryOn]) -> Vec<(String, Vec<&'a TryOn>)> {
     all
 }
 
-/// Mean chi of each measurement in each series; `None` where there is only one.
+/// Mean chi of each measurement in each series; `None` for a single series.
 fn side_by_side(runs: &[&TryOn]) -> Option<Heat> {
     let all = by_series(runs);
     let mean = |members: &[&TryOn], no: u32| {
@@ -272,7 +272,7 @@ fn chi_row(measured: &Measured, runs: &[&TryOn]) -> ChiRow {
     }
 }
 
-/// E, SD, EI under a table of chi, and EI without what is free or controlled.
+/// E, SD and EI below a table of chi, and EI without free edges or controlled measurements.
 fn summary(runs: &[&TryOn]) -> Vec<(&'static str, Vec<String>)> {
     type Keep = fn(&Measured) -> bool;
     type Pick = fn(&fit::measure::Metrics) -> f64;

@@ -1,17 +1,17 @@
-//! The fit report: which size to wear, where it is tight or loose, how it hangs and what it presses; the comparison of the
-//! simulators stands behind it.
+//! The fit report: recommended size, ease by level, hang and pressure. The comparison of the simulators is on the other
+//! page.
 
 use base64::Engine;
 use sha2::{Digest, Sha256};
 
 use super::ReportError;
 use super::data::{FitSheet, FitSize, FitVerdict, Outcome, Picture, ReportData, TryOn};
-use super::page::{Image, MapImage};
+use super::images::{Image, MapImage, address};
 use super::text::{count, simulator_name};
 use super::viewer;
 use fit::Simulator;
 
-/// What `fit.html` is filled from.
+/// Data of the template `fit.html`.
 #[derive(askama::Template)]
 #[template(path = "fit.html")]
 pub(super) struct FitPage<'a> {
@@ -20,9 +20,10 @@ pub(super) struct FitPage<'a> {
     other: &'a str,
     sheets: Vec<Sheet<'a>>,
     drawings: Vec<(String, String)>,
-    /// Data of the viewer, and its script with the hash by which the page allows it; empty without drapes.
+    /// Data of the viewer as JSON; empty without drapes.
     drapes: String,
     script: &'static str,
+    /// Hash by which the content security policy of the page allows the script.
     script_hash: String,
 }
 
@@ -30,15 +31,15 @@ pub(super) struct FitPage<'a> {
 struct Sheet<'a> {
     id: String,
     sheet: &'a FitSheet,
-    /// A column of pictures a size.
+    /// A column of pictures for each size.
     columns: Vec<Column>,
     /// Inline drawings of the sections.
     sections: Vec<String>,
-    /// Whose drape is shown and measured, in words.
+    /// Source of the drape that is shown and measured, in words.
     source: String,
 }
 
-/// The pictures of a size, all from one camera.
+/// Pictures of a size, all from one camera.
 struct Column {
     size: String,
     is_to_wear: bool,
@@ -49,11 +50,12 @@ struct Column {
 }
 
 impl<'a> FitPage<'a> {
+    /// Fills the page from the data of a study; `other` is the address of the comparison.
     pub fn new(data: &'a ReportData, other: &'a str) -> Result<Self, ReportError> {
         let sheets = data.fit.sheets.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
         let drawing = |drawing: &super::data::Drawing| {
             let name = format!("{}, size {}", drawing.garment, drawing.size);
-            (name, super::page::address("image/svg+xml", drawing.svg.as_bytes()))
+            (name, address("image/svg+xml", drawing.svg.as_bytes()))
         };
         let drapes = if data.fit.drapes.is_empty() { String::new() } else { data.fit.drapes.json()? };
         let digest = Sha256::digest(viewer::SCRIPT.as_bytes());
@@ -83,11 +85,11 @@ impl<'a> Sheet<'a> {
         let runs: Vec<&TryOn> =
             data.runs.iter().filter(own).filter(|run| !matches!(run.outcome, Outcome::Failed(_))).collect();
         let columns = sheet.sizes.iter().map(|size| {
-            let of = |simulator: Simulator| {
+            let run_of = |simulator: Simulator| {
                 runs.iter().find(|run| run.size == size.size && run.simulator == simulator).copied()
             };
-            let shown = sheet.simulator.and_then(of);
-            let beside = of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
+            let shown = sheet.simulator.and_then(run_of);
+            let beside = run_of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
             Column::new(size, shown, beside)
         });
         let fabric = runs.first().map_or(String::new(), |run| format!(", {}", run.fabric.replace('_', " ")));
@@ -109,8 +111,8 @@ impl<'a> Sheet<'a> {
 }
 
 impl Column {
-    /// Front, side and back and the stretch of the drape that is measured; of a garment that is smaller than the body besides the gap
-    /// map of Hybrid-GS, which says where it does not close.
+    /// Selects front, side, back and stretch of the measured drape `shown`. For a garment smaller than the body it adds
+    /// the gap map of Hybrid-GS (`beside`), which shows where the garment does not close.
     fn new(size: &FitSize, shown: Option<&TryOn>, beside: Option<&TryOn>) -> Result<Self, ReportError> {
         let is = |picture: &&Picture, name: &str| picture.file.contains(name);
         let views = shown.into_iter().flat_map(|run| &run.views);
@@ -148,7 +150,7 @@ impl FitVerdict {
         }
     }
 
-    /// Sign before its words.
+    /// Symbol before its words.
     fn glyph(self) -> &'static str {
         match self {
             Self::Tight => "\u{25bc}",

@@ -94,7 +94,7 @@ fn sample() -> ReportData {
     }
 }
 
-/// The words of a page, one block a line: what a reader without pictures and style gets.
+/// Text of a page without pictures and style, one block to a line.
 fn words(page: &str) -> String {
     let body = page.split_once("<body>").unwrap().1;
     let mut text = String::new();
@@ -244,14 +244,14 @@ fn what_cannot_be_shown_is_refused() {
 fn charts_of_different_names_are_different_files() {
     let names =
         [("上衣", "M"), ("衬衫", "M"), ("tee", "M"), ("tee+", "M"), ("Tee", "M"), ("tee", "../2X"), ("tee", "..:2X")];
-    let of = |(garment, size): &(&str, &str)| {
+    let runs_of = |(garment, size): &(&str, &str)| {
         ["i", "ii"].map(|subject| TryOn {
             garment: (*garment).into(),
             size: (*size).into(),
             ..run(subject, Simulator::Fem, 1.04)
         })
     };
-    let data = ReportData { runs: names.iter().flat_map(of).collect(), ..sample() };
+    let data = ReportData { runs: names.iter().flat_map(runs_of).collect(), ..sample() };
     let files = files(&data, Purpose::Compare).unwrap();
     let paths: std::collections::BTreeSet<String> = files.iter().map(|(path, _)| path.to_lowercase()).collect();
     assert_eq!(paths.len(), files.len(), "{paths:?}");

@@ -1,18 +1,18 @@
-//! Numbers and names as readers see them, and the two statistics of a row.
+//! Formats of numbers and names, and the mean and standard deviation of a row.
 
 use fit::{Ease, Finding, FitClass, Simulator};
 
-/// Text with the characters replaced that mean something in HTML and SVG.
+/// Escapes the special characters of HTML and SVG.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Metres as millimetres with one decimal.
+/// Formats metres as millimetres with one decimal.
 pub(super) fn mm(metres: f64) -> String {
     number(metres * 1e3, 1)
 }
 
-/// A number with a true minus sign; a dash where it is none.
+/// Formats a number with a minus sign (U+2212); a dash if it is not finite.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -26,19 +26,19 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Metres as millimetres with its sign.
+/// Formats metres as millimetres with a sign.
 pub(super) fn signed_mm(metres: f64) -> String {
     signed(metres * 1e3, 1)
 }
 
-/// A number with its sign.
+/// Formats a number with its sign.
 pub(super) fn signed(value: f64, decimals: usize) -> String {
     let text = number(value, decimals);
     let is_nought = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
     if value > 0.0 && !is_nought { format!("+{text}") } else { text }
 }
 
-/// Seconds in the unit that suits them.
+/// Formats seconds in a suitable unit.
 pub(super) fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{:.0} ms", seconds * 1e3)
@@ -57,7 +57,7 @@ pub(super) fn simulator_name(simulator: Simulator) -> &'static str {
     }
 }
 
-/// What a finding means.
+/// Finding in words.
 pub(super) fn finding_words(finding: Finding) -> &'static str {
     match finding {
         Finding::Fem => "FEM-GS is truer",
@@ -67,7 +67,7 @@ pub(super) fn finding_words(finding: Finding) -> &'static str {
     }
 }
 
-/// Sign of a fit class: fuller is fuller.
+/// Symbol of a fit class: the more of the circle is filled, the tighter the fit.
 pub(super) fn fit_glyph(class: FitClass) -> &'static str {
     match class {
         FitClass::Tight => "●",
@@ -76,7 +76,7 @@ pub(super) fn fit_glyph(class: FitClass) -> &'static str {
     }
 }
 
-/// Words of a fit: its class and what qualifies it.
+/// Fit in words: its class with a qualification.
 pub(super) fn fit_words(ease: &Ease) -> String {
     let mark = match (ease.is_undersized(), ease.borderline) {
         (true, _) => ", undersized",
@@ -91,7 +91,7 @@ pub(super) fn count(n: usize, word: &str) -> String {
     if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
 }
 
-/// The names without repetition, in their first order.
+/// Distinct names, in the order of their first appearance.
 pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut seen = Vec::new();
     for name in names {
@@ -102,7 +102,7 @@ pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str>
     seen
 }
 
-/// Mean and sample standard deviation (n-1; 0 of one value); not numbers where there is no value.
+/// Mean and sample standard deviation (n-1; 0 for a single value); NaN without values.
 pub(super) fn mean_sd(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let values: Vec<f64> = values.collect();
     let n = values.len() as f64;

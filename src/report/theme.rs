@@ -1,21 +1,21 @@
-//! Colours of charts and tables. Charts name them by value; on the page the neutral ones become style variables, so that
-//! a chart follows the reader's light or dark scheme.
+//! Colours of charts and tables. Charts have them by value. On the page the neutral ones become style variables, so
+//! that a chart follows the light or dark scheme of the reader.
 
 use fit::Simulator;
 use render::{ColourMap, Rgb};
 
 /// Text and axes.
 pub(super) const INK: Rgb = Rgb(0x1b, 0x24, 0x30);
-/// Text of less weight.
+/// Secondary text.
 pub(super) const MUTED: Rgb = Rgb(0x56, 0x61, 0x6f);
 /// Colour of grid lines.
 pub(super) const GRID: Rgb = Rgb(0xd9, 0xde, 0xe4);
-/// Every second row.
+/// Background of every second row.
 pub(super) const BAND: Rgb = Rgb(0xf3, 0xf5, 0xf8);
-/// Colour of the ground that charts are drawn on.
+/// Background of charts.
 pub(super) const PAPER: Rgb = Rgb(0xff, 0xff, 0xff);
 
-/// The neutral colours and the style variables that stand for them on the page.
+/// Neutral colours with the style variables that replace them on the page.
 pub(super) const VARIABLES: [(Rgb, &str); 5] = [
     (INK, "var(--ink)"),
     (MUTED, "var(--muted)"),
@@ -24,8 +24,8 @@ pub(super) const VARIABLES: [(Rgb, &str); 5] = [
     (PAPER, "var(--paper)"),
 ];
 
-/// Colours of subjects in charts, told apart by colour-blind readers [Okabe & Ito 2008], darkened where too pale for
-/// lines on white.
+/// Colours of subjects in charts, which are distinguishable with colour vision deficiencies [Okabe & Ito 2008]. Those
+/// too pale for lines on white are darkened.
 pub(super) const SUBJECTS: [Rgb; 7] = [
     Rgb(0x00, 0x72, 0xb2),
     Rgb(0xd5, 0x5e, 0x00),
@@ -36,7 +36,7 @@ pub(super) const SUBJECTS: [Rgb; 7] = [
     Rgb(0x7a, 0x6a, 0x58),
 ];
 
-/// Colour of a simulator, that of its cloth in pictures but deeper.
+/// Colour of a simulator: that of its cloth in pictures, but deeper.
 pub(super) fn simulator(simulator: Simulator) -> Rgb {
     match simulator {
         Simulator::Fem => Rgb(0x2c, 0x8a, 0x5f),
@@ -44,10 +44,11 @@ pub(super) fn simulator(simulator: Simulator) -> Rgb {
     }
 }
 
-/// Reach of the chi scale to both sides of 1, the same in every table.
+/// Half range of the colour scale of chi around 1, the same in every table.
 pub(super) const CHI_REACH: f64 = 0.15;
 
-/// Cell colour of a chi and the text colour that reads on it: black or white, of which one always has a contrast of 4.5.
+/// Background of a cell for a chi, and the text colour on it: black or white, one of which always has a contrast of at
+/// least 4.5.
 pub(super) fn chi_cell(chi: f64) -> (Rgb, Rgb) {
     const BLACK: Rgb = Rgb(0, 0, 0);
     let ground = ColourMap::Diverging.at(0.5 + (chi - 1.0) / (2.0 * CHI_REACH));

@@ -1,11 +1,12 @@
-//! All constants of the simulators that decide results.
+//! Collects the constants of the simulators that decide results.
 
 use geom::constants::Constant;
 
 use crate::{cloth, contact, fem, hybrid, laboratory, outfit, placement, solver};
 use crate::{cover, distortion, hands, levels, quality, sewing};
 
-/// All of them, in one order. A result stored with other ones is stale.
+/// Returns all constants that decide results, in a fixed order. A stored result that was computed with other values is
+/// out of date.
 #[must_use]
 pub fn constants() -> Vec<Constant> {
     let own = [

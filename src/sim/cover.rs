@@ -1,4 +1,4 @@
-//! What is worn over a garment, as a surface that the garment keeps within.
+//! A garment worn over another, as a surface that the inner one keeps within.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,19 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "cover",
-    /// Distance within the cover that is kept, m.
+    /// Distance by which the inner cloth keeps below the cover, m.
     const WITHIN_M: f64 = 1.5e-3;
-    /// Farthest beyond the cover that cloth is drawn back into it, m: a hem hangs so far out from what it is tucked into.
+    /// Greatest distance outside the cover at which cloth is still drawn back, m. A hem hangs out that far from a
+    /// garment into which it is tucked.
     const REACH_M: f64 = 0.25;
-    /// How far beyond its edges the cover continues straight, m: what goes under an edge does so from within.
+    /// Length by which the cover is continued straight beyond its free edges, m. Cloth that passes under an edge then
+    /// passes below the continuation.
     const CONTINUES_M: f64 = 0.03;
-    /// Weight of a corner below which a point lies on the opposite side.
+    /// Barycentric weight of a corner below which a point counts as on the opposite side of the triangle.
     const ON_SIDE: f64 = 1e-6;
 }
 
-/// The limb that cloth is worn on.
+/// Part of the body that cloth is worn on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limb {
     /// Trunk and legs.
@@ -31,7 +33,7 @@ pub enum Limb {
 }
 
 impl Limb {
-    /// Where pieces of a role are worn.
+    /// Limb on which a piece of a role is worn.
     fn of(role: Role) -> Self {
         match role {
             Role::SleeveRight => Self::ArmRight,
@@ -41,24 +43,24 @@ impl Limb {
     }
 }
 
-/// Part of the cover about one limb.
+/// Part of the cover around one limb.
 struct Sheet {
     surface: Surface,
     mesh: TriMesh,
     normals: Vec<V3>,
-    /// Sides of triangles that are free edges, lesser vertex first, sorted.
+    /// Free edges of the part, the smaller vertex first, sorted.
     rim: Vec<[usize; 2]>,
 }
 
-/// A draped garment that another keeps within.
+/// A draped garment as an outer bound for another.
 pub struct Cover {
     sheets: BTreeMap<Limb, Sheet>,
-    /// Limb of each vertex of the cloth within.
+    /// Limb of each vertex of the inner cloth.
     limbs: Vec<Limb>,
 }
 
 impl Cover {
-    /// A garment, sewn, with its vertices at `positions`.
+    /// Makes a cover of a garment that is sewn, with its vertices at `positions`, m.
     ///
     /// # Errors
     /// When it has no triangle.
@@ -78,7 +80,7 @@ impl Cover {
         Ok(Self { sheets: triangles.into_iter().map(sheet).collect::<Result<_, SimError>>()?, limbs: Vec::new() })
     }
 
-    /// The cover of a garment that is sewn together as `vertex_of` says.
+    /// Sets the inner garment, whose vertices are merged as `vertex_of` says.
     #[must_use]
     pub fn over(mut self, garment: &Garment, vertex_of: &[usize]) -> Self {
         self.limbs = vec![Limb::Trunk; vertex_of.iter().max().map_or(0, |most| most + 1)];
@@ -91,17 +93,17 @@ impl Cover {
         self
     }
 
-    /// By how much a vertex at `p` is beyond where it may be, m, and the unit direction back; `None` where it is
-    /// within, or where the cover ends.
+    /// Depth by which a vertex at `p` violates the bound, m, and the unit direction back; `None` where it is within, or
+    /// beyond the end of the cover.
     #[must_use]
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
         let sheet = self.sheets.get(self.limbs.get(vertex)?)?;
         let (distance_m, nearest) = sheet.surface.nearest_within(p, REACH_M);
         let corners = triangle::sorted(*sheet.mesh.triangles.get(nearest? as usize)?);
-        let at = corners.map(|v| sheet.mesh.positions[v]);
-        let weights = triangle::nearest(p, &at);
+        let places = corners.map(|v| sheet.mesh.positions[v]);
+        let weights = triangle::nearest(p, &places);
         let normal: V3 = (0..3).map(|k| sheet.normals[corners[k]] * weights[k]).sum();
-        let way: V3 = (0..3).map(|k| (p - at[k]) * weights[k]).sum();
+        let way: V3 = (0..3).map(|k| (p - places[k]) * weights[k]).sum();
         if sheet.is_rim(corners, weights) {
             let normal = normal.try_normalize(0.0)?;
             let (height_m, along_m) = (way.dot(&normal), (way - normal * way.dot(&normal)).norm());
@@ -113,7 +115,8 @@ impl Cover {
         (depth > 0.0).then_some((depth, -outward))
     }
 
-    /// Whether any vertex of cloth at `x` is beyond the cover by more than it would be kept within.
+    /// True if a vertex of cloth at `x` violates the bound by more than the distance that it is kept below the cover:
+    /// then it is outside.
     #[must_use]
     pub fn is_pierced(&self, x: &[V3]) -> bool {
         x.iter().enumerate().any(|(v, p)| self.trespass(v, p).is_some_and(|(depth, _)| depth > WITHIN_M))
@@ -121,7 +124,7 @@ impl Cover {
 }
 
 impl Sheet {
-    /// Whether a point of a triangle lies on a free edge.
+    /// True if a point of a triangle, given by barycentric weights, lies on a free edge.
     fn is_rim(&self, corners: [usize; 3], weights: [f64; 3]) -> bool {
         let on: Vec<usize> = (0..3).filter(|&k| weights[k] > ON_SIDE).map(|k| corners[k]).collect();
         match on[..] {

@@ -1,14 +1,14 @@
-//! What both simulators return, and how they report while they run.
+//! Result of both simulators, and their progress reports.
 
 use geom::V3;
 
-/// How far a garment has come.
+/// Stage of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// All seams are closed.
     Sewn,
-    /// The garment has its pattern's size again, in Hybrid-GS alone.
+    /// The pieces have the size of the pattern again (pop-up), in Hybrid-GS only.
     Popup,
     /// The garment is at rest on the body.
     Drape,
@@ -33,7 +33,7 @@ pub struct Step {
     pub iteration: u32,
     /// Mesh level, 0 the coarsest.
     pub level: u32,
-    /// Rms residual force over the mean vertex weight.
+    /// Root mean square of the residual forces, over the mean weight of a vertex.
     pub residual: f64,
     /// Greatest seam gap, m.
     pub seam_gap_m: f64,
@@ -44,79 +44,81 @@ pub struct Step {
 /// A sewn garment on a body.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Drape {
-    /// How far it came.
+    /// Last stage that the simulation reached.
     pub stage: Stage,
     /// World position of each garment vertex, m; the vertices of a seam pair coincide.
     pub positions: Vec<V3>,
-    /// Whether the residual reached its tolerance with all seams closed.
+    /// True if the residual reached its tolerance with all seams closed.
     pub converged: bool,
     /// Iterations over all levels.
     pub iterations: u32,
-    /// Rms residual force over the mean vertex weight.
+    /// Root mean square of the residual forces, over the mean weight of a vertex.
     pub residual: f64,
-    /// Deepest penetration of a vertex, edge or face sample into the body, m (0 when none).
+    /// Greatest penetration of a vertex, edge or face sample into the body, m; 0 where there is none.
     pub penetration_max_m: f64,
     /// Greatest distance between the two vertices of a seam pair, m.
     pub seam_gap_max_m: f64,
-    /// Edges that pierce the garment's own cloth.
+    /// Number of edge-triangle intersections of the cloth with itself.
     pub self_crossings: usize,
-    /// Force that holds it up by its top edge, N, where it would slide off by itself.
+    /// Force with which braces hold the garment up by its top edge, N; `None` where it holds by itself.
     pub braced_n: Option<f64>,
-    /// Whether no step lowered its energy any more, though it was not at rest.
+    /// True if the line search found no lower energy in any step, though the residual was above its tolerance.
     #[serde(default)]
     pub is_stuck: bool,
-    /// Vertices once sewn (each welded group counts once).
+    /// Number of simulated vertices after sewing; each welded group counts once.
     pub welded_vertices: usize,
-    /// The run, step by step.
+    /// Recorded steps of the simulation.
     pub history: Vec<Step>,
-    /// The stages before this one, in order, where the simulator tells them apart.
+    /// Earlier stages, in order, where the simulator distinguishes them.
     pub earlier: Vec<Staged>,
-    /// Where its vertices would be, had they kept their places on the body, m; of a drape that was carried into another pose.
+    /// Of a drape that was carried into another pose: positions that the vertices would have, had they kept their
+    /// places on the body, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept: Option<Vec<V3>>,
 }
 
-/// A garment as a stage left it.
+/// Garment at the end of a stage.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Staged {
-    /// Stage at whose end it was taken.
+    /// Stage that had ended.
     pub stage: Stage,
     /// World position of each garment vertex, m.
     pub positions: Vec<V3>,
 }
 
-/// What a simulator says while it works.
+/// Progress of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What it is doing (`sew`, `drape`, ...).
+    /// Phase of the work (`sew`, `drape`, ...).
     pub phase: &'static str,
-    /// Share done, 0 to 1, as far as it can be told; never falls.
+    /// Estimated share of the work that is done, 0 to 1. It never decreases.
     pub fraction: f64,
     /// The latest step.
     pub step: Step,
 }
 
-/// Receives progress and may ask to stop. Implemented by whoever runs a simulation.
+/// Receives progress and may ask the simulation to stop. The caller of a simulation implements it.
 pub trait Monitor {
-    /// Called after each step; cheap.
+    /// Receives the progress after each step. It should return quickly.
     fn progress(&mut self, progress: &Progress);
-    /// Asked between steps; `true` ends the simulation with an error.
+    /// Returns `true` to end the simulation between two steps with an error.
     fn cancelled(&self) -> bool {
         false
     }
-    /// Whether a garment that ends with open seams or another fault is put on again otherwise: it takes as long each time.
+    /// Returns `true` to have a garment with open seams or another fault simulated again from other starts. Each
+    /// attempt takes as long as the first.
     fn tries_again(&self) -> bool {
         true
     }
-    /// Whether a live picture is wanted now; then [`Monitor::snapshot`] follows.
+    /// Returns `true` to be sent the positions now by [`Monitor::snapshot`].
     fn wants_snapshot(&mut self) -> bool {
         false
     }
-    /// Positions of the garment at this moment.
+    /// Receives the present positions of the garment, m.
     fn snapshot(&mut self, _positions: &[V3]) {}
 }
 
-/// Listens to nothing.
+/// A monitor that ignores everything and never stops a simulation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

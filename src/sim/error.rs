@@ -1,10 +1,10 @@
-//! What can go wrong before there is a drape. Not converging is not among it: that is a result.
+//! Errors that end a simulation without a drape. A drape that did not converge is a result and no error.
 
 use super::Distortion;
 use geom::V2;
 use pattern::Role;
 
-/// Why a simulation gave no drape.
+/// Reason for which a simulation returned no drape.
 #[derive(Debug, thiserror::Error)]
 pub enum SimError {
     /// A triangle of the pattern mesh has no area.
@@ -18,42 +18,42 @@ pub enum SimError {
         /// Its first corner in the piece's plane, m.
         at: V2,
     },
-    /// A stiffness without an inverse.
+    /// The stiffness matrix of a drape has no inverse.
     #[error("the stiffness of the drape is singular: part of the cloth is held by nothing; accepted: a drape at rest")]
     Singular,
-    /// What is to be worn over bounds no solid.
+    /// The mesh of body and worn layers, on which the next layer is to lie, encloses no volume.
     #[error("{0}; accepted: a body and layers whose surface can be told inside from outside")]
     Solid(geom::surface::SurfaceError),
     /// No mesh was given.
     #[error("no garment mesh to simulate")]
     NoMesh,
-    /// A piece that the simulator does not know how to place.
+    /// The simulator has no placement for the role of a piece.
     #[error("piece {piece:?}: this simulator cannot place role {role:?} yet; it places: {accepted}")]
     CannotPlace {
         /// Name of the piece.
         piece: String,
-        /// How it is worn.
+        /// Role of the piece.
         role: Role,
         /// Roles that can be placed.
         accepted: &'static str,
     },
-    /// A piece whose outline has no counterpart on the body.
+    /// The outline of a piece cannot be mapped onto the body.
     #[error("piece {piece:?} cannot be mapped onto the body: {reason}")]
     CannotMap {
         /// Name of the piece.
         piece: String,
-        /// What stands in the way.
+        /// Obstacle in words.
         reason: &'static str,
     },
-    /// Positions stopped being numbers.
+    /// A position became NaN or infinite.
     #[error("the simulation of {garment:?} diverged at iteration {iteration}")]
     Diverged {
         /// Name of the garment.
         garment: String,
-        /// Iteration at which a position is no number, over all levels, from 1.
+        /// Iteration at which that happened, counted over all mesh levels from 1.
         iteration: u32,
     },
-    /// Nothing holds it up.
+    /// The garment slides off the body under its weight.
     #[error(
         "{garment:?} slides off this body: it has come down by {:.0} mm, friction and all; a smaller size, a stiffer fabric or a \
          waistband ([[reinforce]] in the seam file) may hold it",
@@ -62,10 +62,10 @@ pub enum SimError {
     SlidOff {
         /// Name of the garment.
         garment: String,
-        /// How far it has come down when it was given up, m.
+        /// Descent at which the simulation was given up, m.
         descent_m: f64,
     },
-    /// Its seams squeeze it off the body as they close.
+    /// The closing seams push the garment off the body upwards.
     #[error(
         "{garment:?} comes off this body upwards: as its seams close it rises by {:.0} mm, friction and all; a larger size would stay on",
         .rise_m * 1e3
@@ -73,10 +73,10 @@ pub enum SimError {
     CameOff {
         /// Name of the garment.
         garment: String,
-        /// How far its top has come up, m.
+        /// Rise of its highest point, m.
         rise_m: f64,
     },
-    /// Its seams cannot be drawn together.
+    /// The seams do not close, whatever the force of the sewing springs.
     #[error(
         "the seams of {garment:?} do not close on this body: {:?} and {:?} stay {:.0} mm apart, however hard they are drawn; a larger \
          size, or other seams, may close",
@@ -85,32 +85,32 @@ pub enum SimError {
     Open {
         /// Name of the garment.
         garment: String,
-        /// Pieces that are farthest from each other where they are sewn together.
+        /// Pieces on the two sides of the seam with the widest gap.
         pieces: [String; 2],
-        /// How far, m.
+        /// Width of that gap, m.
         gap_m: f64,
     },
-    /// Stretched farther than cloth can be.
+    /// The cloth is stretched beyond its tearing point.
     #[error(
         "much too small for this body: {distortion}, and cloth tears before that; a larger size would do, or, for cloth that is made to \
          stretch so far, a higher `fem.distortion_limit`"
     )]
     Torn {
-        /// How far and where.
+        /// Stretch of the cloth, and its place on the pattern.
         distortion: Distortion,
     },
-    /// Stretched too far, where that is to end a simulation.
+    /// The stretch exceeds a limit that the parameters set.
     #[error(
         "too small for this body: {distortion}, the limit is {:.1} %; a larger size, another fabric, or a higher `fem.distortion_limit` would do",
         100.0 * .limit
     )]
     Distorted {
-        /// How far and where.
+        /// Stretch of the cloth, and its place on the pattern.
         distortion: Distortion,
-        /// Stretch beyond 1 that was allowed.
+        /// Greatest stretch allowed, as the stretch ratio less 1.
         limit: f64,
     },
-    /// Asked to stop.
+    /// The caller asked the simulation to stop.
     #[error("cancelled")]
     Cancelled,
 }

@@ -1,19 +1,19 @@
-//! Fabrics: areal density, orthotropic membrane, bending, friction; the library, and what each of its fabrics stands for.
+//! Fabrics: areal density, orthotropic membrane, bending, friction. The library of known fabrics, with the kind of data
+//! behind each.
 
 pub mod weights;
 
 use std::fmt;
 use std::sync::LazyLock;
 
-use super::cloth::law::Fibre;
 use geom::units::GRAVITY;
 use weights::Standing;
 
-/// Moduli of a knit under stretch, where they differ from those at rest.
+/// Secant moduli of a knit under stretch, where they differ from those at rest.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stretched {
-    /// Elongation over rest length at which they were measured.
+    /// Relative elongation at which they were measured.
     pub stretch: f64,
     /// Secant modulus along the grain line there, stress over Green strain, N/m.
     pub membrane_warp_n_m: f64,
@@ -21,10 +21,10 @@ pub struct Stretched {
     pub membrane_weft_n_m: f64,
 }
 
-/// The fabric of what is tried on where nobody names one.
+/// Name of the default fabric.
 pub const USUAL: &str = "cotton_shirting_light";
 
-/// A fabric as the simulators need it; SI units.
+/// Mechanical properties of a fabric, in SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
@@ -38,7 +38,7 @@ pub struct Fabric {
     pub membrane_warp_n_m: f64,
     /// Strip modulus across the grain line, N/m.
     pub membrane_weft_n_m: f64,
-    /// Coupling entry of the membrane matrix, N/m (0 where the moduli are strip moduli).
+    /// Coupling modulus of the membrane law, N/m (0 where the moduli are strip moduli).
     #[serde(default)]
     pub membrane_coupling_n_m: f64,
     /// Shear modulus S in `W = S gamma^2 / 2` per area, gamma the full shear angle, N/m.
@@ -47,11 +47,11 @@ pub struct Fabric {
     pub bending_warp_nm: f64,
     /// Bending rigidity for a fold that curves the weft, N m.
     pub bending_weft_nm: f64,
-    /// Coulomb friction against the body.
+    /// Coulomb friction coefficient on the body.
     pub friction_body: f64,
-    /// Coulomb friction of the cloth on itself.
+    /// Coulomb friction coefficient of the cloth on itself.
     pub friction_self: f64,
-    /// Where the numbers are from.
+    /// Sources of the numbers.
     pub source: String,
     /// Moduli under stretch; without them the law is linear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,47 +59,34 @@ pub struct Fabric {
 }
 
 impl Fabric {
-    /// The law along the grain line.
-    #[must_use]
-    pub fn warp_law(&self) -> Fibre {
-        let rest = self.membrane_warp_n_m;
-        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_warp_n_m, s.stretch))
-    }
-
-    /// The law across the grain line.
-    #[must_use]
-    pub fn weft_law(&self) -> Fibre {
-        let rest = self.membrane_weft_n_m;
-        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_weft_n_m, s.stretch))
-    }
-
-    /// Bending lengths along and across the grain line, m: `(B / (w g))^(1/3)`, half the length of a strip that a cantilever
-    /// test bends by its own weight to a chord of 41.5 degrees [Peirce 1930].
+    /// Bending lengths along and across the grain line, m: `(B / (w g))^(1/3)`. That is half the length of a strip
+    /// whose chord slopes by 41.5 degrees when it bends under its own weight in a cantilever test [Peirce 1930].
     #[must_use]
     pub fn bending_lengths_m(&self) -> [f64; 2] {
         [self.bending_warp_nm, self.bending_weft_nm].map(|rigidity| self.bending_length_m(rigidity))
     }
 
-    /// Where its bending along and across the grain line stands among the known cloths of its weight.
+    /// Percentile ranks of its bending rigidities along and across the grain line, among the known cloths of its
+    /// weight.
     #[must_use]
     pub fn standings(&self) -> [Standing; 2] {
         weights::standings(self.density_kg_m2, [self.bending_warp_nm, self.bending_weft_nm])
     }
 
-    /// Scatter of the known cloths of its weight: bending lengths along the grain line, from the lowest to the highest of
-    /// [`weights::ends`], and those across it, m.
+    /// Scatter of the known cloths of its weight. Bending lengths along the grain line, from the lowest to the highest
+    /// percentile of [`weights::ends`], then those across it, m.
     #[must_use]
     pub fn scatter_m(&self) -> [[f64; 2]; 2] {
         let [least, most] = weights::ends().map(|end| weights::rigidities(self.density_kg_m2, end));
         [0, 1].map(|side| [least[side], most[side]].map(|rigidity| self.bending_length_m(rigidity)))
     }
 
-    /// The bending length of a cloth of its weight.
+    /// Bending length of a cloth of its weight with a rigidity, m.
     fn bending_length_m(&self, rigidity_nm: f64) -> f64 {
         (rigidity_nm / (self.density_kg_m2 * GRAVITY)).cbrt()
     }
 
-    /// The numbers of its weight, stretch and bending; two fabrics that share them are one cloth.
+    /// Properties of its weight, stretch and bending. Two fabrics that share them are one cloth.
     fn numbers(&self) -> [f64; 7] {
         [
             self.density_kg_m2,
@@ -112,22 +99,22 @@ impl Fabric {
         ]
     }
 
-    /// What the library says of it; nothing where it is not of the library, or was changed since.
+    /// Entry of the library for this fabric; `None` where it is not in the library or its properties were changed.
     #[must_use]
     pub fn known(&self) -> Option<&'static Known> {
         KNOWN.iter().find(|known| known.fabric.name == self.name && known.fabric.numbers() == self.numbers())
     }
 }
 
-/// What a fabric of the library stands for.
+/// Kind of data behind a fabric of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// One cloth, whose bending was measured.
+    /// One cloth, whose weight and bending were measured.
     Cloth,
-    /// Cloths of a sort: the bending is a quantile of the known cloths of the weight.
+    /// A sort of cloths: the bending is a percentile of the known cloths of that weight.
     Class,
-    /// None: numbers that somebody computes with.
+    /// No real cloth: parameters of a computation.
     Model,
 }
 
@@ -141,13 +128,13 @@ impl fmt::Display for Kind {
     }
 }
 
-/// A part of what is known of a cloth.
+/// Group of properties of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Part {
-    /// Its moduli along and across the grain line.
+    /// Membrane moduli along and across the grain line.
     Membrane,
-    /// Its shear modulus.
+    /// Shear modulus.
     Shear,
 }
 
@@ -160,14 +147,14 @@ impl fmt::Display for Part {
     }
 }
 
-/// A fabric of the library.
+/// A fabric of the library, with its origin.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// Its numbers in SI units, with their source.
+    /// Properties in SI units, with their source.
     pub fabric: Fabric,
-    /// What it stands for.
+    /// Kind of data behind it.
     pub kind: Kind,
-    /// The parts that were measured on another cloth than its bending and weight.
+    /// Properties that were measured on another cloth than bending and weight were.
     pub of_another: Vec<Part>,
 }
 
@@ -180,23 +167,23 @@ static KNOWN: LazyLock<Vec<Known>> = LazyLock::new(|| {
     library.fabric.into_iter().flat_map(Row::read).collect()
 });
 
-/// A fabric as the library's file has it.
+/// A row of the library file.
 #[derive(serde::Deserialize)]
 struct Row {
     kind: Kind,
     #[serde(default)]
     of_another: Vec<Part>,
-    /// Of a class: the quantile of its weight that its bending is.
+    /// Percentile of the bending rigidity among the cloths of its weight, for a class.
     bending_percentile: Option<f64>,
-    /// Another name that it goes by.
+    /// Another name of the same fabric.
     also: Option<String>,
-    /// The numbers of the [`Fabric`].
+    /// Fields of the [`Fabric`].
     #[serde(flatten)]
     numbers: toml::Table,
 }
 
 impl Row {
-    /// The fabric, once for each name.
+    /// Makes the fabric, once for each name.
     fn read(self) -> Vec<Known> {
         let Self { kind, of_another, bending_percentile, also, mut numbers } = self;
         if let Some(percentile) = bending_percentile {
@@ -214,15 +201,14 @@ impl Row {
     }
 }
 
-/// The fabrics known by name, with what each stands for.
+/// Returns the fabrics of the library, with the kind of data behind each.
 #[must_use]
 pub fn known() -> &'static [Known] {
     &KNOWN
 }
 
-/// The fabrics known by name.
+/// Returns the fabrics of the library.
 ///
-/// # Panics
 /// Never: the library is part of the program, and a test reads it.
 #[must_use]
 pub fn library() -> Vec<Fabric> {
@@ -233,7 +219,7 @@ pub fn library() -> Vec<Fabric> {
 mod tests {
     use super::*;
 
-    fn of(name: &str) -> &'static Known {
+    fn by_name(name: &str) -> &'static Known {
         known().iter().find(|known| known.fabric.name == name).unwrap_or_else(|| panic!("{name} is not in the library"))
     }
 
@@ -271,7 +257,7 @@ mod tests {
     #[test]
     fn what_a_source_says_of_the_quantile_is_so() {
         let check = |name: &str, warp: &str, weft: &str| {
-            assert_eq!(of(name).fabric.standings().map(|s| s.to_string()), [warp, weft], "{name}");
+            assert_eq!(by_name(name).fabric.standings().map(|s| s.to_string()), [warp, weft], "{name}");
         };
         check("cotton_shirting_light", "p50", "p50");
         check("denim_raw", "p75", "p75");
@@ -281,14 +267,14 @@ mod tests {
         check("viscose", "p25", "p25");
         check("jersey", "p25", "p25");
         check("chiffon", "p25", "p25");
-        // What the rules of poplin and jersey rest on.
+        // Measured cloths on which the percentiles of poplin and jersey are based.
         check("cotton_broad", "p81", ">p90");
         check("interlock_tshirt", "p21", "p17");
     }
 
     #[test]
     fn cloths_are_as_limp_and_as_stiff_as_each_other_as_they_should_be() {
-        let along = |name: &str| 1e3 * of(name).fabric.bending_lengths_m()[0];
+        let along = |name: &str| 1e3 * by_name(name).fabric.bending_lengths_m()[0];
         for rising in [
             ["viscose", "cotton_shirting_light", "poplin"],
             ["jersey", "cotton_shirting_light", "denim_washed"],
@@ -297,7 +283,7 @@ mod tests {
         ] {
             assert!(rising.windows(2).all(|two| along(two[0]) < along(two[1])), "{rising:?}: {:?}", rising.map(along));
         }
-        // Classes bend as eight tenths of all known cloths do.
+        // The classes lie within the middle eight tenths of all known cloths.
         for known in known().iter().filter(|known| known.kind == Kind::Class) {
             assert!((12.0..31.0).contains(&along(&known.fabric.name)), "{}", known.fabric.name);
         }

@@ -1,4 +1,4 @@
-//! Coarse to fine: a drape of a coarse mesh as the start for a finer mesh of the same pieces.
+//! Prolongation between mesh levels: the drape of a coarse mesh becomes the start on a finer mesh of the same pieces.
 
 use nalgebra::Matrix3;
 
@@ -13,14 +13,16 @@ use pattern::Garment;
 
 geom::constants! {
     "levels",
-    /// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
+    /// Wavelength whose amplitude smoothing halves, in edges of the coarser mesh.
     const ROUNDED_EDGES: f64 = 3.0;
 }
 
-/// World positions for the vertices of `cloth`, which is `fine` sewn: the drape of `coarse` at their places in the pieces'
-/// planes, its facets rounded where that does not make it pierce itself.
+/// World positions for the vertices of `cloth`, which is the sewn mesh of `fine`: the drape of `coarse`, interpolated
+/// at their places in the planes of the pieces. The facets of the coarse mesh are smoothed, except where that would
+/// make the cloth intersect itself.
 ///
-/// Left in, the facets stay: a dimple is nearly an isometry, and stretching keeps it from popping out.
+/// Facets that are left in do not vanish later. A dimple is nearly isometric to the smooth surface, but it would have
+/// to stretch the cloth to pop out.
 #[must_use]
 pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth: &Cloth, fabric: &Fabric) -> Vec<V3> {
     let x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
@@ -29,7 +31,8 @@ pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth:
     held_apart(&x, &rounded, &cloth.triangles)
 }
 
-/// Lets the cloth bend, and nothing else, until waves of length `wave_m` have lost half their height.
+/// Smooths the cloth by its bending stiffness `Q` alone: one implicit step `(Q + k A) d = -Q x`. The parameter `k = B
+/// (2 pi / wave_m)^4` halves the amplitude of waves of length `wave_m`.
 fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
     let rigidity_nm = (fabric.bending_warp_nm * fabric.bending_weft_nm).sqrt();
     let stiffness_n_m3 = rigidity_nm * (std::f64::consts::TAU / wave_m).powi(4);
@@ -50,16 +53,16 @@ fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
     x.iter_mut().zip(moved).for_each(|(p, d)| *p += d);
 }
 
-/// The drape of `coarse` at the places that the vertices of `fine` have in the pieces' planes.
+/// Interpolates the drape of `coarse` at the places of the vertices of `fine` in the planes of the pieces.
 ///
-/// Vertices outside the coarse outline (a chord cuts a curve) are extrapolated from the nearest triangle. The two sides
-/// of a seam then differ by a little; welding takes their mean.
+/// Vertices outside the coarse outline, where a chord cuts a curve, are extrapolated from the nearest triangle. The two
+/// sides of a seam then differ by a little; welding takes their mean.
 fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3> {
     let mut positions = vec![V3::zeros(); fine.rest.len()];
     for (piece, source) in fine.pieces.iter().zip(&coarse.pieces) {
         let locator = Locator::new(coarse, source.triangles.clone());
         for v in piece.vertices.clone() {
-            let (triangle, weights) = locator.locate(fine.rest[v]);
+            let Located { triangle, weights, .. } = locator.locate(fine.rest[v]);
             let corners = sorted(coarse.triangles[triangle]);
             positions[v] = (0..3).map(|k| coarse_positions[corners[k]] * weights[k]).sum();
         }
@@ -67,7 +70,15 @@ fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3
     positions
 }
 
-/// Finds triangles of one piece by point, through a uniform grid of buckets.
+/// A point located in a mesh.
+struct Located {
+    triangle: usize,
+    /// Barycentric weights of the sorted corners.
+    weights: [f64; 3],
+    is_inside: bool,
+}
+
+/// Point location among the triangles of one piece, by a uniform grid of buckets.
 struct Locator<'a> {
     garment: &'a Garment,
     low: V2,
@@ -85,7 +96,7 @@ impl<'a> Locator<'a> {
         let cell = garment.edge_length_m;
         let count = |extent: f64| (extent / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
-        // In the middle, so that a mirrored piece has the mirrored buckets.
+        // The spare width of the grid is shared by both sides, so that a mirrored piece has mirrored buckets.
         let spare = V2::new(columns as f64 * cell, rows as f64 * cell) - (high - low);
         let low = low - spare * 0.5;
         let mut locator = Self { garment, low, cell, columns, rows, buckets: vec![Vec::new(); columns * rows] };
@@ -105,27 +116,28 @@ impl<'a> Locator<'a> {
     }
 
     fn bucket(&self, p: V2) -> [usize; 2] {
-        let at = |x: f64, n: usize| ((x / self.cell).max(0.0) as usize).min(n - 1);
-        [at(p.x - self.low.x, self.columns), at(p.y - self.low.y, self.rows)]
+        let cell = |x: f64, n: usize| ((x / self.cell).max(0.0) as usize).min(n - 1);
+        [cell(p.x - self.low.x, self.columns), cell(p.y - self.low.y, self.rows)]
     }
 
-    /// The triangle that contains a point, or else the one it is least outside of, with the barycentric weights of its
-    /// sorted corners.
-    fn locate(&self, p: V2) -> (usize, [f64; 3]) {
+    /// Returns the triangle that contains a point, or else the one with the least negative barycentric weight.
+    fn locate(&self, p: V2) -> Located {
         let [column, row] = self.bucket(p);
         for ring in 0.. {
             let found = self.best_within(p, column, row, ring);
-            if let Some((triangle, weights, inside)) = found {
-                // A point outside the mesh may be nearer to a triangle of the next bucket: look one ring further.
-                if inside || ring > 0 {
-                    return (triangle, weights);
+            if let Some(located) = found {
+                // A point outside the mesh may be nearer to a triangle of the next bucket. So the search goes one ring
+                // further.
+                if located.is_inside || ring > 0 {
+                    return located;
                 }
             }
         }
         unreachable!("the buckets hold at least one triangle")
     }
 
-    fn best_within(&self, p: V2, column: usize, row: usize, ring: usize) -> Option<(usize, [f64; 3], bool)> {
+    /// Returns the best triangle of the buckets at most `ring` away from one.
+    fn best_within(&self, p: V2, column: usize, row: usize, ring: usize) -> Option<Located> {
         let mut best: Option<(f64, usize, [f64; 3])> = None;
         for r in row.saturating_sub(ring)..=(row + ring).min(self.rows - 1) {
             for c in column.saturating_sub(ring)..=(column + ring).min(self.columns - 1) {
@@ -138,9 +150,10 @@ impl<'a> Locator<'a> {
                 }
             }
         }
-        best.map(|(outside, t, weights)| (t, weights, outside <= 1e-9))
+        best.map(|(outside, triangle, weights)| Located { triangle, weights, is_inside: outside <= 1e-9 })
     }
 
+    /// Barycentric weights of a point for the sorted corners of a triangle.
     fn barycentric(&self, triangle: usize, p: V2) -> [f64; 3] {
         let [a, b, c] = sorted(self.garment.triangles[triangle]).map(|v| self.garment.rest[v]);
         let area = (b - a).perp(&(c - a));

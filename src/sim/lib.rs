@@ -1,7 +1,7 @@
-//! The simulators (GSM, thesis 3.4): a body and a garment become a drape.
+//! The simulators, which turn a body and a garment into a drape (GSM in [T 3.4]).
 //!
-//! [`fem`] and [`hybrid`] never call each other; both return a [`Drape`] made from the cloth energies, contact and
-//! sewing that are siblings here.
+//! [`fem`] and [`hybrid`] never call each other. Both return a [`Drape`], and both use the cloth energies, the contact
+//! and the sewing of the modules beside them.
 
 pub mod cloth;
 mod constants;

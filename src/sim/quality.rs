@@ -1,4 +1,4 @@
-//! Checks on a finished drape, made on the meshes themselves and not on what the solver believed.
+//! Checks of a finished drape. They are made on its mesh, and do not rely on the contact pairs of the solver.
 
 use crate::contact::intersections::edges_of;
 use crate::contact::{Skin, intersections};
@@ -7,21 +7,36 @@ use body::Body;
 use geom::{DistanceField, V3};
 use pattern::{Garment, Role, Spot};
 
-/// A vertex, an edge middle or a triangle centre: the vertices that it lies between, some of them more than once, and its place.
-type Sample = ([usize; 3], V3);
+/// A sample point of the cloth: a vertex, the middle of an edge or the centroid of a triangle.
+#[derive(Clone, Copy)]
+struct Sample {
+    /// Vertices that it lies between; a vertex is there three times, the second end of an edge twice.
+    between: [usize; 3],
+    /// Position, m.
+    place: V3,
+}
 
-/// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
-/// 0 when none is inside.
+/// The deepest sample inside the body.
+struct Deepest {
+    /// Depth below the surface, m.
+    depth_m: f64,
+    /// Vertices that the sample lies between.
+    between: [usize; 3],
+}
+
+/// Greatest penetration of the cloth into the body, m; 0 where nothing is inside. Vertices, edge midpoints and triangle
+/// centroids are tested against the exact surface. NaN for a body mesh that encloses no volume.
 #[must_use]
 pub fn penetration_m(body: &Body, garment: &Garment, positions: &[V3]) -> f64 {
     Skin::new(&body.mesh).map_or(f64::NAN, |skin| depth_m(deepest(&skin, samples(garment, positions))))
 }
 
-/// [`penetration_m`], asked only where a distance field does not say that the cloth is clearly outside: much quicker. Not a number
-/// without a skin, which a mesh that bounds no solid has not.
+/// As [`penetration_m`], with a distance field as a filter: only samples that the field does not show clearly outside
+/// are tested against the exact surface, which is much faster. NaN where a sample is in doubt and there is no `skin`,
+/// as for a mesh that encloses no volume.
 #[must_use]
 pub fn penetration_by_field_m(skin: Option<&Skin>, field: &DistanceField, garment: &Garment, positions: &[V3]) -> f64 {
-    let is_doubtful = |(_, p): &Sample| field.value_and_gradient(p).0 < CLEAR_M;
+    let is_doubtful = |sample: &Sample| field.value_and_gradient(&sample.place).0 < CLEAR_M;
     let mut doubtful = samples(garment, positions).filter(is_doubtful).peekable();
     match skin {
         _ if doubtful.peek().is_none() => 0.0,
@@ -30,62 +45,58 @@ pub fn penetration_by_field_m(skin: Option<&Skin>, field: &DistanceField, garmen
     }
 }
 
-/// Where on its pieces the cloth lies deepest inside the body; `None` where it is nowhere inside.
+/// Place on the pattern at which the cloth penetrates the body deepest; `None` where it does not.
 #[must_use]
 pub fn deepest_spot(body: &Body, garment: &Garment, positions: &[V3]) -> Option<Spot> {
-    let (_, vertices) = deepest(&Skin::new(&body.mesh).ok()?, samples(garment, positions))?;
-    garment.spot(&vertices)
+    let found = deepest(&Skin::new(&body.mesh).ok()?, samples(garment, positions))?;
+    garment.spot(&found.between)
 }
 
 geom::constants! {
     "quality",
-    /// Farthest that a field may lie from the true surface, m: it is blurred, and so short of fingers and creases.
+    /// Distance in the field beyond which a sample counts as outside, m. It is the greatest error of the field: the
+    /// field is blurred, and so it misses fingers and creases.
     const CLEAR_M: f64 = 4e-3;
 }
 
-/// Every vertex, edge middle and triangle centre, once.
+/// Every vertex, every edge midpoint and every triangle centroid, once.
 fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item = Sample> + 'a {
     let edges = edges_of(&garment.triangles).pairs().to_vec();
-    let vertices = positions.iter().enumerate().map(|(v, p)| ([v; 3], *p));
-    let middles = edges.into_iter().map(|[a, b]| ([a, b, b], (positions[a] + positions[b]) / 2.0));
-    let centres = garment.triangles.iter().map(|t| (*t, t.iter().map(|v| positions[*v]).sum::<V3>() / 3.0));
-    vertices.chain(middles).chain(centres)
+    let vertex = |(v, p): (usize, &V3)| Sample { between: [v; 3], place: *p };
+    let middle = |[a, b]: [usize; 2]| Sample { between: [a, b, b], place: (positions[a] + positions[b]) / 2.0 };
+    let centroid = |t: &[usize; 3]| Sample { between: *t, place: t.iter().map(|v| positions[*v]).sum::<V3>() / 3.0 };
+    let vertices = positions.iter().enumerate().map(vertex);
+    vertices.chain(edges.into_iter().map(middle)).chain(garment.triangles.iter().map(centroid))
 }
 
-/// How deep the deepest of some samples lies, m, and between which vertices.
-fn deepest(skin: &Skin, samples: impl Iterator<Item = Sample>) -> Option<(f64, [usize; 3])> {
-    let mut inside: Vec<(f64, Sample)> = samples.filter_map(|s| Some((skin.quick_depth(&s.1)?, s))).collect();
+/// Deepest of some samples that are inside the body. The quick depth sorts the candidates, and the winding number
+/// confirms the first.
+fn deepest(skin: &Skin, samples: impl Iterator<Item = Sample>) -> Option<Deepest> {
+    let mut inside: Vec<(f64, Sample)> = samples.filter_map(|s| Some((skin.quick_depth(&s.place)?, s))).collect();
     inside.sort_by(|a, b| b.0.total_cmp(&a.0));
-    inside.into_iter().find(|(_, (_, p))| skin.contains(p)).map(|(depth, (between, _))| (depth, between))
+    let (depth_m, sample) = inside.into_iter().find(|(_, sample)| skin.contains(&sample.place))?;
+    Some(Deepest { depth_m, between: sample.between })
 }
 
-fn depth_m(deepest: Option<(f64, [usize; 3])>) -> f64 {
-    deepest.map_or(0.0, |(depth, _)| depth)
+fn depth_m(deepest: Option<Deepest>) -> f64 {
+    deepest.map_or(0.0, |deepest| deepest.depth_m)
 }
 
-/// Greatest distance between the two vertices of a seam pair, m.
+/// Greatest distance between the two vertices of a seam pair, m; 0 where nothing is sewn.
 #[must_use]
 pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
-    widest_seam(garment, positions).map_or(0.0, |(gap_m, _)| gap_m)
+    sewing::widest_seam(garment, positions).map_or(0.0, |seam| seam.gap_m)
 }
 
-/// The seam pair whose vertices are farthest from each other, and how far, m; `None` where nothing is sewn.
-#[must_use]
-pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<(f64, [usize; 2])> {
-    let pairs = garment.seams.iter().flat_map(|s| &s.pairs);
-    let gaps = pairs.map(|&[a, b]| ((positions[a] - positions[b]).norm(), [a, b]));
-    gaps.max_by(|one, other| one.0.total_cmp(&other.0))
-}
-
-/// Number of edges that pierce a triangle of the same cloth with which they share no vertex. `triangles` index sewn
-/// vertices at `x`.
+/// Number of pairs of an edge and a triangle of the same cloth that intersect and share no vertex. `triangles` refer to
+/// sewn vertices at `x`.
 #[must_use]
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = edges_of(triangles);
     intersections(x, edges.pairs(), triangles).len()
 }
 
-/// Where on its pieces a sewn garment crosses itself; `None` where it does not.
+/// Place on the pattern at which a sewn garment intersects itself; `None` where it does not.
 #[must_use]
 pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     let group = sewing::welded(garment);
@@ -101,7 +112,9 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     garment.spot(&crossed)
 }
 
-/// Height of the highest vertex of what is worn on trunk or limbs, m: what flares comes down, but its top does not; a hood falls back.
+/// Height of the highest vertex of the pieces worn on trunk or limbs, m; of all pieces where no role is known. It shows
+/// a garment that slides down: a flared hem may sink while the top stays, and a hood, whose role is another, may fall
+/// back.
 pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
     let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);
     let worn = garment.pieces.iter().filter(|piece| piece.role != Role::Other);
@@ -154,9 +167,9 @@ mod tests {
     fn a_hood_that_falls_back_takes_no_garment_down() {
         let mut garment = laboratory::garment(sheet(1, 2, 0.1));
         let whole = garment.pieces[0].clone();
-        let at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
+        let positions_at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
         let check = |garment: &Garment, expect: f64| {
-            assert_eq!(top_m(garment, &at([1.1, 1.4, 1.2, 1.3, 1.6, 1.7])), expect);
+            assert_eq!(top_m(garment, &positions_at([1.1, 1.4, 1.2, 1.3, 1.6, 1.7])), expect);
         };
         let trunk_and = |role: Role| {
             let trunk = PieceMesh { role: Role::Front, vertices: 0..4, ..whole.clone() };
@@ -166,7 +179,7 @@ mod tests {
         check(&garment, 1.4);
         garment.pieces = trunk_and(Role::Back);
         check(&garment, 1.7);
-        // Where it is not known what anything is worn as, all counts.
+        // Where no role is known, all pieces count.
         garment.pieces.iter_mut().for_each(|piece| piece.role = Role::Other);
         check(&garment, 1.7);
     }

@@ -1,11 +1,11 @@
-//! Sewing: capped springs that draw the two sides of a seam together, then welding.
+//! Sewing: springs of limited force draw the two sides of a seam together, then their vertices are welded (merged).
 
-use crate::{SimError, quality};
+use crate::SimError;
 use geom::V3;
 use pattern::Garment;
 
-/// Simulated vertex of each garment vertex once every seam is closed: groups of paired vertices, numbered by their
-/// smallest member (thesis, Algorithm 5.4).
+/// Simulated vertex of each garment vertex once every seam is closed [T, Algorithm 5.4]. The vertices of seam pairs are
+/// merged into groups by union-find, and the groups are numbered in the order of their smallest members.
 #[must_use]
 pub fn welded(garment: &Garment) -> Vec<usize> {
     let mut leader: Vec<usize> = (0..garment.rest.len()).collect();
@@ -46,45 +46,63 @@ pub fn merged(vertex_of: &[usize], positions: &[V3]) -> Vec<V3> {
     sums.into_iter().map(|(sum, n)| sum / n).collect()
 }
 
-/// Every garment vertex on its own: nothing is sewn yet.
+/// Simulated vertex of each garment vertex while nothing is sewn: the vertex itself.
 #[must_use]
 pub fn unsewn(garment: &Garment) -> Vec<usize> {
     (0..garment.rest.len()).collect()
 }
 
-/// Ends a simulation whose seams stay open, the vertices of its garment at `positions`, m.
+/// A seam pair and the distance between its two vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeamGap {
+    /// Distance between the two vertices, m.
+    pub gap_m: f64,
+    /// Garment vertices of the pair.
+    pub pair: [usize; 2],
+}
+
+/// Returns the seam pair with the widest gap; `None` where nothing is sewn.
+#[must_use]
+pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<SeamGap> {
+    let pairs = garment.seams.iter().flat_map(|s| &s.pairs);
+    let gaps = pairs.map(|&[a, b]| SeamGap { gap_m: (positions[a] - positions[b]).norm(), pair: [a, b] });
+    gaps.max_by(|first, second| first.gap_m.total_cmp(&second.gap_m))
+}
+
+/// Checks that the seams of a garment with its vertices at `positions` (m) are closed.
 ///
-/// # Errors
-/// [`SimError::Open`].
+/// [`SimError::Open`] where a seam pair is more than [`OPEN_M`] apart.
 pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
     let piece_of = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v));
     let name = |v: usize| piece_of(v).map_or_else(String::new, |piece| piece.id.clone());
-    match quality::widest_seam(garment, positions) {
-        Some((gap_m, pair)) if gap_m > OPEN_M => {
+    match widest_seam(garment, positions) {
+        Some(SeamGap { gap_m, pair }) if gap_m > OPEN_M => {
             Err(SimError::Open { garment: garment.name.clone(), pieces: pair.map(name), gap_m })
         }
         _ => Ok(()),
     }
 }
 
-/// Springs between the vertices of seam pairs: `f = k d` up to a cap (4.15, with the cap trials asked for).
+/// Springs between the vertices of seam pairs. The force is `f = min(k d, f_max)` for a distance `d` [T 4.15]. The
+/// limit `f_max` keeps distant pairs from overstretching the cloth.
 #[derive(Clone, Debug)]
 pub struct Springs {
-    /// Garment vertices that each spring draws together.
+    /// Garment vertices at the ends of each spring.
     pub pairs: Vec<[usize; 2]>,
-    /// Stiffness, N/m.
+    /// Stiffness `k`, N/m.
     pub stiffness_n_m: f64,
-    /// Greatest force, N.
+    /// Greatest force `f_max`, N.
     pub cap_n: f64,
-    /// Greatest force when the springs begin, N; `cap_n` grows from it.
+    /// Greatest force at the beginning, N. `cap_n` grows from it.
     first_cap_n: f64,
 }
 
 geom::constants! {
     "sewing",
-    /// Most that springs grow by: garments that are stretched by half took up to 2e4.
+    /// Greatest factor by which the springs are strengthened. Judgement: garments whose cloth is stretched by half took
+    /// factors up to 2e4.
     const MOST_GROWTH: f64 = 1e6;
-    /// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
+    /// Gap above which a seam counts as open, m. Welding such a seam would not give the garment of the pattern.
     pub const OPEN_M: f64 = 8e-2;
 }
 
@@ -112,8 +130,8 @@ impl Springs {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
     }
 
-    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is
-    /// an end to that.
+    /// Multiplies stiffness and greatest force by a factor, so that distant and near pairs both feel it. Returns
+    /// `false` once the greatest growth is reached, and then changes nothing.
     pub fn tighten(&mut self, factor: f64) -> bool {
         let is_weaker = self.cap_n < MOST_GROWTH * self.first_cap_n;
         if is_weaker {
@@ -123,18 +141,19 @@ impl Springs {
         is_weaker
     }
 
-    /// Energy, J: quadratic up to the cap, linear beyond.
+    /// Energy, J: `k d^2 / 2` up to the distance `f_max / k`, linear beyond.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         let knee = self.cap_n / self.stiffness_n_m;
-        let of = |&[a, b]: &[usize; 2]| {
+        let spring_j = |&[a, b]: &[usize; 2]| {
             let d = (x[a] - x[b]).norm();
             if d <= knee { 0.5 * self.stiffness_n_m * d * d } else { self.cap_n * (d - 0.5 * knee) }
         };
-        self.pairs.iter().map(of).sum()
+        self.pairs.iter().map(spring_j).sum()
     }
 
-    /// Adds the forces and returns each pair's stiffness: the secant beyond the cap, which bounds the energy from above.
+    /// Adds the forces (N) and returns the stiffness of each pair, N/m. Beyond the limit it is the secant `f_max / d`,
+    /// with which the quadratic model bounds the energy from above.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<([usize; 2], f64)> {
         let stiffness = |&[a, b]: &[usize; 2]| {
             let d = (x[a] - x[b]).norm();

@@ -1,4 +1,4 @@
-//! A sewn garment as it lies: stretch, tension and pressure at its vertices.
+//! Fields on a sewn drape: stretch, tension and contact pressure at its vertices.
 
 use nalgebra::Matrix2;
 
@@ -9,16 +9,16 @@ use geom::units::GRAVITY;
 use geom::{TriMesh, V3};
 use pattern::Garment;
 
-/// A sewn garment as it lies.
+/// A sewn garment at rest, with its mechanical model.
 pub struct Sewn<'a> {
     garment: &'a Garment,
     cloth: Cloth,
-    /// Its cloth, the vertices of a seam joined.
+    /// Mesh of the sewn cloth, in which the vertices of a seam are merged.
     pub mesh: TriMesh,
 }
 
 impl<'a> Sewn<'a> {
-    /// Of a garment whose vertices are at `positions`.
+    /// Sets up a garment with its vertices at `positions`, m.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
@@ -28,7 +28,7 @@ impl<'a> Sewn<'a> {
         Ok(Self { garment, cloth, mesh })
     }
 
-    /// Values at the garment's vertices as means at those of the sewn cloth.
+    /// Averages values at the vertices of the garment over the vertices that are sewn together.
     #[must_use]
     pub fn welded(&self, values: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.mesh.positions.len()];
@@ -39,7 +39,8 @@ impl<'a> Sewn<'a> {
         sums.into_iter().map(|(sum, count)| sum / f64::max(count, 1.0)).collect()
     }
 
-    /// Greatest principal stretch at each vertex of the garment, % beyond 1: the root of the greater eigenvalue of `C = I + 2 E`.
+    /// Greater principal stretch at each vertex of the garment, less 1, in percent. It is the root of the greater
+    /// eigenvalue of `C = I + 2 E`.
     #[must_use]
     pub fn stretches_pct(&self) -> Vec<f64> {
         let stretch = |strain: &Matrix2<f64>| (1.0 + 2.0 * greater_eigenvalue(strain)).max(0.0).sqrt();
@@ -47,8 +48,8 @@ impl<'a> Sewn<'a> {
         self.at_vertices(strains.iter().map(|strain| 100.0 * (stretch(strain) - 1.0)))
     }
 
-    /// Greatest principal tension at each vertex of the garment, N/m, never below 0: the greater eigenvalue of the Cauchy membrane
-    /// force `F S F^T / J`, which is that of `S C / J`.
+    /// Greater principal tension at each vertex of the garment, N/m, at least 0. It is the greater eigenvalue of the
+    /// Cauchy membrane force `F S F^T / J`, which equals that of `S C / J`.
     #[must_use]
     pub fn tensions_n_m(&self) -> Vec<f64> {
         let tension = |(triangle, strain): (usize, Matrix2<f64>)| {
@@ -60,9 +61,9 @@ impl<'a> Sewn<'a> {
         self.at_vertices(self.cloth.membrane.strains(&self.mesh.positions).into_iter().enumerate().map(tension))
     }
 
-    /// Pressure at each vertex of the sewn cloth, kPa, never below 0: what a drape at rest needs besides its own forces and its
-    /// weight to stay where it is, along its normal and over its area. On the body that is what the body holds it up with; elsewhere
-    /// it is near 0.
+    /// Contact pressure at each vertex of the sewn cloth, kPa, at least 0. In equilibrium the contact force is the
+    /// negative of elastic forces and weight. The pressure is the component of that force along the vertex normal, over
+    /// the area of the vertex. Away from the body it is near 0.
     #[must_use]
     pub fn welded_pressures_kpa(&self) -> Vec<f64> {
         let (cloth, x) = (&self.cloth, &self.mesh.positions);
@@ -75,7 +76,8 @@ impl<'a> Sewn<'a> {
             let [a, b, c] = triangle.map(|v| x[v]);
             triangle.iter().for_each(|v| areas[*v] += (b - a).cross(&(c - a)).norm() / 6.0);
         }
-        // Contacts hold single vertices: forces and areas are summed over the triangles round each.
+        // Contact forces act on single vertices. Forces and areas are therefore summed over the triangles around each
+        // vertex.
         let mut sums = vec![(0.0, 0.0); x.len()];
         for triangle in &self.mesh.triangles {
             let force: f64 = triangle.iter().map(|v| pressing[*v]).sum();
@@ -89,15 +91,16 @@ impl<'a> Sewn<'a> {
         sums.into_iter().map(pressure).collect()
     }
 
-    /// Pressure at each vertex of the garment, kPa ([`Self::welded_pressures_kpa`]).
+    /// Contact pressure at each vertex of the garment, kPa ([`Self::welded_pressures_kpa`]).
     #[must_use]
     pub fn pressures_kpa(&self) -> Vec<f64> {
         let welded = self.welded_pressures_kpa();
         self.cloth.vertex_of.iter().map(|vertex| welded[*vertex]).collect()
     }
 
-    /// A value of each triangle as the mean over the triangles round each vertex of the garment, weighted by their area:
-    /// constant-strain triangles alternate about the true field, their nodal mean recovers it. Vertices of no triangle get 0.
+    /// Nodal means of values per triangle: at each vertex of the garment the mean over its triangles, weighted by their
+    /// rest areas. The values of constant-strain triangles alternate about the true field, and the nodal mean recovers
+    /// it. Vertices without a triangle get 0.
     fn at_vertices(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let garment = self.garment;
         let mut sums = vec![(0.0, 0.0); garment.rest.len()];
@@ -189,9 +192,9 @@ mod tests {
         check(&|p| V3::new(p.y, 0.0, p.x), 0.0);
     }
 
-    /// A tube of cloth round a cylinder, its grain up, its ends sewn together.
+    /// A tube of cloth around a cylinder, its grain along the axis, its ends sewn together.
     fn tube(radius: f64, around: usize, rows: usize, edge: f64) -> Garment {
-        let at = |row: usize, column: usize| row * (around + 1) + column;
+        let vertex = |row: usize, column: usize| row * (around + 1) + column;
         let mut tube = square();
         tube.rest = (0..rows * (around + 1))
             .map(|k| {
@@ -204,18 +207,23 @@ mod tests {
         tube.triangles = (0..rows - 1)
             .flat_map(|row| (0..around).map(move |column| (row, column)))
             .flat_map(|(row, column)| {
-                let corners = [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+                let corners = [
+                    vertex(row, column),
+                    vertex(row, column + 1),
+                    vertex(row + 1, column + 1),
+                    vertex(row + 1, column),
+                ];
                 [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
             })
             .collect();
         tube.pieces[0].vertices = 0..tube.rest.len();
         tube.pieces[0].triangles = 0..tube.triangles.len();
-        tube.seams =
-            vec![SeamMesh { pairs: (0..rows).map(|row| [at(row, 0), at(row, around)]).collect(), name: "back".into() }];
+        let pairs = (0..rows).map(|row| [vertex(row, 0), vertex(row, around)]).collect();
+        tube.seams = vec![SeamMesh { pairs, name: "back".into() }];
         tube
     }
 
-    /// Hoop tension over radius [Laplace's law]: what a stretched tube presses with.
+    /// A stretched tube presses with its hoop tension over its radius (Laplace's law).
     #[test]
     fn a_stretched_tube_presses_with_its_tension_over_its_radius() {
         const RADIUS: f64 = 0.15;

@@ -1,4 +1,4 @@
-//! Helpers for the tests of the simulators: finite differences, a garment with lapels, panels by their corners.
+//! Helpers for the tests of the simulators: finite differences, garments with lapels, panels given by their corners.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,7 @@ use pattern::piece::Piece;
 use pattern::style::EdgeRef;
 use pattern::{Garment, Role, Style, garmentcode};
 
-/// A fabric with different numbers everywhere, so that a mix-up shows.
+/// A fabric whose numbers all differ, so that a test shows where two are interchanged.
 pub fn fabric() -> Fabric {
     Fabric {
         name: "test".into(),
@@ -28,32 +28,32 @@ pub fn fabric() -> Fabric {
     }
 }
 
-/// Asserts that `forces` is minus the gradient of `energy`, by central differences of step `h`, to `relative` of the
-/// greatest force.
+/// Asserts that `forces` is the negative gradient of `energy`, by central differences of step `h`. The tolerance is
+/// `relative` times the greatest force.
 pub fn check_forces(energy: impl Fn(&[V3]) -> f64, forces: &[V3], x: &[V3], h: f64, relative: f64) {
     let scale = forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
     for i in 0..x.len() {
         for k in 0..3 {
-            let at = |d: f64| {
+            let energy_at = |d: f64| {
                 let mut moved = x.to_vec();
                 moved[i][k] += d;
                 energy(&moved)
             };
-            let expected = -(at(h) - at(-h)) / (2.0 * h);
+            let expected = -(energy_at(h) - energy_at(-h)) / (2.0 * h);
             let error = (forces[i][k] - expected).abs();
             assert!(error <= relative * scale, "vertex {i} axis {k}: {} for {expected}", forces[i][k]);
         }
     }
 }
 
-/// The smallest drafted T-shirt with a collar on its back neck and a lapel on either side of its V, folded outwards where
-/// `is_folded`, else continuing the cloth.
+/// Smallest drafted T-shirt with a collar on its back neck and a lapel on either side of its V. The lapels are folded
+/// outwards where `is_folded`, and else continue the cloth.
 pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
     const WIDE_M: f64 = 0.06;
     let mut pieces = Model::Tshirt.drafts()[0].pieces.clone();
     let plain = Style::read(&pieces, Model::Tshirt.seams(), "seams").expect("a style");
     let length_m = |piece: &str, name: &str| {
-        let piece = plain.pieces.iter().position(|one| one.id == piece).expect("it has one");
+        let piece = plain.pieces.iter().position(|known| known.id == piece).expect("it has one");
         let edge =
             plain.pieces[piece].edges.iter().position(|edge| edge.name.as_deref() == Some(name)).expect("it has one");
         plain.edge(EdgeRef { piece, edge }).line.length()
@@ -88,7 +88,7 @@ pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
     style.expect("a style").mesh(edge_m).expect("a mesh")
 }
 
-/// A panel of straight edges, or of those that say otherwise, cm.
+/// A panel in centimetres. Its edges are straight, except for those in `curved`.
 pub fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
     let edge = |k: usize| {
         let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
@@ -101,12 +101,13 @@ pub fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) 
     json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
 }
 
+/// A stitch between two edges, each a panel and the index of its edge.
 pub fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
     let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
     json!([side(one), side(other)])
 }
 
-/// A mesh of panels and stitches; `role` says what each piece is.
+/// Mesh of a garment of panels and stitches; `role` gives the role of each piece.
 pub fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
     let document = json!({
         "pattern": { "panels": panels, "stitches": stitches },
@@ -120,12 +121,12 @@ pub fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> 
     garment
 }
 
-/// Front or back of a skirt, by name.
+/// Front or back of a skirt, by the name of the piece.
 pub fn skirt_role(id: &str) -> Role {
     if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
 }
 
-/// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
+/// A skirt of half circles: each tier has a front and a back of some inner radius (cm), 30 cm long.
 pub fn tiered(radii: &[f64]) -> Garment {
     let (mut panels, mut stitches) = (json!({}), Vec::new());
     let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });

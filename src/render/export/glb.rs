@@ -1,17 +1,20 @@
-//! Binary glTF 2.0 [Khronos 2021]: a JSON chunk that describes, a binary chunk that holds the numbers.
+//! Binary glTF 2.0 [Khronos 2021]: a JSON chunk that describes, and a binary chunk that holds the numbers.
 
 use serde_json::{Value, json};
 
 use super::Part;
 use geom::V3;
 
-/// Component types and buffer targets of the standard.
+/// Component type of the standard for unsigned 32-bit integers.
 const UNSIGNED_INT: u32 = 5125;
+/// Component type for 32-bit floating-point numbers.
 const FLOAT: u32 = 5126;
+/// Buffer target for vertex data.
 const ARRAY_BUFFER: u32 = 34962;
+/// Buffer target for indices.
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The buffer with its views and accessors as they grow.
+/// The binary buffer under construction, with its views and accessors.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,
@@ -20,7 +23,7 @@ struct Buffer {
 }
 
 impl Buffer {
-    /// Adds rows of floats; returns the accessor's index.
+    /// Adds rows of floating-point numbers, and returns the index of their accessor.
     fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, with_bounds: bool) -> usize {
         let bytes = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
         let mut accessor = json!({ "componentType": FLOAT, "count": rows.len(), "type": kind });
@@ -35,7 +38,7 @@ impl Buffer {
         self.add(bytes, ARRAY_BUFFER, accessor)
     }
 
-    /// Adds vertex numbers; returns the accessor's index.
+    /// Adds vertex indices, and returns the index of their accessor.
     fn indices(&mut self, triangles: &[[usize; 3]]) -> usize {
         let bytes = triangles.iter().flatten().flat_map(|v| (*v as u32).to_le_bytes()).collect();
         let accessor = json!({ "componentType": UNSIGNED_INT, "count": 3 * triangles.len(), "type": "SCALAR" });
@@ -43,7 +46,7 @@ impl Buffer {
     }
 
     fn add(&mut self, bytes: Vec<u8>, target: u32, mut accessor: Value) -> usize {
-        // Every component is four bytes long, so that each view starts where the standard wants it: at a multiple of four.
+        // Every component has four bytes, so each view starts at a multiple of four, as the standard requires.
         self.views.push(json!({
             "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target
         }));
@@ -54,7 +57,7 @@ impl Buffer {
     }
 }
 
-/// The parts as one file, ready to be written to disk.
+/// Encodes the parts as one file.
 pub(super) fn write(parts: &[Part<'_>]) -> Vec<u8> {
     let mut buffer = Buffer::default();
     let meshes: Vec<Value> = parts.iter().map(|part| mesh(part, &mut buffer)).collect();
@@ -82,11 +85,11 @@ fn mesh(part: &Part<'_>, buffer: &mut Buffer) -> Value {
     let mut attributes = json!({
         "POSITION": buffer.floats(&rows(&part.mesh.positions), "VEC3", true),
         "NORMAL": buffer.floats(&rows(&part.mesh.vertex_normals()), "VEC3", false),
-        // Vertex colours are linear light.
+        // Vertex colours are linear light in glTF.
         "COLOR_0": buffer.floats(&part.colours.iter().map(|c| c.linear()).collect::<Vec<_>>(), "VEC3", false),
     });
     if let Some(places) = part.places {
-        // `v` runs downwards in glTF.
+        // `v` points down in glTF.
         let places: Vec<[f32; 2]> = places.iter().map(|p| [p.x as f32, -p.y as f32]).collect();
         attributes["TEXCOORD_0"] = json!(buffer.floats(&places, "VEC2", false));
     }
@@ -101,12 +104,13 @@ fn mesh(part: &Part<'_>, buffer: &mut Buffer) -> Value {
     mesh
 }
 
-/// Our axes in glTF's: `z` up becomes `y`, the front `z`; half a turn keeps right-handed what was.
+/// Transforms a vector to the axes of glTF: `z` (up) becomes `y`, and `y` (the front) becomes `z`. `x` changes its
+/// sign, so that orientation is preserved.
 fn turned(v: &V3) -> [f32; 3] {
     [-v.x as f32, v.z as f32, v.y as f32]
 }
 
-/// Header and the two chunks, each padded to four bytes: JSON with blanks, numbers with zeros.
+/// Joins the header and the two chunks, each padded to four bytes: JSON with blanks, numbers with zeros.
 fn container(mut description: Vec<u8>, mut numbers: Vec<u8>) -> Vec<u8> {
     description.resize(description.len().next_multiple_of(4), b' ');
     numbers.resize(numbers.len().next_multiple_of(4), 0);

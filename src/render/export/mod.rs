@@ -1,7 +1,7 @@
-//! Meshes as files that other programs open: glTF, OBJ, PLY, STL.
+//! Export of meshes to files of other programs: glTF, OBJ, PLY, STL.
 //!
-//! Lengths are metres. OBJ, PLY and STL keep our axes (`x` to the subject's right, `y` to the front, `z` up); glTF has its
-//! own (`y` up, the subject faces `z`).
+//! Lengths are in metres. OBJ, PLY and STL have the axes of Toile (`x` to the subject's right, `y` to the front, `z`
+//! up). glTF has its own (`y` up, the subject faces `z`).
 
 mod glb;
 mod text;
@@ -10,7 +10,7 @@ use geom::{TriMesh, V2};
 
 use super::Rgb;
 
-/// A mesh with what is known of its vertices.
+/// A mesh with data at its vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part<'a> {
     /// Name of the object (`body`, `garment`).
@@ -19,9 +19,9 @@ pub struct Part<'a> {
     pub mesh: &'a TriMesh,
     /// Colour of each vertex.
     pub colours: Vec<Rgb>,
-    /// Place of each vertex in its pattern piece, m: the texture coordinates.
+    /// Place of each vertex in its pattern piece, m; these are the texture coordinates.
     pub places: Option<&'a [V2]>,
-    /// Name of a map and its value at each vertex.
+    /// Name of a map, and its value at each vertex.
     pub values: Option<(&'a str, &'a [f64])>,
 }
 
@@ -39,7 +39,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The mesh file.
+    /// Encodes a mesh file.
     #[must_use]
     pub fn write(self, parts: &[Part<'_>]) -> Vec<u8> {
         match self {

@@ -1,10 +1,10 @@
-//! OBJ, PLY and STL.
+//! Export to OBJ, PLY and STL.
 
 use std::fmt::Write;
 
 use super::{Part, Rgb};
 
-/// Wavefront OBJ: positions and colours of the vertices, texture coordinates where a part has places.
+/// Encodes Wavefront OBJ: positions and colours of the vertices, and texture coordinates where a part has places.
 pub(super) fn obj(parts: &[Part<'_>]) -> String {
     let mut file = "# metres; x to the subject's right, y to the front, z up\n".to_owned();
     let (mut vertices, mut places) = (1, 1);
@@ -31,7 +31,7 @@ pub(super) fn obj(parts: &[Part<'_>]) -> String {
     file
 }
 
-/// Stanford PLY, binary little-endian.
+/// Encodes Stanford PLY, binary little-endian.
 pub(super) fn ply(parts: &[Part<'_>]) -> Vec<u8> {
     let vertices: usize = parts.iter().map(|part| part.mesh.positions.len()).sum();
     let faces: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
@@ -67,7 +67,7 @@ pub(super) fn ply(parts: &[Part<'_>]) -> Vec<u8> {
     file
 }
 
-/// Binary STL, each triangle with its colour.
+/// Encodes binary STL, each triangle with its colour.
 pub(super) fn stl(parts: &[Part<'_>]) -> Vec<u8> {
     let faces: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
     let mut file = vec![0; 80];
@@ -91,9 +91,9 @@ pub(super) fn stl(parts: &[Part<'_>]) -> Vec<u8> {
     file
 }
 
-/// Colour of a triangle as STL has it in VisCAM, MeshLab and others: the mean of its corners in five bits each, blue
-/// lowest, and the highest bit to say that there is one.
+/// Colour of a triangle in the STL variant of VisCAM, MeshLab and others: the mean of its corners in five bits each,
+/// blue lowest. The highest bit marks that there is a colour.
 fn face_colour(corners: [Rgb; 3]) -> u16 {
-    let mean = |of: fn(&Rgb) -> u8| corners.iter().map(|colour| u16::from(of(colour))).sum::<u16>() / 3;
+    let mean = |channel: fn(&Rgb) -> u8| corners.iter().map(|colour| u16::from(channel(colour))).sum::<u16>() / 3;
     1 << 15 | (mean(|c| c.0) >> 3) << 10 | (mean(|c| c.1) >> 3) << 5 | mean(|c| c.2) >> 3
 }

@@ -1,4 +1,4 @@
-//! A sheet to draw charts on: the few marks they are made of, in a fixed type size.
+//! A canvas for charts, with a few kinds of marks and a fixed type size.
 //!
 //! Units are half CSS pixels, so that whole numbers place marks finely enough.
 
@@ -17,7 +17,7 @@ pub(super) const TYPE: i32 = 27;
 /// Height of one row of a chart by rows.
 pub(super) const ROW: i32 = 58;
 
-/// How text sits at its point.
+/// Alignment of text at its point.
 #[derive(Clone, Copy)]
 pub(super) enum Align {
     Left,
@@ -25,7 +25,7 @@ pub(super) enum Align {
     Right,
 }
 
-/// A sheet; its drawing ends up in the string it was made with.
+/// A canvas that draws into a string.
 pub(super) struct Canvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
 }
@@ -34,7 +34,7 @@ fn colour(rgb: Rgb) -> RGBColor {
     RGBColor(rgb.0, rgb.1, rgb.2)
 }
 
-/// Draws an SVG of the given height.
+/// Draws an SVG of a height.
 pub(super) fn draw(
     height: i32,
     paint: impl FnOnce(&Canvas<'_>) -> Result<(), ReportError>,
@@ -50,7 +50,7 @@ pub(super) fn draw(
     Ok(svg)
 }
 
-/// Gives plotters the embedded font to measure text with.
+/// Registers the embedded font, with which plotters measures text.
 fn load_fonts() -> Result<(), ReportError> {
     static LOADED: OnceLock<bool> = OnceLock::new();
     let load = || {
@@ -69,7 +69,7 @@ fn refused<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -
 }
 
 impl Canvas<'_> {
-    /// Text; `bold` for headings.
+    /// Draws text; `bold` is for headings.
     pub fn text(&self, at: (i32, i32), text: &str, ink: Rgb, align: Align, bold: bool) -> Result<(), ReportError> {
         let anchor = match align {
             Align::Left => HPos::Left,
@@ -77,7 +77,7 @@ impl Canvas<'_> {
             Align::Right => HPos::Right,
         };
         let style = if bold { FontStyle::Bold } else { FontStyle::Normal };
-        // plotters divides the size it is given by 1.24 in SVG.
+        // In SVG plotters divides the given size by 1.24.
         let ink = colour(ink);
         let style = ("sans-serif", f64::from(TYPE) * 1.24, style).into_text_style(&self.area);
         let style = style.color(&ink).pos(Pos::new(anchor, VPos::Center));
@@ -90,22 +90,22 @@ impl Canvas<'_> {
         self.area.estimate_text_size(text, &style).map_or(TYPE * text.chars().count() as i32, |(width, _)| width as i32)
     }
 
-    /// Filled rectangle between two corners.
+    /// Draws a filled rectangle between two corners.
     pub fn bar(&self, from: (i32, i32), to: (i32, i32), fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Rectangle::new([from, to], colour(fill).filled())).map_err(refused)
     }
 
-    /// Polygon filled with one colour, without an outline.
+    /// Draws a filled polygon without an outline.
     pub fn area(&self, corners: Vec<(i32, i32)>, fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Polygon::new(corners, colour(fill).filled())).map_err(refused)
     }
 
-    /// Line through points.
+    /// Draws a line through points.
     pub fn line(&self, points: Vec<(i32, i32)>, ink: Rgb, width: u32) -> Result<(), ReportError> {
         self.area.draw(&PathElement::new(points, colour(ink).stroke_width(width))).map_err(refused)
     }
 
-    /// The mark of the `series`-th series: shape and colour both tell it from the others; hollow where `hollow`.
+    /// Draws the mark of a series, which differs from others in shape and colour.
     pub fn mark(&self, (x, y): (i32, i32), series: usize, hollow: bool) -> Result<(), ReportError> {
         let ink = colour(theme::SUBJECTS[series % theme::SUBJECTS.len()]);
         let fill = if hollow { colour(theme::PAPER).filled() } else { ink.filled() };
@@ -124,12 +124,12 @@ impl Canvas<'_> {
         self.area.draw(&PathElement::new(outline, ink.stroke_width(4))).map_err(refused)
     }
 
-    /// A filled dot.
+    /// Draws a filled dot.
     pub fn dot(&self, at: (i32, i32), fill: Rgb) -> Result<(), ReportError> {
         self.area.draw(&Circle::new(at, 12, colour(fill).filled())).map_err(refused)
     }
 
-    /// A key above a chart: marks and names in lines; returns the height it took.
+    /// Draws a key above a chart, marks and names in lines, and returns its height.
     pub fn key(&self, names: &[String], left: i32, top: i32) -> Result<i32, ReportError> {
         let (mut x, mut y) = (left, top + TYPE);
         for (series, name) in names.iter().enumerate() {
@@ -145,7 +145,7 @@ impl Canvas<'_> {
     }
 }
 
-/// A horizontal axis: values to places.
+/// A horizontal axis: the mapping of values to coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     pub low: f64,
@@ -155,13 +155,13 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// The place of a value, kept inside the axis.
+    /// Coordinate of a value, clamped to the axis.
     pub fn at(&self, value: f64) -> i32 {
         let t = ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
         self.left + (t * f64::from(self.right - self.left)).round() as i32
     }
 
-    /// Round values, at most about eight, and the decimals they need.
+    /// Round values for ticks, about eight at most, and the number of decimals that they need.
     pub fn ticks(&self) -> (Vec<f64>, usize) {
         let span = self.high - self.low;
         let rough = span / 8.0;
@@ -173,7 +173,7 @@ impl Axis {
         ((first..=last).map(|k| k as f64 * step).collect(), decimals)
     }
 
-    /// Draws grid lines and their values below.
+    /// Draws grid lines, with their values below.
     pub fn grid(&self, canvas: &Canvas<'_>, top: i32, bottom: i32) -> Result<(), ReportError> {
         let (ticks, decimals) = self.ticks();
         for tick in ticks {

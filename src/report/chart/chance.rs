@@ -1,4 +1,4 @@
-//! What the ease of each size probably is at each level, beside what is meant.
+//! Chart of the probable ease of each size at each level, beside its target.
 
 use super::super::text::number;
 use super::super::{ReportError, theme};
@@ -8,26 +8,26 @@ use geom::units::mm;
 
 const LEFT: i32 = 330;
 const TOP: i32 = 110;
-/// Where the shares are written.
+/// Width of the column for the probabilities.
 const SHARES: i32 = 150;
 
-/// A level of a size.
+/// Distribution of the ease of a size at a level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probable {
     /// Name of the size, such as `M`.
     pub size: String,
     /// Level, in words.
     pub level: String,
-    /// Least and greatest ease that is meant, m.
+    /// Lower and upper end of the target for the ease, m.
     pub target_m: Option<[f64; 2]>,
-    /// Lower end, middle and upper end of the 80 % interval of the ease, m.
+    /// Lower end, median and upper end of the 80 % interval of the ease, m.
     pub ease_m: [f64; 3],
-    /// Probability that it is as meant.
+    /// Probability that the ease is within its target.
     pub share: Option<f64>,
 }
 
-/// A row for each level, in it a line for each size: a bar for what is meant, a line for the 80 % interval, a mark at its middle, and the
-/// probability that it is as meant.
+/// Draws a row for each level, and in it a line for each size. It has a bar for the target, a line for the 80 %
+/// interval, a mark at its median, and the probability of the target.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -56,8 +56,8 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
         }
         axis.grid(canvas, TOP, bottom)?;
         for row in rows {
-            let at = |names: &[String], name: &str| names.iter().position(|one| one == name).unwrap_or(0);
-            let (series, level) = (at(&sizes, &row.size), at(&levels, &row.level));
+            let place = |names: &[String], name: &str| names.iter().position(|known| known == name).unwrap_or(0);
+            let (series, level) = (place(&sizes, &row.size), place(&levels, &row.level));
             let step = height / sizes.len().max(1) as i32;
             let y = TOP + height * level as i32 + step * series as i32 + step / 2;
             let ink = theme::SUBJECTS[series % theme::SUBJECTS.len()];
@@ -81,12 +81,12 @@ fn words(row: &Probable) -> String {
     format!("{} {} {low} to {high} mm", row.size, row.level)
 }
 
-/// Names in the order in which they first come.
-fn names(rows: &[Probable], of: impl Fn(&Probable) -> &String) -> Vec<String> {
+/// Distinct names, in the order of their first appearance.
+fn names(rows: &[Probable], name: impl Fn(&Probable) -> &String) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for row in rows {
-        if !found.contains(of(row)) {
-            found.push(of(row).clone());
+        if !found.contains(name(row)) {
+            found.push(name(row).clone());
         }
     }
     found

@@ -1,4 +1,4 @@
-//! chi by measurement: every run as a mark, or mean and standard deviation over the runs.
+//! Charts of chi by measurement: every run as a mark, or mean and standard deviation over the runs.
 
 use super::super::data::{Measured, TryOn, measurements};
 use super::super::{ReportError, theme};
@@ -7,7 +7,7 @@ use super::{Chart, row_label};
 
 const LEFT: i32 = 520;
 
-/// An axis that holds 1, a little to both sides of it, and all values.
+/// An axis that contains a range around 1 and all values.
 fn axis(values: impl Iterator<Item = f64>) -> Axis {
     let ends = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
     let (low, high) = values.filter(|v| v.is_finite()).fold((0.98, 1.02), ends);
@@ -15,7 +15,7 @@ fn axis(values: impl Iterator<Item = f64>) -> Axis {
     Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - 50 }
 }
 
-/// Rows, grid, names and the line at 1, which both charts share.
+/// Draws the frame of both charts: rows, grid, names and the line at 1.
 fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i32) -> Result<(), ReportError> {
     let bottom = top + row * rows.len() as i32;
     for (k, m) in (0..).zip(rows) {
@@ -31,9 +31,9 @@ fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i3
     canvas.text(((LEFT + WIDTH) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
 }
 
-/// Every run's chi by measurement, the line at 1, and published values as hollow marks where there are any.
+/// Draws chi of every run by measurement, the line at 1, and published values as hollow marks.
 ///
-/// Runs that failed have no marks. The order of `runs` gives the marks; `labels` names them.
+/// Failed runs have no marks. The order of `runs` determines the marks, and `labels` names them.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -49,7 +49,7 @@ pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Char
         for (k, m) in (0..).zip(&rows) {
             for (series, run) in runs.iter().enumerate() {
                 let Some(measured) = run.measurement(m.chi.no) else { continue };
-                // Series sit a little above each other, so that equal values do not hide one another.
+                // Series are offset vertically, so that equal values do not hide each other.
                 let spread = (row - 26) as f64 * ((series as f64 + 0.5) / runs.len() as f64 - 0.5);
                 let y = top + row * k + row / 2 + spread.round() as i32;
                 if let Some(published) = measured.published_chi {
@@ -65,7 +65,7 @@ pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Char
     Ok(Chart::new("chi", title, svg, alt))
 }
 
-/// Mean chi by measurement as a bar from 1, with whiskers of one sample standard deviation over the runs.
+/// Draws the mean of chi by measurement as a bar from 1, with whiskers of one sample standard deviation over the runs.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -83,8 +83,8 @@ pub fn mean_sd_chart(title: &str, runs: &[&TryOn]) -> Result<Chart, ReportError>
         frame(canvas, &axis, &rows, top, ROW)?;
         for (k, (mean, sd)) in (0..).zip(&statistics) {
             let y = top + ROW * k + ROW / 2;
-            let (one, end) = (axis.at(1.0), axis.at(*mean));
-            canvas.bar((one.min(end), y - 13), (one.max(end).max(one.min(end) + 2), y + 13), fill)?;
+            let (base, end) = (axis.at(1.0), axis.at(*mean));
+            canvas.bar((base.min(end), y - 13), (base.max(end).max(base.min(end) + 2), y + 13), fill)?;
             let (low, high) = (axis.at(mean - sd), axis.at(mean + sd));
             canvas.line(vec![(low, y), (high, y)], theme::INK, 4)?;
             for x in [low, high] {

@@ -1,4 +1,4 @@
-//! EI of FEM-GS less EI of Hybrid-GS: means with their intervals by row, and every case against ease.
+//! Charts of EI of FEM-GS less EI of Hybrid-GS: means with intervals by row, and every case against ease.
 
 use super::super::text::{number, signed};
 use super::super::{ReportError, theme};
@@ -9,23 +9,23 @@ use fit::{Crossover, Cuts, MARGIN, Pair};
 const LEFT: i32 = 560;
 const UNDER: i32 = 3 * TYPE + 30;
 
-/// A mean difference under a name.
+/// A mean difference with a name.
 pub struct Difference {
-    /// What it is of.
+    /// Name of the row.
     pub label: String,
     /// Mean over subjects.
     pub mean: f64,
-    /// Its interval, where there is one.
+    /// Its confidence interval, if there is one.
     pub interval: Option<(f64, f64)>,
 }
 
-/// Reach of an axis that holds all values and the margin, the same to both sides of 0.
+/// Half range of an axis around 0 that contains all values and the margin.
 fn reach(values: impl Iterator<Item = f64>) -> f64 {
     1.08 * values.filter(|v| v.is_finite()).fold(1.3 * MARGIN, |most, v| most.max(v.abs()))
 }
 
-/// A row for each difference: a dot with its interval, the margin as a band about 0, and where `whole` is given a line
-/// there. The chart's kind names its file.
+/// Draws a row for each difference: a dot with its interval, the margin of equivalence as a band around 0, and a line
+/// at `whole`. `kind` becomes part of the name of the file.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -66,19 +66,27 @@ pub fn difference_chart(
     Ok(Chart::new(kind, title, svg, format!("{title}: EI difference of {}.", said.join(", "))))
 }
 
-/// Which end of the axis belongs to which simulator.
+/// Labels the ends of the axis with the simulator that they favour.
 fn sides(canvas: &Canvas<'_>, (left, right): (i32, i32), y: i32) -> Result<(), ReportError> {
     canvas.text((left, y), "← FEM-GS truer", theme::MUTED, Align::Left, false)?;
     canvas.text((right, y), "Hybrid-GS truer →", theme::MUTED, Align::Right, false)
 }
 
-/// Colour of the simulator that a difference speaks for.
+/// Colour of the simulator that a difference favours.
 fn side(difference: f64) -> render::Rgb {
     theme::simulator(if difference < 0.0 { fit::Simulator::Fem } else { fit::Simulator::Hybrid })
 }
 
-/// Every case's EI difference against its ease, the line through them, and the band in which it crosses 0 where one can be
-/// told; `None` without cases.
+/// A case in the chart of the crossover.
+struct Dot {
+    ease_mm: f64,
+    /// EI of FEM-GS less EI of Hybrid-GS.
+    difference: f64,
+    garment: String,
+}
+
+/// Draws the EI difference of every case against its ease, and the regression line. A band shows the interval in which
+/// the line crosses 0, if it is known. `None` without cases.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -88,20 +96,22 @@ pub fn crossover_chart(
     crossover: Option<&Crossover>,
     cuts: &Cuts,
 ) -> Result<Option<Chart>, ReportError> {
-    let of = |pair: &&&Pair| Some((pair.ease_m * 1e3, pair.d_ei(|_| true)?, pair.garment.clone()));
-    let dots: Vec<(f64, f64, String)> = pairs.iter().filter_map(|pair| of(&pair)).collect();
+    let dot = |pair: &&Pair| {
+        Some(Dot { ease_mm: pair.ease_m * 1e3, difference: pair.d_ei(|_| true)?, garment: pair.garment.clone() })
+    };
+    let dots: Vec<Dot> = pairs.iter().filter_map(dot).collect();
     if dots.is_empty() {
         return Ok(None);
     }
     let lines = [(cuts.tight_below_m * 1e3, "tight | just"), (cuts.loose_above_m * 1e3, "just | loose")];
-    let eases = || dots.iter().map(|dot| dot.0).chain(lines.map(|line| line.0));
+    let eases = || dots.iter().map(|dot| dot.ease_mm).chain(lines.map(|line| line.0));
     let (low, high) = (eases().fold(f64::INFINITY, f64::min), eases().fold(f64::NEG_INFINITY, f64::max));
     let margin = 0.06 * (high - low);
     let (top, bottom) = (190, 740);
     let across = Axis { low: low - margin, high: high + margin, left: 190, right: WIDTH - 50 };
-    let reach = reach(dots.iter().map(|dot| dot.1));
+    let reach = reach(dots.iter().map(|dot| dot.difference));
     let up = Axis { low: -reach, high: reach, left: bottom, right: top };
-    let garments = super::super::text::distinct(dots.iter().map(|dot| dot.2.as_str()));
+    let garments = super::super::text::distinct(dots.iter().map(|dot| dot.garment.as_str()));
     let names: Vec<String> = garments.iter().map(|name| (*name).to_owned()).collect();
     let svg = draw(bottom + UNDER, |canvas| {
         canvas.key(&names, 20, 10)?;
@@ -128,12 +138,12 @@ pub fn crossover_chart(
             canvas.text((across.at(x), top - 20), name, theme::MUTED, Align::Middle, false)?;
         }
         if let Some(found) = crossover {
-            let at = |ease_m: f64| (across.at(ease_m * 1e3), up.at(found.at_zero + found.slope_per_m * ease_m));
-            canvas.line(vec![at(found.range_m.0), at(found.range_m.1)], theme::MUTED, 4)?;
+            let point = |ease_m: f64| (across.at(ease_m * 1e3), up.at(found.at_zero + found.slope_per_m * ease_m));
+            canvas.line(vec![point(found.range_m.0), point(found.range_m.1)], theme::MUTED, 4)?;
         }
-        for (ease, difference, garment) in &dots {
+        for Dot { ease_mm, difference, garment } in &dots {
             let series = garments.iter().position(|name| name == garment).unwrap_or_default();
-            canvas.mark((across.at(*ease), up.at(*difference)), series, false)?;
+            canvas.mark((across.at(*ease_mm), up.at(*difference)), series, false)?;
         }
         let caption = "ease, mm   (left: tight, right: loose); EI of FEM-GS less EI of Hybrid-GS upwards";
         canvas.text(

@@ -1,4 +1,4 @@
-//! E, SD or EI by run, the two simulators of a subject beside each other.
+//! Chart of E, SD or EI by run, with the two simulators of a subject side by side.
 
 use super::super::data::TryOn;
 use super::super::text::simulator_name;
@@ -12,7 +12,7 @@ const TOP: i32 = 70;
 const BAR: i32 = 38;
 const GAP: i32 = ROW - BAR;
 
-/// A summary of a run's measurements.
+/// A summary statistic of the measurements of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
     /// E: mean chi.
@@ -24,10 +24,10 @@ pub enum Metric {
 }
 
 impl Metric {
-    /// All, in the order of the thesis.
+    /// All statistics, in the order of the thesis.
     pub const ALL: [Self; 3] = [Self::E, Self::Sd, Self::Ei];
 
-    /// Its name in tables.
+    /// Name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -37,7 +37,8 @@ impl Metric {
         }
     }
 
-    fn of(self, run: &TryOn) -> Option<f64> {
+    /// Value of the statistic for a run; `None` without measurements.
+    fn value(self, run: &TryOn) -> Option<f64> {
         let metrics = run.metrics(|_| true)?;
         Some(match self {
             Self::E => metrics.e_chi,
@@ -47,7 +48,7 @@ impl Metric {
         .filter(|value| value.is_finite())
     }
 
-    /// What a drape true to its pattern has: where bars begin.
+    /// Value for a drape that agrees with its pattern, at which bars begin.
     fn base(self) -> f64 {
         if self == Self::E { 1.0 } else { 0.0 }
     }
@@ -60,7 +61,7 @@ impl Metric {
         }
     }
 
-    /// An axis that holds the base and all values: to both sides of 1, or from 0 up.
+    /// An axis that contains the base and all values: symmetric about 1, or from 0.
     fn axis(self, values: impl Iterator<Item = f64>) -> Axis {
         let most = values.map(|value| (value - self.base()).abs()).fold(0.01, f64::max);
         let (low, high) = if self == Self::E { (1.0 - 1.25 * most, 1.0 + 1.25 * most) } else { (0.0, 1.12 * most) };
@@ -68,9 +69,9 @@ impl Metric {
     }
 }
 
-/// One bar a run, in the colour of its simulator and with its value; runs of one label share a row group.
+/// Draws one bar for each run, in the colour of its simulator and with its value.
 ///
-/// `labels` names what the runs are of (subject, fabric); runs with the same label stand together.
+/// `labels` names subject and fabric of the runs. Runs with the same label stand together.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -82,7 +83,7 @@ pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[Stri
             None => groups.push((label, vec![run])),
         }
     }
-    let values = || runs.iter().filter_map(|run| metric.of(run));
+    let values = || runs.iter().filter_map(|run| metric.value(run));
     let axis = metric.axis(values());
     let height = |members: usize| BAR * members as i32 + GAP;
     let bottom = TOP + groups.iter().map(|(_, members)| height(members.len())).sum::<i32>();
@@ -110,10 +111,10 @@ pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[Stri
     Ok(Chart::new(&name.to_lowercase(), title, svg, alt))
 }
 
-/// The bar of a run from the base to its value, which stands beyond its end.
+/// Draws the bar of a run from the base to its value, with the number beyond its end.
 fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32) -> Result<(), ReportError> {
     let (base, middle) = (axis.at(metric.base()), upper + BAR / 2);
-    let Some(value) = metric.of(run) else {
+    let Some(value) = metric.value(run) else {
         return canvas.text((LEFT + 14, middle), "failed", theme::MUTED, Align::Left, false);
     };
     let end = axis.at(value);
@@ -123,7 +124,7 @@ fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32
     canvas.text((x, middle), &format!("{value:.3}"), theme::INK, align, false)
 }
 
-/// Colours of the simulators that ran.
+/// Draws the key to the colours of the simulators.
 fn key(canvas: &Canvas<'_>, runs: &[&TryOn]) -> Result<(), ReportError> {
     let mut x = LEFT;
     for simulator in Simulator::ALL {

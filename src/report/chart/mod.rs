@@ -1,4 +1,4 @@
-//! Charts: drawn by plotters as SVG with text as text, and as PNG from the same drawing.
+//! Charts, drawn with plotters as SVG in which text stays text, and rasterised as PNG.
 
 mod canvas;
 mod chance;
@@ -24,7 +24,7 @@ use super::{ReportError, theme};
 use image::imageops;
 use render::{RenderError, png, rasterise_svg};
 
-/// Longest side of a chart that is shrunk to a picture, pixels.
+/// Longest side of a chart that is reduced for a PNG file, pixels.
 const PNG_SIDE: f32 = 8000.0;
 
 /// A drawn chart.
@@ -36,35 +36,35 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// A chart of a kind (`chi`) under a title.
+    /// Makes a chart of a kind (`chi`) with a title.
     fn new(kind: &str, title: &str, svg: String, alt: String) -> Self {
         Self { name: file_part(&format!("{title} {kind}").to_lowercase()), svg, alt }
     }
 
-    /// Takes a name that no other chart of the report has.
+    /// Gives the chart a name that no other chart of the report has.
     pub(super) fn name_among(&mut self, names: &mut FileNames) {
         self.name = names.part(&self.name);
     }
 
-    /// Where a report keeps the chart as a file of an extension, relative to its page.
+    /// Path of the chart in a report as a file with an extension, relative to its page.
     #[must_use]
     pub fn address(&self, extension: &str) -> String {
         format!("charts/{}.{extension}", self.name)
     }
 
-    /// The chart as an SVG file.
+    /// Returns the chart as an SVG file.
     #[must_use]
     pub fn svg(&self) -> &str {
         &self.svg
     }
 
-    /// What the chart shows, in words.
+    /// Alternative text of the chart.
     #[must_use]
     pub fn alt(&self) -> &str {
         &self.alt
     }
 
-    /// The chart as a PNG file on white, with the embedded font; smaller than drawn where that would be no picture.
+    /// Encodes the chart as a PNG file on white, with the embedded font. A chart too large for a picture is reduced.
     ///
     /// # Errors
     /// [`ReportError::Picture`] where the drawing cannot be rasterised.
@@ -81,7 +81,7 @@ impl Chart {
         Ok(png(&picture)?)
     }
 
-    /// The SVG element for the page: neutral colours follow the reader's scheme, the size follows the column.
+    /// SVG element for the page. Its neutral colours follow the scheme of the reader, and its size that of the column.
     pub(super) fn inline(&self) -> String {
         let alt = super::text::escape(&self.alt);
         let mut svg =
@@ -101,7 +101,7 @@ fn shorten(text: &str, most: usize) -> String {
     text.chars().take(most - 1).chain(['…']).collect()
 }
 
-/// Where one column of measurements stands in a chart: names on the left, one row each.
+/// Label of a row for a measurement.
 fn row_label(no: u32, name: &str) -> String {
     format!("#{no} {}", shorten(name, 30))
 }

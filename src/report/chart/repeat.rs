@@ -1,6 +1,6 @@
-//! How far repeated simulations of one case lie apart, measurement by measurement.
+//! Chart of the range of chi over repeated simulations of a case, by measurement.
 
-use super::super::repeats::Repeats;
+use super::super::spread::Repeats;
 use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, ROW, TYPE, WIDTH, draw};
@@ -9,11 +9,11 @@ use fit::Simulator;
 
 const LEFT: i32 = 560;
 const TOP: i32 = 80;
-/// Least reach of the axis, in chi: what is smaller is nothing.
+/// Least range of the axis, in chi. Smaller differences do not matter.
 const LEAST: f64 = 1e-4;
 
-/// A row for each measurement of a garment: for each simulator a dot at the mean spread of chi over its cases, and a line to
-/// the greatest.
+/// Draws a row for each measurement of a garment. For each simulator it has a dot at the mean range of chi over its
+/// cases, and a line to the greatest.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -23,8 +23,8 @@ pub(crate) fn repeat_chart(title: &str, cases: &[&Repeats]) -> Result<Chart, Rep
     rows.sort_unstable();
     rows.dedup_by_key(|row| row.0);
     let spreads = |no: u32, simulator: Simulator| -> Vec<f64> {
-        let of = cases.iter().filter(|case| case.simulator == simulator).flat_map(|case| &case.spreads);
-        of.filter(|spread| spread.no == no).map(|spread| spread.chi).collect()
+        let own = cases.iter().filter(|case| case.simulator == simulator).flat_map(|case| &case.spreads);
+        own.filter(|spread| spread.no == no).map(|spread| spread.chi).collect()
     };
     let most = cases.iter().flat_map(|case| &case.spreads).map(|spread| spread.chi).fold(0.0, f64::max);
     let axis = Axis { low: 0.0, high: 1.08 * most.max(LEAST), left: LEFT, right: WIDTH - 60 };

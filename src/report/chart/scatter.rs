@@ -1,4 +1,4 @@
-//! EI of every run against a number of the run: ease, time.
+//! Scatter charts of EI of every run against its ease, and against its time.
 
 use super::super::data::TryOn;
 use super::super::text::simulator_name;
@@ -11,7 +11,7 @@ use fit::Simulator;
 const LEFT: i32 = 170;
 const TOP: i32 = 120;
 const BOTTOM: i32 = 620;
-/// Runs that still have room for their names beside their dots.
+/// Greatest number of runs whose names are written beside their dots.
 const NAMED: usize = 18;
 
 /// A run as a dot.
@@ -22,7 +22,8 @@ struct Dot {
     name: String,
 }
 
-/// EI against the ease that decides the fit, the cuts between the fit classes as lines; `None` where no run has both.
+/// Draws EI against the ease that decides the fit, with lines at the limits of the fit classes; `None` if no run has
+/// both.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -33,7 +34,7 @@ pub fn ease_chart(runs: &[TryOn], cuts: &Cuts) -> Result<Option<Chart>, ReportEr
     scatter("EI against ease", "ease", "ease, mm   (left: tight, right: loose)", &dots, &ends, &lines)
 }
 
-/// EI against wall-clock time; `None` where no run has both.
+/// Draws EI against wall-clock time; `None` if no run has both.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -50,7 +51,8 @@ fn dots(runs: &[TryOn], x: impl Fn(&TryOn) -> Option<f64>) -> Vec<Dot> {
     runs.iter().filter_map(dot).filter(|dot| dot.x.is_finite() && dot.ei.is_finite()).collect()
 }
 
-/// The chart: a dot a run in its simulator's colour, `lines` across with their names, an axis that holds `ends` too.
+/// Draws a dot for each run in the colour of its simulator, and vertical `lines` with their names. The axis contains
+/// `ends` too.
 fn scatter(
     title: &str,
     kind: &str,
@@ -89,7 +91,7 @@ fn scatter(
     Ok(Some(Chart::new(kind, "ei against", svg, alt)))
 }
 
-/// Names beside the dots, each moved up until it covers no other.
+/// Writes names beside the dots, each moved up until it covers no other.
 fn names(canvas: &Canvas<'_>, dots: &[Dot], across: &Axis, up: &Axis) -> Result<(), ReportError> {
     let mut taken: Vec<(i32, i32, i32)> = Vec::new();
     for dot in dots {
@@ -105,7 +107,7 @@ fn names(canvas: &Canvas<'_>, dots: &[Dot], across: &Axis, up: &Axis) -> Result<
     Ok(())
 }
 
-/// Colours of the simulators that ran.
+/// Draws the key to the colours of the simulators.
 fn key(canvas: &Canvas<'_>, dots: &[Dot]) -> Result<(), ReportError> {
     let mut x = LEFT;
     for simulator in [Simulator::Fem, Simulator::Hybrid].into_iter().filter(|s| dots.iter().any(|d| d.simulator == *s))
@@ -118,7 +120,7 @@ fn key(canvas: &Canvas<'_>, dots: &[Dot]) -> Result<(), ReportError> {
     Ok(())
 }
 
-/// Grid and values of the upward axis, caption.
+/// Draws grid and values of the vertical axis, and the caption.
 fn frame(canvas: &Canvas<'_>, up: &Axis, across: &Axis, caption: &str) -> Result<(), ReportError> {
     let (ticks, decimals) = up.ticks();
     for tick in ticks {

@@ -1,4 +1,4 @@
-//! Cross sections: the body and the cloth of all sizes over each other, and the gap round it.
+//! Chart of cross sections: the body with the cloth of several sizes, and the gap around it.
 
 use super::super::text::number;
 use super::super::{ReportError, theme};
@@ -9,30 +9,31 @@ use geom::V2;
 use geom::units::mm;
 use render::Rgb;
 
-/// Directions of the curves.
+/// Number of directions of the curves.
 const FINE: usize = 120;
-/// Sectors whose greatest gaps are written beside the section.
+/// Number of sectors whose greatest gaps are written beside the section.
 const WRITTEN: usize = 8;
-/// How far from the cloth.
+/// Distance of the numbers from the cloth.
 const WRITTEN_OFF: f64 = 34.0;
-/// The square in which the section is drawn, and where the curves begin.
+/// Left and right side of the square in which the section is drawn.
 const SQUARE: (i32, i32) = (40, 700);
+/// Left end of the curves.
 const CURVES_LEFT: i32 = 880;
-/// Where the key begins.
+/// Left end of the key.
 const KEY_LEFT: i32 = 790;
 
 /// A size in a section.
 #[derive(Clone, Debug)]
 pub struct Worn<'a> {
-    /// Its name in the key.
+    /// Name in the key.
     pub label: String,
-    /// Whether its gaps are written beside the section: of the size to wear.
+    /// True if its gaps are written beside the section, as for the recommended size.
     pub is_written: bool,
-    /// Body and cloth.
+    /// Outlines of body and cloth.
     pub section: &'a Section,
 }
 
-/// Sizes of one garment on one body, cut at one level.
+/// Draws sizes of one garment on one body, cut at one level.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -60,7 +61,7 @@ fn colour(series: usize) -> Rgb {
     theme::SUBJECTS[series % theme::SUBJECTS.len()]
 }
 
-/// Least, mean and greatest gap.
+/// Mean, least and greatest gap in words.
 fn gaps_in_words(section: &Section) -> String {
     let gaps: Vec<f64> = section.gaps(DIRECTIONS).into_iter().filter_map(|angle| angle.gap_m).map(mm).collect();
     let (Some(least), Some(greatest)) = (gaps.iter().copied().reduce(f64::min), gaps.iter().copied().reduce(f64::max))
@@ -71,18 +72,19 @@ fn gaps_in_words(section: &Section) -> String {
     format!("gap {} mm on average, from {} to {}", number(mean, 0), number(least, 0), number(greatest, 0))
 }
 
-/// The direction with the greatest gap in each sector, those round the front, the back and the sides among them.
+/// Direction with the greatest gap in each sector. Sectors are centred at the front, the back and the sides, and
+/// between them.
 fn greatest(section: &Section) -> Vec<Angle> {
-    let of_sector = |angle: &Angle| (angle.deg * WRITTEN as f64 / 360.0).round() as usize % WRITTEN;
+    let sector_of = |angle: &Angle| (angle.deg * WRITTEN as f64 / 360.0).round() as usize % WRITTEN;
     let angles = section.gaps(FINE);
     let sectors = (0..WRITTEN).filter_map(|sector| {
-        let own = angles.iter().filter(|angle| of_sector(angle) == sector && angle.gap_m.is_some());
+        let own = angles.iter().filter(|angle| sector_of(angle) == sector && angle.gap_m.is_some());
         own.copied().max_by(|a, b| a.gap_m.unwrap_or(f64::MIN).total_cmp(&b.gap_m.unwrap_or(f64::MIN)))
     });
     sectors.collect()
 }
 
-/// The section from above, the front upwards.
+/// Draws the section from above, the front upwards.
 fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportError> {
     let Some(first) = sizes.first() else { return Ok(()) };
     let centre = first.section.centre;
@@ -90,21 +92,21 @@ fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportE
     let reach = angles().map(|angle| angle.skin_m + angle.gap_m.unwrap_or(0.0)).fold(0.05, f64::max);
     let half = f64::from(SQUARE.1 - SQUARE.0) / 2.0;
     let (scale, middle) = (0.86 * half / reach, (f64::from(SQUARE.0) + half, f64::from(top) + half));
-    let at = |p: &V2| {
+    let place = |p: &V2| {
         let away = (p - centre) * scale;
         ((middle.0 + away.x).round() as i32, (middle.1 - away.y).round() as i32)
     };
     let is_within = |p: &V2| ((p - centre) * scale).amax() < half;
     for limb in first.section.others.iter().chain([&first.section.skin]) {
         if limb.points.iter().all(is_within) {
-            canvas.area(limb.points.iter().map(at).collect(), theme::GRID)?;
+            canvas.area(limb.points.iter().map(place).collect(), theme::GRID)?;
         }
     }
     for (series, size) in sizes.iter().enumerate() {
-        for one in &size.section.cloth {
-            let ring: Vec<&V2> = one.points.iter().chain(one.points.first().filter(|_| one.closed)).collect();
+        for line in &size.section.cloth {
+            let ring: Vec<&V2> = line.points.iter().chain(line.points.first().filter(|_| line.closed)).collect();
             for run in ring.split(|p| !is_within(p)).filter(|run| run.len() > 1) {
-                canvas.line(run.iter().map(|p| at(p)).collect(), colour(series), 4)?;
+                canvas.line(run.iter().map(|p| place(p)).collect(), colour(series), 4)?;
             }
         }
     }
@@ -113,7 +115,7 @@ fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportE
             let Some(gap_m) = angle.gap_m else { continue };
             let (sin, cos) = angle.deg.to_radians().sin_cos();
             let away = V2::new(sin, cos) * (angle.skin_m + gap_m.max(0.0) + WRITTEN_OFF / scale);
-            canvas.text(at(&(centre + away)), &number(mm(gap_m), 0), theme::INK, Align::Middle, true)?;
+            canvas.text(place(&(centre + away)), &number(mm(gap_m), 0), theme::INK, Align::Middle, true)?;
         }
     }
     let (left, low) = (SQUARE.0, top + SQUARE.1 - SQUARE.0);
@@ -124,7 +126,7 @@ fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportE
     canvas.text((SQUARE.1, low - 12 - TYPE), "100 mm", theme::MUTED, Align::Right, false)
 }
 
-/// The gap round the body, from the front over the subject's right.
+/// Draws the gap around the body, from the front over the subject's right.
 fn curves(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32, bottom: i32) -> Result<(), ReportError> {
     let rounds: Vec<Vec<(f64, Option<f64>)>> = sizes
         .iter()

@@ -1,4 +1,4 @@
-//! Drapes to turn in the page: what `viewer.js` draws, as JSON.
+//! Data of the three-dimensional viewer of drapes, as JSON for `viewer.js`.
 
 mod pack;
 
@@ -11,20 +11,20 @@ use geom::units::mm;
 use render::Scale;
 use serde::Serialize;
 
-/// The script, which asks nothing of the network.
+/// The script. It makes no network requests.
 pub(super) const SCRIPT: &str = include_str!("viewer.js");
 /// Its style sheet.
 pub(super) const STYLE: &str = include_str!("viewer.css");
 /// Its element in the page, hidden until the script can draw.
 pub(super) const FRAGMENT: &str = include_str!("viewer.html");
 
-/// Colours of a ramp.
+/// Number of colours of a scale.
 const COLOURS: usize = 13;
 
-/// All drapes of a page, their bodies, and what is shown on them.
+/// All drapes of a page, with their bodies, maps and measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drapes {
-    /// Unit vector out of the chest.
+    /// Unit vector to the front.
     front: [f64; 3],
     meshes: Vec<PackedMesh>,
     bodies: Vec<PackedBody>,
@@ -57,7 +57,7 @@ struct PackedDrape {
     size: String,
     subject: String,
     simulator: String,
-    /// Whether it is of the size to wear.
+    /// True for the recommended size.
     wear: bool,
     mesh: usize,
     positions: String,
@@ -91,19 +91,19 @@ struct LevelMark {
     height_mm: f64,
 }
 
-/// A drape as it is handed in: of the sewn cloth.
+/// A drape of the sewn cloth, as input.
 pub struct Drape<'a> {
     /// Garment, size, subject and simulator.
     pub names: [&'a str; 4],
-    /// Whether it is of the size to wear.
+    /// True for the recommended size.
     pub is_to_wear: bool,
-    /// Places of the sewn vertices, m.
+    /// Positions of the sewn vertices, m.
     pub positions: &'a [V3],
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: &'a [[usize; 3]],
-    /// Values of the vertices by the name of their map, with its scale.
+    /// Maps: name, scale, and the values at the vertices.
     pub maps: Vec<(&'static str, Scale, Vec<f64>)>,
-    /// Measurements: name, words, points along each stretch, m.
+    /// Measurements: name, text, and points along the line, m.
     pub lines: Vec<(String, String, Vec<V3>)>,
 }
 
@@ -122,19 +122,20 @@ impl Default for Drapes {
 }
 
 impl Drapes {
-    /// Whether there is nothing to show.
+    /// True if there is no drape.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.drapes.is_empty()
     }
 
-    /// Whether a subject's body is there.
+    /// True if the body of a subject was added.
     #[must_use]
     pub fn has_body(&self, subject: &str) -> bool {
         self.bodies.iter().any(|body| body.subject == subject)
     }
 
-    /// Adds a body with its levels, by name their heights above the floor in metres; nothing where its mesh is too large for a page.
+    /// Adds a body with its levels, given by name and height above the floor, m. It adds nothing if the mesh is too
+    /// large for a page.
     pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<(String, f64)>) {
         let Some((mesh, topology)) = self.mesh(triangles) else { return };
         let (origin_mm, positions) = topology.places(positions);
@@ -143,7 +144,7 @@ impl Drapes {
         self.levels.insert(subject.to_owned(), levels.into_iter().map(mark).collect());
     }
 
-    /// Adds a drape; nothing where its mesh is too large for a page.
+    /// Adds a drape; nothing if its mesh is too large for a page.
     pub fn add(&mut self, drape: &Drape<'_>) {
         let Some((mesh, topology)) = self.mesh(drape.triangles) else { return };
         let (origin_mm, positions) = topology.places(drape.positions);
@@ -177,7 +178,7 @@ impl Drapes {
         });
     }
 
-    /// The mesh of some triangles, which drapes of one size share.
+    /// Index and topology of the mesh of some triangles. Drapes of one size share it.
     fn mesh(&mut self, triangles: &[[usize; 3]]) -> Option<(usize, Topology)> {
         let topology = Topology::of(triangles)?;
         let number = self.known.iter().position(|known| *known == topology).unwrap_or_else(|| {
@@ -189,10 +190,9 @@ impl Drapes {
         Some((number, topology))
     }
 
-    /// As JSON that may stand within a script element of a page.
+    /// JSON that is safe within a script element of a page.
     ///
-    /// # Errors
-    /// What serde says of a number that is none.
+    /// When a number cannot be written.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
         Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
     }

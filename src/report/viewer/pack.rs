@@ -1,6 +1,7 @@
-//! Meshes as few bytes: vertices in the order in which triangles use them, places predicted from the triangle before.
+//! Compression of meshes: vertices are numbered in the order in which triangles use them, and their positions are
+//! predicted from the triangle before.
 //!
-//! `viewer.js` unpacks what is packed here; the two are each other's description.
+//! `viewer.js` unpacks the data, and each of the two files documents the other.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Write;
@@ -11,20 +12,21 @@ use flate2::write::DeflateEncoder;
 use geom::V3;
 use geom::units::mm;
 
-/// Step of packed places, mm.
+/// Quantisation step of positions, mm.
 pub const STEP_MM: f64 = 0.25;
 
-/// Triangles in an order in which each lies beside an earlier one, their vertices numbered by first use.
+/// Triangles in an order in which each is adjacent to an earlier one where possible. Their vertices are numbered by
+/// first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
-    /// Triangles in that order, by the new numbers of their vertices.
+    /// Triangles in that order, with the new numbers of their vertices.
     triangles: Vec<[usize; 3]>,
-    /// The vertices' numbers in the mesh that they are of.
+    /// Indices of the vertices in the original mesh.
     pub vertices: Vec<usize>,
 }
 
 impl Topology {
-    /// Of some triangles; `None` where there are more vertices than two bytes can number.
+    /// Orders some triangles; `None` if there are more vertices than 16 bits can number.
     #[must_use]
     pub fn of(triangles: &[[usize; 3]]) -> Option<Self> {
         let mut beside: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
@@ -51,13 +53,13 @@ impl Topology {
         (vertices.len() <= usize::from(u16::MAX)).then_some(Self { triangles: ordered, vertices })
     }
 
-    /// How many triangles.
+    /// Number of triangles.
     #[must_use]
     pub fn count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The triangles, packed: how far each number lies below the next new one.
+    /// Packs the triangles: for each vertex the next new number less its number.
     #[must_use]
     pub fn packed(&self) -> String {
         let mut next = 0;
@@ -69,32 +71,32 @@ impl Topology {
         deflated(&planes(&codes))
     }
 
-    /// The places of the vertices, packed, with their least corner, mm.
+    /// Packs the positions of the vertices. Returns the lowest corner of their box, mm, and the packed positions.
     #[must_use]
     pub fn places(&self, positions: &[V3]) -> ([f64; 3], String) {
         let own: Vec<V3> = self.vertices.iter().map(|v| positions[*v]).collect();
         let grid = Grid::of(&own);
-        let at: Vec<[i32; 3]> = own.iter().map(|p| grid.steps(p)).collect();
+        let steps: Vec<[i32; 3]> = own.iter().map(|p| grid.steps(p)).collect();
         let mut codes: [Vec<u16>; 3] = Default::default();
         for (vertex, predicted) in self.predictions().into_iter().enumerate() {
             let guess = match predicted {
                 Prediction::Origin => [0; 3],
-                Prediction::Before => at[vertex - 1],
-                Prediction::Across([a, b, o]) => [0, 1, 2].map(|k| at[a][k] + at[b][k] - at[o][k]),
+                Prediction::Before => steps[vertex - 1],
+                Prediction::Across([a, b, o]) => [0, 1, 2].map(|k| steps[a][k] + steps[b][k] - steps[o][k]),
             };
-            (0..3).for_each(|k| codes[k].push(zigzag(at[vertex][k] - guess[k])));
+            (0..3).for_each(|k| codes[k].push(zigzag(steps[vertex][k] - guess[k])));
         }
         (grid.origin_mm, deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>()))
     }
 
-    /// Values of the vertices as one byte each, 0 at the low end of a scale and 255 at its high end.
+    /// Packs values of the vertices as one byte each, 0 at the low end of a scale and 255 at its high end.
     #[must_use]
     pub fn values(&self, values: &[f64], low: f64, high: f64) -> String {
         let byte = |v: &usize| (255.0 * (values[*v] - low) / (high - low)).round().clamp(0.0, 255.0) as u8;
         deflated(&self.vertices.iter().map(byte).collect::<Vec<u8>>())
     }
 
-    /// From what each vertex's place is told.
+    /// Predictors of the positions of the vertices.
     fn predictions(&self) -> Vec<Prediction> {
         let mut found = Vec::with_capacity(self.vertices.len());
         let mut opposite: BTreeMap<[usize; 2], usize> = BTreeMap::new();
@@ -120,18 +122,18 @@ impl Topology {
     }
 }
 
-/// From what a vertex's place is told.
+/// Predictor of the position of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Prediction {
-    /// The first vertex.
+    /// The origin, for the first vertex.
     Origin,
-    /// The vertex numbered one less.
+    /// The vertex with the number before.
     Before,
-    /// Two vertices of its triangle, and the one across their edge: a parallelogram.
+    /// The parallelogram of two vertices of its triangle, and the one opposite their common edge.
     Across([usize; 3]),
 }
 
-/// Points along a line on the grid of some vertices, packed as steps from each to the next.
+/// Packs points along a line on the grid of some vertices, as steps from each to the next.
 #[must_use]
 pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     let grid = Grid { origin_mm };
@@ -145,13 +147,13 @@ pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>())
 }
 
-/// A grid of steps from a corner.
+/// Quantisation grid from a corner.
 struct Grid {
     origin_mm: [f64; 3],
 }
 
 impl Grid {
-    /// From the least corner of some points, on a whole millimetre.
+    /// Grid from the lowest corner of some points, on a whole millimetre.
     fn of(points: &[V3]) -> Self {
         let low = points.iter().copied().reduce(|low, p| low.inf(&p)).unwrap_or_default();
         Self { origin_mm: [low.x, low.y, low.z].map(|at| mm(at).floor()) }
@@ -162,7 +164,7 @@ impl Grid {
     }
 }
 
-/// The sides of a triangle, each by its lesser number first.
+/// Sides of a triangle, each with the smaller number first.
 fn sides(triangle: &[usize; 3]) -> [[usize; 2]; 3] {
     [0, 1, 2].map(|k| {
         let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
@@ -170,22 +172,22 @@ fn sides(triangle: &[usize; 3]) -> [[usize; 2]; 3] {
     })
 }
 
-/// 0, -1, 1, -2 ... as 0, 1, 2, 3 ...; what does not fit into two bytes ends at their limit.
+/// Zigzag code: 0, -1, 1, -2 ... become 0, 1, 2, 3 ... Steps that do not fit into 16 bits are clamped.
 fn zigzag(step: i32) -> u16 {
     let step = step.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
     ((step << 1) ^ (step >> 31)) as u16
 }
 
-/// The low bytes of all numbers, then their high bytes.
+/// Byte planes: the low bytes of all numbers, then their high bytes.
 fn planes(codes: &[u16]) -> Vec<u8> {
-    let bytes = |at: usize| codes.iter().map(move |code| code.to_le_bytes()[at]);
+    let bytes = |place: usize| codes.iter().map(move |code| code.to_le_bytes()[place]);
     bytes(0).chain(bytes(1)).collect()
 }
 
-/// Deflated, as base 64.
+/// Deflates bytes, and encodes them in base 64.
 fn deflated(bytes: &[u8]) -> String {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
-    // A vector takes all that is written to it.
+    // Writing to a vector cannot fail.
     let packed = encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default();
     base64::engine::general_purpose::STANDARD.encode(packed)
 }
@@ -214,13 +216,13 @@ mod tests {
     /// A bent sheet of quads.
     fn sheet() -> (Vec<V3>, Vec<[usize; 3]>) {
         let side = 40;
-        let at = |k: usize| {
+        let place = |k: usize| {
             let (x, z) = ((k % side) as f64 * 0.015, (k / side) as f64 * 0.015);
             V3::new(x - 0.3, 0.1 * (6.0 * x).sin() + 0.05 * z, 0.9 + z)
         };
         let quad = |k: usize| [[k, k + 1, k + side + 1], [k, k + side + 1, k + side]];
         let triangles = (0..side * (side - 1)).filter(|k| k % side + 1 < side).flat_map(quad).collect();
-        ((0..side * side).map(at).collect(), triangles)
+        ((0..side * side).map(place).collect(), triangles)
     }
 
     #[test]

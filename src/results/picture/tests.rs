@@ -7,7 +7,7 @@ use body::{self, Dimension, Measurements, Sex};
 use geom::{DistanceField, V2, V3};
 use pattern::Style;
 use pattern::draft::Model;
-use sim::cloth::membrane::Element;
+use sim::cloth::element::Element;
 use sim::{Silent, fabric, fem, hybrid};
 
 /// One square of the check, m, and in repeats.

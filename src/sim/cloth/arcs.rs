@@ -1,12 +1,16 @@
-//! Arcs: what the sides of triangles are longer by than their chords where cloth curves.
+//! Arcs: the sides of triangles taken as arcs, which are longer than their chords where the cloth curves.
 //!
-//! A triangle of constant strain on a cylinder shortens each side to its chord, by the fourth power of the side's share along the
-//! bend; the three shortenings do not add up to a strain that a motion in the plane takes back, and at the stiffness of cloth in its
-//! plane that outweighs bending: folds of few edges lock. So strains are taken of arcs, whose squared length is
-//! `|x_b - x_a|^2 + q / (1 + q / q_max)` with `q = |k|^2 / 12` and the curvature along the side `k = d^T k_ab d`, `d` the side at rest.
-//! The curvature tensor at a side is the quadratic that fits, by least squares, how far the vertices about its ends lie from the planes
-//! of its triangles, with a little of the tensor of their hinges [Onate & Zarate 2000] where these do not tell. It is linear in the
-//! positions, and so is `k`: ten weights a side or so, known once the cloth is cut.
+//! A constant-strain triangle on a cylinder has chords for its sides. Each squared side is shorter than that of the arc
+//! by the fourth power of its component along the bend. The three shortenings of a triangle add up to a strain that no
+//! motion in the plane removes. At the membrane stiffness of cloth it outweighs bending, and folds of few edges lock
+//! (membrane locking). So strains are computed from arcs, whose squared length is `|x_b - x_a|^2 + q / (1 + q / q_max)`
+//! with `q = |k|^2 / 12`. `k = d^T k_ab d` is the curvature along the side times its squared length, m, with the side
+//! `d` at rest.
+//!
+//! The curvature tensor at a side is a least-squares fit of a quadratic. It fits the offsets of the vertices around the
+//! ends of the side from the planes of its triangles. The tensor of the hinges [Onate & Zarate 2000] takes part with a
+//! small weight, which determines the fit where the vertices do not. The tensor is linear in the positions, and so is
+//! `k`. There are about ten weights to a side, constant once the cloth is cut.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,50 +21,51 @@ use linalg::stencil::Stencils;
 
 geom::constants! {
     "cloth.arcs",
-    /// Weight of the hinges' tensor beside that of a vertex.
+    /// Weight of the curvature tensor of the hinges in the fit; that of a vertex is 1.
     const HINGES: f64 = 0.02;
-    /// Greatest excess of a squared arc over a share of the squared side: crumpled folds would grow without limit.
+    /// Greatest excess of a squared arc as a share of the squared side at rest. Without a bound, crumpled folds would
+    /// grow without limit.
     const MOST: f64 = 0.1;
 }
 
-/// The sides of a membrane's triangles as arcs, in the order of its pairs.
+/// Arcs of the sides of the triangles of a membrane, in the order of its pairs.
 #[derive(Clone, Debug, Default)]
 pub struct Arcs {
-    /// What the curvature along each side is told by: `k = sum weight_j x_j`, m.
+    /// Weights of the vertices in the curvature along each side, `k = sum weight_j x_j`, m.
     pub stencils: Stencils,
-    /// Bound on the excess of the squared arc, m2.
+    /// Bound `q_max` on the excess of the squared arc, m2.
     pub most: Vec<f64>,
 }
 
-/// The arcs of cloth somewhere.
+/// Arcs at some positions of the cloth.
 #[derive(Clone, Debug, Default)]
 pub struct Bent {
-    /// By how much squared arcs exceed squared chords, m2.
+    /// Excess `c(q) = q / (1 + q / q_max)` of squared arcs over squared chords, m2.
     pub excess: Vec<f64>,
-    /// Half of the excess grows by this times the change of the curvature along the side, m.
+    /// Derivative of half of the excess by the curvature `k` along the side, m.
     pub slopes: Vec<V3>,
-    /// `dc/dq / 6`.
+    /// `dc/dq / 6`, without unit.
     pub rates: Vec<f64>,
 }
 
-/// A triangle of cloth at rest.
+/// A triangle of cloth at rest, with its neighbours.
 #[derive(Clone, Copy, Debug)]
 pub struct Laid {
     /// Its corners among the vertices.
     pub vertices: [usize; 3],
     /// Its corners in (weft, warp), m.
     pub rest: [V2; 3],
-    /// Triangle and side across each of its sides.
+    /// Index of the triangle across each side, and the number of the common side in it.
     pub across: [Option<[usize; 2]>; 3],
 }
 
 impl Laid {
-    /// The vertices at the ends of a side.
+    /// Vertices at the ends of a side.
     fn ends(&self, side: usize) -> [usize; 2] {
         [self.vertices[side], self.vertices[(side + 1) % 3]]
     }
 
-    /// Its sides by the numbers of their ends: in the same order whichever way round it is.
+    /// Its sides in the order of the indices of their ends. A mirrored triangle has the same order.
     fn sides(&self) -> [usize; 3] {
         let mut order = [0, 1, 2];
         order.sort_unstable_by_key(|&side| {
@@ -72,7 +77,7 @@ impl Laid {
 }
 
 impl Arcs {
-    /// Weights of the curvature along each of the `pairs`, which are the sides of the triangles.
+    /// Computes the arcs of `pairs`, which are the sides of the triangles.
     #[must_use]
     pub fn new(laid: &[Laid], plates: &[Plate], hinges: &[Hinge], pairs: &PairList, vertices: usize) -> Self {
         let count = pairs.pairs().len();
@@ -86,9 +91,9 @@ impl Arcs {
                 }
             }
         }
-        // Where more than two triangles meet, the mean of what they tell.
-        let mean = |sides: &Vec<Side>, of: &dyn Fn(&Side) -> f64| {
-            sides.iter().map(of).sum::<f64>() / sides.len().max(1) as f64
+        // Where more than two triangles meet, the mean over them.
+        let mean = |sides: &Vec<Side>, value: &dyn Fn(&Side) -> f64| {
+            sides.iter().map(value).sum::<f64>() / sides.len().max(1) as f64
         };
         let most = found.iter().map(|sides| mean(sides, &|side| MOST * side.along().norm_squared())).collect();
         let weights = |sides: &Vec<Side>| {
@@ -102,7 +107,8 @@ impl Arcs {
         Self { stencils: Stencils::new(&rows, vertices), most }
     }
 
-    /// Those of a part with `pairs` of its own, whose vertices the cloth calls `vertices`, and which calls the cloth's by `name`.
+    /// Arcs of a part of the cloth with `pairs` of its own. `vertices` are the vertices of the part in the cloth, and
+    /// `name` gives the index in the part of a vertex of the cloth.
     #[must_use]
     pub fn part(&self, all: &PairList, pairs: &PairList, vertices: &[usize], name: impl Fn(usize) -> usize) -> Self {
         let side = |&[i, j]: &[usize; 2]| all.slot(vertices[i], vertices[j]).expect("a side of the whole");
@@ -118,12 +124,12 @@ impl Arcs {
         }
     }
 
-    /// The vertices and weights of a side.
+    /// Vertices of a side with their weights.
     pub fn of(&self, side: usize) -> impl Iterator<Item = (usize, f64)> {
         self.stencils.row(side)
     }
 
-    /// The arcs of cloth at `x`.
+    /// Arcs of the cloth at `x`.
     #[must_use]
     pub fn bent(&self, x: &[V3]) -> Bent {
         let mut bent = Bent::default();
@@ -139,14 +145,15 @@ impl Arcs {
         bent
     }
 
-    /// Half of what a displacement adds to the squared arcs' excess in first order, m2.
+    /// Half of the first-order change of the excess of the squared arcs along a displacement, m2.
     #[must_use]
     pub fn changes(&self, bent: &Bent, d: &[V3]) -> Vec<f64> {
         let change = |(side, slope): (usize, &V3)| slope.dot(&self.stencils.sum(side, d));
         bent.slopes.iter().enumerate().map(change).collect()
     }
 
-    /// Adds the forces of energies that grow by `tensions` (N/m) with half of the squared arcs.
+    /// Adds the forces (N) of the excess of the arcs, where `tensions` (N/m) are the derivatives of the energy by half
+    /// of each squared arc.
     pub fn add_forces(&self, bent: &Bent, tensions: &[f64], forces: &mut [V3]) {
         for (side, (slope, tension)) in bent.slopes.iter().zip(tensions).enumerate() {
             let pull = slope * *tension;
@@ -157,7 +164,7 @@ impl Arcs {
     }
 }
 
-/// A side of a triangle, with all the triangles.
+/// A side of a triangle in a mesh.
 #[derive(Clone, Copy)]
 struct Side<'a> {
     laid: &'a [Laid],
@@ -174,7 +181,7 @@ impl Side<'_> {
         rest[(self.side + 1) % 3] - rest[self.side]
     }
 
-    /// Its triangles in the plane of the first.
+    /// Its triangles, unfolded into the plane of the first.
     fn triangles(&self) -> Vec<(usize, [V2; 3])> {
         let first = &self.laid[self.t];
         let ends = [first.rest[self.side], first.rest[(self.side + 1) % 3]];
@@ -182,19 +189,19 @@ impl Side<'_> {
         [Some((self.t, first.rest)), other].into_iter().flatten().collect()
     }
 
-    /// What each vertex has of the curvature along the side, m2 of each metre.
+    /// Weights of the vertices in the curvature along the side, without unit. A vertex may appear more than once.
     fn weights(&self) -> Vec<(usize, f64)> {
         let triangles = self.triangles();
         let regular = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)) * (HINGES / triangles.len() as f64);
         let mut normal = Matrix3::zeros();
         let mut terms: Vec<(usize, Vector3<f64>)> = Vec::new();
         for (t, rest) in triangles {
-            // Corners by their numbers, and what lies about them: a mirrored garment has the mirrored weights to the bit.
+            // Corners in the order of their indices: a mirrored garment has the mirrored weights to the bit.
             let mut order = [0, 1, 2];
             order.sort_unstable_by_key(|&k| self.laid[t].vertices[k]);
             let (vertices, corners) = (order.map(|k| self.laid[t].vertices[k]), order.map(|k| rest[k]));
             for (v, p) in self.around(t, rest) {
-                let (row, lambda) = departure(corners, p);
+                let Departure { row, weights: lambda } = departure(corners, p);
                 normal += row * row.transpose();
                 let term = row / (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
                 terms.push((v, term));
@@ -204,8 +211,8 @@ impl Side<'_> {
             let order = self.laid[t].sides();
             for (side, tensor) in order.into_iter().zip(self.plates[t].curvature_tensor(order)) {
                 let Some(hinge) = self.plates[t].hinges[side].map(|h| &self.hinges[h]) else { continue };
-                let of = regular * tensor;
-                terms.extend(hinge.vertices.into_iter().zip(hinge.coefficients).map(|(v, c)| (v, of * c)));
+                let weighted = regular * tensor;
+                terms.extend(hinge.vertices.into_iter().zip(hinge.coefficients).map(|(v, c)| (v, weighted * c)));
             }
         }
         let d = self.along();
@@ -214,15 +221,16 @@ impl Side<'_> {
         terms.into_iter().map(|(v, term)| (v, along.dot(&term))).collect()
     }
 
-    /// The vertices about the side's ends that are not a triangle's own, ascending, unfolded into its plane.
+    /// Vertices of the triangles around the ends of the side, except the corners of triangle `t`, in ascending order.
+    /// Each has its place when the cloth is unfolded into the plane of `t`.
     fn around(&self, t: usize, rest: [V2; 3]) -> Vec<(usize, V2)> {
         let ends = self.laid[self.t].ends(self.side);
         let mut placed = vec![(t, rest)];
         let mut found: Vec<(usize, V2)> = Vec::new();
-        let mut at = 0;
-        while at < placed.len() {
-            let (from, rest) = placed[at];
-            at += 1;
+        let mut next_placed = 0;
+        while next_placed < placed.len() {
+            let (from, rest) = placed[next_placed];
+            next_placed += 1;
             for side in self.laid[from].sides() {
                 let Some([next, back]) = self.laid[from].across[side] else { continue };
                 let touches = self.laid[next].vertices.iter().any(|v| ends.contains(v));
@@ -243,9 +251,16 @@ impl Side<'_> {
     }
 }
 
-/// How far a point departs from the plane of three corners by each component of the curvature tensor, over twice their area, and the
-/// corners' shares in what lies in that plane there.
-fn departure(corners: [V2; 3], p: V2) -> (Vector3<f64>, [f64; 3]) {
+/// Offset of a point of a quadratic surface from the plane through three points of that surface.
+struct Departure {
+    /// Offset for a unit of each component `k11, k22, k12` of the curvature tensor, over twice the area of the corners.
+    row: Vector3<f64>,
+    /// Barycentric weights of the corners at the point.
+    weights: [f64; 3],
+}
+
+/// Departure of the point `p` from the plane of three corners.
+fn departure(corners: [V2; 3], p: V2) -> Departure {
     let half = |p: V2| Vector3::new(0.5 * p.x * p.x, 0.5 * p.y * p.y, p.x * p.y);
     let twice = (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
     let shares = [0, 1, 2].map(|k| {
@@ -253,10 +268,10 @@ fn departure(corners: [V2; 3], p: V2) -> (Vector3<f64>, [f64; 3]) {
         (b - p).perp(&(c - p)) / twice
     });
     let flat: Vector3<f64> = (0..3).map(|k| half(corners[k]) * shares[k]).sum();
-    ((half(p) - flat) / twice, shares)
+    Departure { row: (half(p) - flat) / twice, weights: shares }
 }
 
-/// A triangle laid beside a side from `a` to `b`, along which its own side `back` runs the other way.
+/// Lays a triangle beside the side from `a` to `b`, which its own side `back` traverses in the opposite direction.
 fn unfolded([a, b]: [V2; 2], rest: [V2; 3], back: usize) -> [V2; 3] {
     let (from, to) = (rest[back], rest[(back + 1) % 3]);
     if (from, to) == (b, a) {
@@ -307,7 +322,7 @@ mod tests {
                 let known = form[0] * d.x * d.x + form[1] * d.y * d.y + 2.0 * form[2] * d.x * d.y;
                 let found = arcs.stencils.sum(side, &positions);
                 assert!(found.xy().norm() < 1e-12, "{found}");
-                // Hinges share curvature out by area, and have a little weight.
+                // The hinges weight curvature by area, and take part in the fit with a small weight.
                 if inside(&garment.rest[a]) && inside(&garment.rest[b]) {
                     assert!((found.z - known).abs() < 0.02 * EDGE * EDGE, "{} for {known}", found.z);
                 }
@@ -377,7 +392,7 @@ mod tests {
         };
         check(&|p| V3::new(p.x, p.y, 0.0), 0.999);
         check(&|p| V3::new(1.01 * p.x, 1.01 * p.y, 0.0), 0.999);
-        // Chords are drawn in a bent sheet, and that alone is stiff.
+        // Chords are under tension in a bent sheet, and that alone makes it stiff.
         check(&on_cylinder(6.0 * EDGE), 0.2);
     }
 

@@ -1,7 +1,8 @@
-//! Strengthened edges: ribs, tapes, hems and waistbands as threads along the edges of the mesh.
+//! Reinforced edges: ribs, tapes, hems and waistbands, as elastic threads along edges of the mesh.
 //!
-//! Between two neighbouring vertices `L` apart in the pattern a band of length `L' = factor L` holds the energy
-//! `k/2 (l/L' - 1)^2 L'`, `l` their distance. In the stiffness a slack band keeps no sideways part, which would be negative.
+//! Between two neighbouring vertices at a distance `L` in the pattern a band has the rest length `L' = factor L`. Its
+//! energy is `k/2 (l/L' - 1)^2 L'`, J, with the present distance `l` and the stiffness `k` in N. The stiffness matrix
+//! of a slack band has no transverse part, since that would be negative.
 
 use nalgebra::Matrix3;
 use wide::f32x4;
@@ -13,19 +14,19 @@ use linalg::PairList;
 use linalg::quad::{self, Block};
 use pattern::Garment;
 
-/// A band between two simulated vertices.
+/// Segment of a band between two simulated vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
-    /// Its ends; they share a triangle.
+    /// Ends of the segment; they share a triangle.
     pub vertices: [usize; 2],
-    /// Length at which it pulls nothing, m.
+    /// Rest length `L'`, m.
     pub length_m: f64,
-    /// Force per relative elongation, N.
+    /// Stiffness `k`: force per relative elongation, N.
     pub stiffness_n: f64,
 }
 
 impl Link {
-    /// Tension (N) and unit direction from the first end to the second.
+    /// Tension (N), and unit direction from the first end to the second.
     fn pull(&self, x: &[V3]) -> (f64, V3) {
         let d = x[self.vertices[1]] - x[self.vertices[0]];
         let length = d.norm();
@@ -40,7 +41,8 @@ pub struct Bands {
 }
 
 impl Bands {
-    /// The bands of a garment whose vertices are merged as `vertex_of` says and whose edges are drawn together by `gathers`.
+    /// Collects the bands of a garment whose vertices are merged as `vertex_of` says. `gathers` gives the rest lengths
+    /// of gathered edges.
     #[must_use]
     pub fn new(garment: &Garment, gathers: &Gathers, vertex_of: &[usize]) -> Self {
         let mut links = Vec::new();
@@ -58,7 +60,7 @@ impl Bands {
         Self { links }
     }
 
-    /// Those of which one end may move in a part.
+    /// Bands of a part of the cloth: those with an end that may move.
     #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let renamed = |link: &Link| Some(Link { vertices: part.names(link.vertices)?, ..*link });
@@ -68,8 +70,9 @@ impl Bands {
     /// Elastic energy of the bands at `x`, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        let of = |link: &Link| 0.5 * link.pull(x).0.powi(2) / link.stiffness_n.max(f64::MIN_POSITIVE) * link.length_m;
-        self.links.iter().map(of).sum()
+        let energy_j =
+            |link: &Link| 0.5 * link.pull(x).0.powi(2) / link.stiffness_n.max(f64::MIN_POSITIVE) * link.length_m;
+        self.links.iter().map(energy_j).sum()
     }
 
     /// Adds the forces of the bands at `x`, N.
@@ -81,8 +84,10 @@ impl Bands {
         }
     }
 
-    /// Adds the forces (N) that would bring the tensions at `end` to those that a linear solve at `x` foresaw there, and the
-    /// off-diagonal stiffness blocks of stretching alone to those of the membrane, whose pairs the links are among.
+    /// Assembles the second-order correction of a step from `x` to `end`, as
+    /// [`Membrane::assemble_towards`](super::membrane::Membrane::assemble_towards) does. It adds the forces (N) of the
+    /// tensions at `end` in excess of those that a linear solve at `x` predicts there. To the stiffness blocks of the
+    /// membrane it adds the axial stiffness; the ends of each link are among its pairs.
     pub fn assemble_towards(
         &self,
         x: &[V3],
@@ -104,7 +109,8 @@ impl Bands {
         }
     }
 
-    /// Adds the off-diagonal stiffness blocks (N/m) to those of the membrane, whose pairs the links are among.
+    /// Adds the off-diagonal stiffness (N/m) to the blocks of the membrane, among whose pairs are the ends of each
+    /// link.
     pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Block<f32x4>]) {
         for link in &self.links {
             let [i, j] = link.vertices;
@@ -128,7 +134,7 @@ mod tests {
     use crate::testing::{check_forces, fabric};
     use pattern::garment::{Band, Reinforcement};
 
-    /// A sheet of 3 x 3 squares whose lower edge carries a rib of nine tenths its length.
+    /// A sheet of 3 x 3 squares whose lower edge carries a rib of nine tenths of its length.
     fn ribbed() -> (Garment, Vec<V3>) {
         let mut garment = laboratory::garment(sheets::sheet(3, 3, 0.02));
         let rib = Reinforcement { band: Band::Rib, stiffness_n: 25.0, length_factor: 0.9, vertices: vec![0, 1, 2, 3] };

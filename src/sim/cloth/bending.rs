@@ -1,19 +1,21 @@
-//! Bending of a thin plate on triangles, quadratic in the positions: for nearly inextensible cloth the stiffness is constant
-//! and assembled once.
+//! Bending of a thin plate on triangles. The energy is quadratic in the positions: for nearly inextensible cloth the
+//! stiffness is constant, and is assembled once.
 //!
 //! Each edge with a triangle on either side is a hinge. `J = sum K0_i x_i` with the cotangents of [Bergou 2006], `K0 =
-//! (c03+c04, c01+c02, -c01-c03, -c02-c04)`, is the jump of the normal derivative across the edge times its length, and
-//! `J / (A0+A1)` its curvature. Those of a triangle's three edges make its curvature tensor, `k = sum J_e / (A0+A1)_e
-//! n_e n_e^T` with the edge normals `n_e` [Onate & Zarate 2000], and that the energy of a plate, `A/2 (B1 k11^2 + B2
-//! k22^2 + 2 sqrt(B1 B2) k12^2)`, 1 along the weft and 2 along the warp, without coupling between them and with the
-//! twist of [Huber 1923]. So a narrow strip and a wide plate are as stiff as the measured strip, whatever way the
-//! triangles lie. Hinges that know nothing of each other make a plate of Poisson ratio 1/3 instead, whose strips are an
-//! eighth too soft. At a free edge of the cloth the curvature is the one of least energy: no moment acts there.
+//! (c03+c04, c01+c02, -c01-c03, -c02-c04)`, is the jump of the normal derivative across the edge times its length. `J /
+//! (A0+A1)` is the curvature across the edge, 1/m. The three edges of a triangle give its curvature tensor, `k = sum
+//! J_e / (A0+A1)_e n_e n_e^T` with the edge normals `n_e` [Onate & Zarate 2000]. The energy is that of an orthotropic
+//! plate, `A/2 (B1 k11^2 + B2 k22^2 + 2 sqrt(B1 B2) k12^2)`, J. 1 is the weft and 2 the warp; there is no coupling
+//! between them, and the twist is that of [Huber 1923].
 //!
-//! Hinges run on across sewn seams: each side uses its own rest triangle and grain.
+//! So a narrow strip and a wide plate are as stiff as the measured strip, whatever the orientation of the triangles.
+//! Independent hinges would make a plate of Poisson ratio 1/3 instead, whose strips are softer by an eighth. At a free
+//! edge of the cloth the curvature is the one of least energy, since no moment acts there.
 //!
-//! Linear solves take hinges that know nothing of each other ([`Tangent`]): half of the couplings, and half of those lie
-//! along sides of triangles, which stretching couples anyway. The direction of a step need not be more exact.
+//! Hinges continue across sewn seams: each side uses its own rest triangle and grain.
+//!
+//! Linear solves take independent hinges instead ([`Tangent`]). They have half of the couplings, and half of those lie
+//! along sides of triangles, which the membrane couples anyway. The direction of a step need not be more exact.
 
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
@@ -23,16 +25,16 @@ use linalg::PairList;
 use linalg::quad::{self, Block};
 use linalg::rows::sorted_by_row;
 
-/// One interior edge with its two triangles.
+/// An interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
-    /// The edge's ends, then the vertex opposite in either triangle.
+    /// Ends of the edge, then the opposite vertex of each triangle.
     pub vertices: [usize; 4],
-    /// `K0 / (A0 + A1)`: curvature across the edge is `sum coefficients_i x_i`, 1/m2.
+    /// `K0 / (A0 + A1)`, 1/m2: the curvature across the edge is `sum coefficients_i x_i`, 1/m.
     pub coefficients: [f64; 4],
 }
 
-/// A rest triangle as a hinge sees it: the edge first, then the opposite corner.
+/// A rest triangle at a hinge: the edge first, then the opposite corner.
 #[derive(Clone, Copy, Debug)]
 pub struct Flap {
     /// Rest corners: edge start, edge end, opposite.
@@ -41,7 +43,8 @@ pub struct Flap {
 
 impl Flap {
     fn area(&self) -> f64 {
-        // From the corner that neither end is: the same bits whichever way the edge runs.
+        // Taken from the corner opposite the edge, so that the result has the same bits for either direction of the
+        // edge.
         let [a, b, c] = self.rest;
         0.5 * (a - c).perp(&(b - c)).abs()
     }
@@ -49,13 +52,13 @@ impl Flap {
     /// Cotangents of the interior angles at the edge's start and end.
     fn cotangents(&self) -> [f64; 2] {
         let [a, b, c] = self.rest;
-        let cot = |at: V2, to: V2| (to - at).dot(&(c - at)) / (to - at).perp(&(c - at)).abs();
+        let cot = |end: V2, other: V2| (other - end).dot(&(c - end)) / (other - end).perp(&(c - end)).abs();
         [cot(a, b), cot(b, a)]
     }
 }
 
 impl Hinge {
-    /// A hinge between two flaps that share the edge `vertices[0] vertices[1]`.
+    /// Makes a hinge between two flaps that share the edge `vertices[0] vertices[1]`.
     #[must_use]
     pub fn new(vertices: [usize; 4], flaps: [Flap; 2]) -> Self {
         let [[c01, c03], [c02, c04]] = flaps.map(|f| f.cotangents());
@@ -73,13 +76,13 @@ pub struct Plate {
     pub rigidities_nm: [f64; 2],
     /// Unit normals of the sides in (weft, warp).
     pub normals: [V2; 3],
-    /// The hinge on each side; `None` at a free edge.
+    /// Index of the hinge on each side; `None` at a free edge.
     pub hinges: [Option<usize>; 3],
 }
 
 impl Plate {
-    /// Quadratic form of the curvatures across the sides: energy per area is `k^T G k / 2`, N m. Curvature across a free
-    /// edge has been eliminated.
+    /// Quadratic form `G` of the curvatures `k` across the sides, N m: the energy per area is `k^T G k / 2`. The
+    /// curvature across a free edge is eliminated at its value of least energy (a Schur complement).
     fn form(&self) -> [[f64; 3]; 3] {
         let [weft, warp] = self.rigidities_nm.map(f64::sqrt);
         let n = &self.normals;
@@ -89,7 +92,7 @@ impl Plate {
                 form[e][f] = (weft * (n[e].x * n[f].x) + warp * (n[e].y * n[f].y)).powi(2);
             }
         }
-        // The stiffest first, so that which corner comes first does not matter.
+        // The stiffest first, so that the order of the corners does not matter.
         let mut free: Vec<usize> = (0..3).filter(|&e| self.hinges[e].is_none()).collect();
         free.sort_by(|&e, &f| form[f][f].total_cmp(&form[e][e]));
         for free in free {
@@ -105,8 +108,8 @@ impl Plate {
         form
     }
 
-    /// What the curvature across each side, in this order, adds to the triangle's tensor `k11, k22, k12`, that across free sides being
-    /// the one that makes it least.
+    /// Contribution of the curvature across each side, in this order, to the curvature tensor `k11, k22, k12` of the
+    /// triangle. The curvatures across free sides are those that minimise the norm of the tensor.
     #[must_use]
     pub fn curvature_tensor(&self, order: [usize; 3]) -> [Vector3<f64>; 3] {
         let n = order.map(|side| self.normals[side]);
@@ -120,25 +123,26 @@ impl Plate {
         [0, 1, 2].map(|e| tensors.column(e).into_owned())
     }
 
-    /// Entries of the stiffness above its diagonal: its hinges', each with each. Corners sewn into one vertex couple it to
-    /// itself, which adds nothing.
+    /// Appends the entries of the stiffness above its diagonal, for each pair of corners of the hinges. Corners that
+    /// are sewn into one vertex couple it to itself, which adds nothing.
     fn push_terms(&self, hinges: &[Hinge], terms: &mut Vec<([usize; 2], f64)>) {
         let form = self.form();
         let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
         let mut order = [0, 1, 2];
         order.sort_by_key(|&e| own[e].map(|h| (h.vertices[0].min(h.vertices[1]), h.vertices[0].max(h.vertices[1]))));
-        // Each corner once, in rising order, with what each hinge makes of it: at most four corners of three hinges.
+        // Each corner once, in ascending order, with the coefficient of each hinge. Three hinges of four corners have
+        // at most twelve.
         let mut shares = [(0, [0.0; 3]); 12];
         let mut count = 0;
         for (e, hinge) in own.iter().enumerate() {
             for (corner, coefficient) in hinge.iter().flat_map(|h| h.vertices.into_iter().zip(h.coefficients)) {
-                let at = shares[..count].partition_point(|(other, _)| *other < corner);
-                if at == count || shares[at].0 != corner {
-                    shares[at..=count].rotate_right(1);
-                    shares[at] = (corner, [0.0; 3]);
+                let place = shares[..count].partition_point(|(other, _)| *other < corner);
+                if place == count || shares[place].0 != corner {
+                    shares[place..=count].rotate_right(1);
+                    shares[place] = (corner, [0.0; 3]);
                     count += 1;
                 }
-                shares[at].1[e] += coefficient;
+                shares[place].1[e] += coefficient;
             }
         }
         let shares = &shares[..count];
@@ -152,26 +156,26 @@ impl Plate {
     }
 }
 
-/// Stiffness of hinges that know nothing of each other, as stiff as the plate is against being rolled up: N/m, the same
-/// in x, y and z.
+/// Stiffness of independent hinges, N/m, the same in x, y and z. It is scaled so that it is as stiff as the plate
+/// against being rolled up.
 #[derive(Clone, Debug)]
 pub struct Tangent {
-    /// Off-diagonal entries for the sides of the triangles, in the order of the membrane's pairs.
+    /// Off-diagonal entries for the sides of the triangles, in the order of the pairs of the membrane.
     pub along: Vec<f64>,
     /// Pairs of vertices that face each other across a side.
     pub pairs: PairList,
-    /// Their off-diagonal entries.
+    /// Off-diagonal entries of those pairs.
     pub across: Vec<f64>,
 }
 
 geom::constants! {
     "cloth.bending",
-    /// Rolled up, equilateral triangles of an isotropic plate are by so much stiffer than their hinges one by one.
+    /// Ratio of the energies of a rolled-up isotropic plate and of its independent hinges, for equilateral triangles.
     const ROLLED: f64 = 1.25;
 }
 
 impl Tangent {
-    /// Adds the entries along sides to the membrane's blocks.
+    /// Adds the entries along sides to the stiffness blocks of the membrane.
     pub fn add_along(&self, blocks: &mut [Block<f32x4>]) {
         for (block, entry) in blocks.iter_mut().zip(&self.along) {
             for (row, alike) in block.iter_mut().zip(quad::alike(*entry as f32)) {
@@ -213,18 +217,19 @@ impl Tangent {
     }
 }
 
-/// The bending of a garment.
+/// Bending of a garment.
 #[derive(Clone, Debug)]
 pub struct Bending {
     /// Pairs of vertices that bending couples.
     pub pairs: PairList,
     /// Off-diagonal entries of the stiffness for those pairs, N/m, the same in x, y and z.
     pub entries: Vec<f64>,
-    /// What linear solves take for it.
+    /// Approximate stiffness for linear solves.
     pub tangent: Tangent,
 }
 
-/// Distinct pairs with the sums of their terms, in an order that does not depend on that of the terms: rounded alike if mirrored.
+/// Distinct pairs with the sums of their terms. The terms of a pair are added in the order of their values, so that a
+/// mirrored garment is rounded alike.
 fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
     let rows = terms.iter().map(|([i, _], _)| i + 1).max().unwrap_or(0);
     let (starts, mut sorted) = sorted_by_row(rows, terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
@@ -246,7 +251,7 @@ fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
 }
 
 impl Bending {
-    /// Adds up the triangles, whose sides are `sides`.
+    /// Assembles the stiffness of some triangles with the sides `sides`.
     #[must_use]
     pub fn new(hinges: &[Hinge], plates: &[Plate], sides: &PairList) -> Self {
         let mut terms = Vec::with_capacity(15 * plates.len());
@@ -276,8 +281,8 @@ impl Bending {
         })
     }
 
-    /// The energy, J, with the force between each pair for whoever wants it, N. Rows of the stiffness `Q` sum to zero, so `x^T Q x` is
-    /// minus the sum over pairs of `Q_ij |x_i - x_j|^2`.
+    /// Computes the energy, J, and hands the force (N) between each pair to `each`. The rows of the stiffness `Q` sum
+    /// to zero, so `x^T Q x` is the negative sum over pairs of `Q_ij |x_i - x_j|^2`.
     #[inline(always)]
     fn gather(&self, x: &[V3], mut each: impl FnMut(usize, usize, V3)) -> f64 {
         let mut energy = 0.0;
@@ -333,9 +338,9 @@ mod tests {
 
     #[test]
     fn a_cylinder_has_its_bending_energy() {
-        // Rolled to radius r: W = B / (2 r^2) per area, B that of the direction which curves; at 45 degrees the twist makes
-        // it ((sqrt B1 + sqrt B2) / 2)^2. No moment acts at the sheet's free edges, but there a cylinder needs one: the
-        // outermost triangles hold less.
+        // Rolled to radius r: W = B / (2 r^2) per area, with the rigidity B of the direction that curves. At 45 degrees
+        // the twist makes it ((sqrt B1 + sqrt B2) / 2)^2. No moment acts at the free edges of the sheet, but a cylinder
+        // would need one there: the outermost triangles store less.
         let fabric = fabric();
         let (weft, warp) = (fabric.bending_weft_nm, fabric.bending_warp_nm);
         let bias = ((weft.sqrt() + warp.sqrt()) / 2.0).powi(2);

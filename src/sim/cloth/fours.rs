@@ -1,33 +1,35 @@
-//! Triangles of the membrane four by four: what each lane of a register does for one of them.
+//! Kernels of the membrane that treat four triangles at once, one in each lane of a vector register.
 
 use wide::f32x4;
 
+use super::element::{Element, Foreseen};
 use super::law::{Fibre, Orthotropic, Tensor};
-use super::membrane::{Element, Foreseen};
 use geom::V3;
 use linalg::lanes::{Lanes, Number};
 use linalg::quad::{self, Block, Quad};
 use linalg::simd::{Kernel, Simd, each};
 
-/// A vector in each lane.
+/// Four vectors, one in each lane.
 type Vectors<S> = [Lanes<S>; 3];
 
-/// Four triangles; the last of a membrane may be without area, on vertex and pair 0.
+/// Four triangles of the membrane. The last group is filled up with triangles of no area, on vertex 0 and pair 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Four {
-    /// The vertices of each corner.
+    /// Vertices at each corner.
     vertices: [[u32; 4]; 3],
-    /// Twice the pairs of the sides (0,1), (1,2), (2,0), and one more where the pair's smaller vertex is the second one.
+    /// For the sides (0,1), (1,2), (2,0) twice the index of the pair, plus 1 where the second corner has the smaller
+    /// vertex.
     slots: [[u32; 4]; 3],
     areas: [f64; 4],
-    /// Gradients of the second and third shape functions in weft and warp, 1/m: that of the first is their sum's negative.
+    /// Gradients of the second and third shape functions in weft and warp, 1/m. The gradient of the first is the
+    /// negative of their sum.
     gradients: [[[f64; 4]; 2]; 2],
-    /// Number of their laws.
+    /// Index of their packed laws.
     laws: u32,
 }
 
 impl Four {
-    /// Up to four triangles, each with what it has for slots, and the number of their laws.
+    /// Packs up to four triangles, each with its `slots`. `laws` is the index of their packed laws.
     pub fn new(elements: &[(Element, [u32; 3])], laws: usize) -> Self {
         let mut four = Self { laws: laws as u32, ..Self::default() };
         for (lane, (element, slots)) in elements.iter().enumerate() {
@@ -43,7 +45,7 @@ impl Four {
         four
     }
 
-    /// What has become of a unit length of weft and of warp.
+    /// Images of the unit vectors of weft and warp: the columns of the deformation gradient.
     #[inline(always)]
     fn fibres<S: Simd>(&self, simd: S, x: &[V3]) -> [Vectors<S>; 2] {
         let [a, b, c] = each!(corner of 3 => {
@@ -52,7 +54,8 @@ impl Four {
         });
         let [p, q] = [each!(k of 3 => b[k] - a[k]), each!(k of 3 => c[k] - a[k])];
         let [g, h] = self.lanes_of_gradients(simd);
-        // Not fused: that would round otherwise where the mirrored garment has these two corners the other way round.
+        // Not a fused multiply-add: it would round differently for the mirrored garment, which has these two corners in
+        // the other order.
         each!(axis of 2 => each!(c of 3 => p[c] * g[axis] + q[c] * h[axis]))
     }
 
@@ -61,7 +64,7 @@ impl Four {
         each!(corner of 2 => each!(axis of 2 => Lanes::of(simd, self.gradients[corner][axis])))
     }
 
-    /// The law of each lane.
+    /// Law of each lane.
     #[inline(always)]
     fn law<S: Simd>(&self, simd: S, laws: &[Orthotropic<[f64; 4]>]) -> Orthotropic<Lanes<S>> {
         let Orthotropic { weft, c12, warp, shear } = &laws[self.laws as usize];
@@ -86,9 +89,10 @@ impl Four {
         [each!(axis of 2 => zero - g[axis] - h[axis]), g, h]
     }
 
-    /// Strain of a unit of half of each squared side.
+    /// Derivative of the Green strain by half of each squared side, 1/m2: `-(g_i g_j^T + g_j g_i^T) / 2` for the side
+    /// `ij`.
     #[inline(always)]
-    fn of_sides<S: Simd>(&self, simd: S) -> [Tensor<Lanes<S>>; 3] {
+    fn side_strains<S: Simd>(&self, simd: S) -> [Tensor<Lanes<S>>; 3] {
         let gradients = self.all_gradients(simd);
         let (zero, half) = (gradients[0][0].splat(0.0), gradients[0][0].splat(0.5));
         each!(k of 3 => {
@@ -101,24 +105,24 @@ impl Four {
         })
     }
 
-    /// Numbers of the sides, or nothing where there are none.
+    /// Values of the three sides of each triangle.
     #[inline(always)]
-    fn sides<S: Simd>(&self, simd: S, of: &[f64]) -> [Lanes<S>; 3] {
-        each!(k of 3 => Lanes::of(simd, each!(lane of 4 => of[(self.slots[k][lane] >> 1) as usize])))
+    fn sides<S: Simd>(&self, simd: S, values: &[f64]) -> [Lanes<S>; 3] {
+        each!(k of 3 => Lanes::of(simd, each!(lane of 4 => values[(self.slots[k][lane] >> 1) as usize])))
     }
 
-    /// Strain that squared sides make which are longer by so much.
+    /// Green strain of squared sides that are longer by `excess`, m2.
     #[inline(always)]
     fn strain_of<S: Simd>(&self, simd: S, excess: &[f64]) -> Tensor<Lanes<S>> {
-        let (shapes, sides) = (self.of_sides(simd), self.sides(simd, excess));
+        let (shapes, sides) = (self.side_strains(simd), self.sides(simd, excess));
         let half = sides[0].splat(0.5);
         (shapes[0] * (half * sides[0]) + shapes[2] * (half * sides[2])) + shapes[1] * (half * sides[1])
     }
 
-    /// Adds what a stress makes of half of each squared side, N/m.
+    /// Adds the tension that is conjugate to half of each squared side, `A S : dE`, N/m.
     #[inline(always)]
     fn add_tensions<S: Simd>(&self, simd: S, stress: Tensor<Lanes<S>>, tensions: &mut [f64]) {
-        let (shapes, area) = (self.of_sides(simd), self.lanes_of_areas(simd));
+        let (shapes, area) = (self.side_strains(simd), self.lanes_of_areas(simd));
         for k in 0..3 {
             let all = (product(&shapes[k], &stress) * area).numbers();
             for lane in 0..4 {
@@ -127,7 +131,8 @@ impl Four {
         }
     }
 
-    /// What half of a squared side adds to the tension of a side: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    /// Appends the second derivatives of the energy by half of the squared sides, N/m3: of each side with itself, then
+    /// of (0, 1), (1, 2), (2, 0).
     #[inline(always)]
     fn push_couplings<S: Simd>(
         &self,
@@ -136,10 +141,10 @@ impl Four {
         strain: Tensor<Lanes<S>>,
         couplings: &mut Vec<[f32; 6]>,
     ) {
-        let (shapes, area) = (self.of_sides(simd), self.lanes_of_areas(simd));
+        let (shapes, area) = (self.side_strains(simd), self.lanes_of_areas(simd));
         let stresses = each!(k of 3 => law.tangent(strain, shapes[k]) * area);
         let own = each!(k of 3 => product(&shapes[k], &stresses[k]).single());
-        // Either way round, so that it does not matter which side comes first.
+        // The mean of both orders, so that the result does not depend on which side comes first.
         let half = area.splat(0.5);
         let other = each!(k of 3 => {
             let next = (k + 1) % 3;
@@ -150,7 +155,7 @@ impl Four {
         }
     }
 
-    /// Adds the forces of a stress, N.
+    /// Adds the nodal forces `-A F S g_i` of a stress, N.
     #[inline(always)]
     fn add_forces<S: Simd>(
         &self,
@@ -159,18 +164,21 @@ impl Four {
         stress: Tensor<Lanes<S>>,
         forces: &mut [V3],
     ) {
-        // The first Piola-Kirchhoff stress, by columns.
+        // The first Piola-Kirchhoff stress `F S` times the negative area, by columns.
         let area = self.lanes_of_areas(simd);
         let s = stress * (area.splat(0.0) - area);
         let p = each!(c of 3 => weft[c].mul_add(s.weft, warp[c] * s.shear));
         let q = each!(c of 3 => weft[c].mul_add(s.shear, warp[c] * s.warp));
         let gradients = self.lanes_of_gradients(simd);
-        let of = each!(corner of 2 => {
+        let corner_forces = each!(corner of 2 => {
             let [x, y] = gradients[corner];
             each!(c of 3 => p[c].mul_add(x, q[c] * y).numbers())
         });
         for lane in 0..4 {
-            let [second, third] = each!(k of 2 => V3::new(of[k][0][lane], of[k][1][lane], of[k][2][lane]));
+            let [second, third] = each!(k of 2 => {
+                let [x, y, z] = &corner_forces[k];
+                V3::new(x[lane], y[lane], z[lane])
+            });
             let [a, b, c] = each!(corner of 3 => self.vertices[corner][lane] as usize);
             forces[a] -= second + third;
             forces[b] += second;
@@ -178,8 +186,9 @@ impl Four {
         }
     }
 
-    /// Adds the off-diagonal stiffness blocks of a law that has these slopes at the fibres' strain, with the geometric part of a stress
-    /// that has no compression: with the fibres `f`, `K_ij = sum f_a (m_ab f_b)^T`.
+    /// Adds the off-diagonal stiffness blocks `K_ij = sum f_a (m_ab f_b)^T` of a law with the tangent moduli `slopes`,
+    /// where `f` are the columns of the deformation gradient. `tension` is the stress of the geometric part, without
+    /// compression; without it there is no geometric part.
     #[inline(always)]
     fn add_stiffness<S: Simd>(
         &self,
@@ -236,7 +245,7 @@ impl Four {
     }
 }
 
-/// Green strain of what has become of weft and warp.
+/// Green strain `(F^T F - I) / 2` of the columns of the deformation gradient.
 #[inline(always)]
 fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
     let half = weft[0].splat(0.5);
@@ -244,7 +253,7 @@ fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
     Tensor { weft: half * (dot(weft, weft) - one), warp: half * (dot(warp, warp) - one), shear: half * dot(weft, warp) }
 }
 
-/// What a stress does along a strain.
+/// Double contraction `E : S`.
 #[inline(always)]
 fn product<N: Number>(strain: &Tensor<N>, stress: &Tensor<N>) -> N {
     let twice = strain.shear.splat(2.0) * strain.shear;
@@ -261,7 +270,7 @@ fn lanes_of_fibre<S: Simd>(simd: S, fibre: &Fibre<[f64; 4]>) -> Fibre<Lanes<S>> 
     Fibre { rest: Lanes::of(simd, fibre.rest), rise: Lanes::of(simd, fibre.rise), until: Lanes::of(simd, fibre.until) }
 }
 
-/// The tensors of up to four triangles, lane by lane; nothing where there are none.
+/// Packs the tensors of up to four triangles into lanes; the rest is zero.
 #[inline(always)]
 fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
     let nothing = Tensor::default();
@@ -276,34 +285,34 @@ fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
     }
 }
 
-/// The tensors of the lanes.
+/// Unpacks the tensors of the lanes.
 #[inline(always)]
 fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
     let (weft, warp, shear) = (tensor.weft.numbers(), tensor.warp.numbers(), tensor.shear.numbers());
     each!(lane of 4 => Tensor { weft: weft[lane], warp: warp[lane], shear: shear[lane] })
 }
 
-/// The elastic energy somewhere, J, and what else is asked for there.
+/// Kernel of the elastic energy, J, and of those derivatives that are asked for.
 pub struct Assembly<'a> {
-    /// Laws of the fours, by their numbers.
+    /// Packed laws; the groups refer to them by index.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// Triangles of the membrane, four to a register.
+    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Places of the vertices, m.
+    /// Positions of the vertices, m.
     pub x: &'a [V3],
-    /// By how much squared sides exceed their chords', m2; none where there are chords.
+    /// Squared arcs less squared chords of the sides, m2; empty where sides are chords.
     pub excess: &'a [f64],
-    /// To add the forces to, N.
+    /// Receives the forces, N.
     pub forces: Option<&'a mut [V3]>,
-    /// To add what half of each squared side makes of the energy to, N/m.
+    /// Receives the tensions that are conjugate to half of each squared side, N/m.
     pub tensions: Option<&'a mut [f64]>,
-    /// To add the same of the stresses that make the geometric part.
+    /// Receives the same of the stresses in the geometric part, N/m.
     pub pulls: Option<&'a mut [f64]>,
-    /// To add the off-diagonal stiffness blocks to, N/m.
+    /// Receives the off-diagonal stiffness blocks, N/m.
     pub blocks: Option<&'a mut [Block<f32x4>]>,
-    /// To add the couplings of sides to.
+    /// Receives the second derivatives by half of the squared sides, N/m3.
     pub couplings: Option<&'a mut Vec<[f32; 6]>>,
-    /// Stresses that make the blocks' geometric part, one a triangle, N/m; without them those at `x`.
+    /// Stresses of the geometric part of the blocks, one for each triangle, N/m; without them the stresses at `x`.
     pub predicted: Option<&'a [Tensor]>,
 }
 
@@ -355,17 +364,17 @@ impl Kernel for Assembly<'_> {
     }
 }
 
-/// A share of the forces (N) that the compressive part of stresses has in first order along a displacement.
+/// Kernel of the first-order forces (N) of the compressive part of stresses along a displacement.
 pub struct Compression<'a> {
-    /// Triangles of the membrane, four to a register.
+    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Their stresses, N/m.
+    /// Stresses of the triangles, N/m.
     pub stresses: &'a [Tensor],
-    /// The displacement, m.
+    /// Displacement, m.
     pub d: &'a [V3],
     /// Share of the compressive forces that is added, 0 to 1.
     pub share: f64,
-    /// To add the forces to.
+    /// Receives the forces, N.
     pub forces: &'a mut [V3],
 }
 
@@ -383,29 +392,29 @@ impl Kernel for Compression<'_> {
     }
 }
 
-/// The forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those foreseen there in first order, which
-/// it gives, and the stiffness of stretching alone at that end.
+/// Kernel of the second-order correction of a displacement `d` from `x`. It gives the forces (N) of the stresses at the
+/// end in excess of the predicted ones, the predicted stresses, and the material stiffness at the end.
 pub struct Correction<'a> {
-    /// Laws of the fours, by their numbers.
+    /// Packed laws; the groups refer to them by index.
     pub laws: &'a [Orthotropic<[f64; 4]>],
-    /// Triangles of the membrane, four to a register.
+    /// Triangles of the membrane, in groups of four.
     pub fours: &'a [Four],
-    /// Places of the vertices before, m.
+    /// Positions before the displacement, m.
     pub x: &'a [V3],
-    /// Where they go, m.
+    /// Displacement, m.
     pub d: &'a [V3],
-    /// By how much squared sides exceed their chords' before, what the displacement adds in first order, and the excess at its end, m2;
-    /// none where there are chords.
+    /// Squared arcs less squared chords of the sides, m2: before the displacement, their first-order change, and at its
+    /// end. Empty where sides are chords.
     pub excess: [&'a [f64]; 3],
-    /// To add the forces to.
+    /// Receives the forces, N.
     pub forces: &'a mut [V3],
-    /// To add what half of each squared side makes of the energy to, N/m.
+    /// Receives the tensions that are conjugate to half of each squared side, N/m.
     pub tensions: &'a mut [f64],
-    /// To add the off-diagonal stiffness blocks to, N/m.
+    /// Receives the off-diagonal stiffness blocks, N/m.
     pub blocks: &'a mut [Block<f32x4>],
-    /// To add the couplings of sides to.
+    /// Receives the second derivatives by half of the squared sides, N/m3.
     pub couplings: &'a mut Vec<[f32; 6]>,
-    /// To add to what is foreseen, one a triangle and some more where fours are not full.
+    /// Receives the predicted stresses, one for each triangle and some more where a group is not full.
     pub foreseen: &'a mut Vec<Foreseen>,
 }
 

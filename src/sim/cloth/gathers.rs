@@ -1,9 +1,11 @@
-//! Gathers and ease: where a seam joins a longer side to a shorter one, the longer is drawn together along the stitches.
+//! Gathers and ease: a seam that joins a longer side to a shorter one draws the longer side together along the
+//! stitches.
 //!
-//! A mesh joins both sides vertex by vertex and cannot show the pleats between two stitches. Left alone, the cloth of the
-//! longer side resists being shortened as a plate would and stretches the shorter one, by an eighth where 1.3 times its length
-//! is gathered. So near the seam the longer side's triangles get a rest shape that is shorter along it: as long as the
-//! partner on the seam, and as drawn from `ROWS` rows of vertices away, where the mesh can show folds.
+//! A mesh joins both sides vertex by vertex and cannot show the pleats between two stitches. Without a correction, the
+//! cloth of the longer side resists the shortening as a plate would, and stretches the shorter side: by an eighth where
+//! 1.3 times its length is gathered. So the triangles of the longer side near the seam have a rest shape that is
+//! shorter along the seam. On the seam it is as long as the partner. From `ROWS` rows of vertices away, where the mesh
+//! can show folds, it is as drawn in the pattern.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,39 +15,42 @@ use pattern::Garment;
 
 geom::constants! {
     "cloth.gathers",
-    /// Rows of vertices over which the cloth goes from drawn together to its full length. Of seams gathered 1.1 to 1.7 times, one
-    /// left the shorter side up to 0.6 % too long, two 0.45, three and four 0.35; none 22 %.
+    /// Number of rows of vertices over which the cloth passes from drawn together to its full length. Judgement, from
+    /// seams gathered 1.1 to 1.7 times: one row left the shorter side up to 0.6 % too long, two rows 0.45 %, three and
+    /// four 0.35 %, and no correction 22 %.
     const ROWS: u32 = 2;
-    /// Seams whose sides differ by less than this share of the shorter one are taken as drawn: curves sampled to chords do.
+    /// Least excess of the longer side, as a share of the shorter one, that counts as ease. Curves that are sampled to
+    /// chords make a smaller difference.
     const LEAST_EASE: f64 = 0.01;
-    /// Least area of a triangle that is left of what drawing it together evenly leaves.
+    /// Least area of a rest triangle, as a share of its area after uniform shortening. A thinner one gets the uniformly
+    /// shortened shape.
     const LEAST_AREA: f64 = 0.3;
 }
 
-/// How the cloth is drawn together at a vertex.
+/// Shortening of the cloth at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Drawn {
-    /// Length along the seam over that in the pattern.
+    /// Ratio of the length along the seam to that in the pattern.
     share: f64,
     /// Unit vector along the seam.
     along: V2,
 }
 
 impl Drawn {
-    /// A vector of the pattern, once drawn together by a share.
+    /// Shortens the component along the seam of a vector of the pattern to a share.
     fn apply(&self, share: f64, drawn: V2) -> V2 {
         drawn + self.along * ((share - 1.0) * drawn.dot(&self.along))
     }
 }
 
-/// What the seams of a garment draw together, by garment vertex.
+/// Shortening of the cloth by gathered seams, at the garment vertices that it concerns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gathers {
     drawn: BTreeMap<usize, Drawn>,
 }
 
 impl Gathers {
-    /// What the seams of a garment draw together. A vertex in several seams goes with the one that draws it most.
+    /// Finds the gathered seams of a garment. A vertex in several of them takes the one with the greatest shortening.
     #[must_use]
     pub fn of(garment: &Garment) -> Self {
         let mut drawn = BTreeMap::new();
@@ -53,13 +58,13 @@ impl Gathers {
         for seam in &garment.seams {
             let is_edge = |side: &[usize; 2]| edges.contains(&sorted(*side));
             let stitches = Vec::from_iter(seam.stitches().filter(|sides| sides.iter().all(is_edge)));
-            let of = |[a, b]: [usize; 2]| garment.rest[b] - garment.rest[a];
-            let [a, b] = [0, 1].map(|side| stitches.iter().map(|sides| of(sides[side]).norm()).sum::<f64>());
+            let edge_vector = |[a, b]: [usize; 2]| garment.rest[b] - garment.rest[a];
+            let [a, b] = [0, 1].map(|side| stitches.iter().map(|sides| edge_vector(sides[side]).norm()).sum::<f64>());
             let (longer, share) = if a < b { (1, a / b) } else { (0, b / a) };
             if share * (1.0 + LEAST_EASE) < 1.0 {
                 let mut along: BTreeMap<usize, V2> = BTreeMap::new();
                 for edge in stitches.iter().map(|sides| sides[longer]) {
-                    edge.iter().for_each(|&v| *along.entry(v).or_default() += of(edge));
+                    edge.iter().for_each(|&v| *along.entry(v).or_default() += edge_vector(edge));
                 }
                 for (v, along) in along.into_iter().filter_map(|(v, sum)| Some((v, sum.try_normalize(0.0)?))) {
                     let new = Drawn { share, along };
@@ -71,7 +76,7 @@ impl Gathers {
         Self { drawn: spread(garment, drawn) }
     }
 
-    /// Length (m) of a side of a triangle that the pattern draws as `drawn`.
+    /// Rest length (m) of a side of a triangle, which is the vector `drawn` in the pattern.
     #[must_use]
     pub fn length_m(&self, edge: [usize; 2], drawn: V2) -> f64 {
         let ends = sorted(edge).map(|v| self.drawn.get(&v));
@@ -79,19 +84,21 @@ impl Gathers {
         ends.into_iter().flatten().next().map_or(drawn, |d| d.apply(share, drawn)).norm()
     }
 
-    /// Rest shape of a triangle of garment vertices that the pattern has at `rest`: the same where nothing is gathered.
+    /// Rest shape of a triangle of garment vertices, which is `rest` in the pattern. It is unchanged where nothing is
+    /// gathered.
     ///
-    /// Triangles that share a side agree on its length, unless one would become too thin: that is drawn together evenly. Corners are
-    /// taken by their numbers, so that a mirrored garment has the mirrored shapes to the bit.
+    /// Triangles that share a side agree on its length. The exception is a triangle that would become too thin: it is
+    /// shortened uniformly. Corners are taken in the order of their indices, so that a mirrored garment has the
+    /// mirrored shapes to the bit.
     #[must_use]
     pub fn shape(&self, corners: [usize; 3], rest: [V2; 3]) -> [V2; 3] {
         let mut order = [0, 1, 2];
         order.sort_unstable_by_key(|&k| corners[k]);
-        let at = order.map(|k| self.drawn.get(&corners[k]));
-        let Some(most) = at.iter().copied().flatten().min_by(|a, b| a.share.total_cmp(&b.share)) else {
+        let drawn = order.map(|k| self.drawn.get(&corners[k]));
+        let Some(most) = drawn.iter().copied().flatten().min_by(|a, b| a.share.total_cmp(&b.share)) else {
             return rest;
         };
-        let share = at.iter().map(|d| d.map_or(1.0, |d| d.share)).sum::<f64>() / 3.0;
+        let share = drawn.iter().map(|d| d.map_or(1.0, |d| d.share)).sum::<f64>() / 3.0;
         let first = rest[order[0]];
         let evenly = rest.map(|p| first + most.apply(share, p - first));
         let side = |a: usize, b: usize| self.length_m([corners[a], corners[b]], rest[b] - rest[a]);
@@ -105,8 +112,8 @@ impl Gathers {
     }
 }
 
-/// A triangle with given sides (m), from the first corner, the first side's direction and the turning of one like it; of no area where
-/// there is none.
+/// Constructs a triangle from its sides, m. First corner, direction of the first side and orientation are those of the
+/// triangle `like`. The triangle is degenerate where the sides violate the triangle inequality.
 fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
     let first = like[1] - like[0];
     let along = first.normalize();
@@ -115,7 +122,7 @@ fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
     [like[0], like[0] + along * base, like[0] + along * foot + V2::new(-along.y, along.x) * height]
 }
 
-/// Takes what is drawn together along seams on into the cloth, row by row.
+/// Continues the shortening from the seams into the cloth, row by row, until it has faded out.
 fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usize, Drawn> {
     let mut last = drawn.clone();
     for row in 1..ROWS {
@@ -123,7 +130,7 @@ fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usiz
             .triangles
             .iter()
             .flat_map(|t| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|s| s.map(|k| t[k])));
-        // In order, so that each takes after its neighbour of the least number.
+        // In order, so that each vertex takes the value of its neighbour with the smallest index.
         let onwards: BTreeSet<[usize; 2]> =
             sides.filter(|[from, to]| last.contains_key(from) && !drawn.contains_key(to)).collect();
         let mut next: BTreeMap<usize, Drawn> = BTreeMap::new();
@@ -137,7 +144,7 @@ fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usiz
     drawn
 }
 
-/// Sides of triangles between vertices that are sewn.
+/// Sides of triangles whose two ends are sewn.
 fn sewn_edges(garment: &Garment) -> BTreeSet<[usize; 2]> {
     let mut is_sewn = vec![false; garment.rest.len()];
     garment.seams.iter().flat_map(|seam| &seam.pairs).flatten().for_each(|&v| is_sewn[v] = true);
@@ -162,7 +169,8 @@ mod tests {
     use linalg::LinearSolver;
     use pattern::{PieceMesh, Role, SeamMesh};
 
-    /// A band 0.3 m long over a skirt whose upper edge is `ratio` times that; the band's lower and the skirt's upper vertices.
+    /// A band 0.3 m long over a skirt whose upper edge is `ratio` times as long; then the lower vertices of the band
+    /// and the upper vertices of the skirt.
     fn skirt(ratio: f64, step: f64) -> (Garment, [Vec<usize>; 2]) {
         let columns = (0.3 / step).round() as usize;
         let mut garment = laboratory::garment(sheets::hexagonal_sheet(columns, 4, step));
@@ -259,8 +267,8 @@ mod tests {
                 .collect();
             system.linear = LinearSolver::exact();
             laboratory::settle(&mut system, &mut x, 0.01, 600);
-            let at = |v: usize| x[cloth.vertex_of[v]];
-            let chi = lower.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>() / 0.3;
+            let place = |v: usize| x[cloth.vertex_of[v]];
+            let chi = lower.windows(2).map(|w| (place(w[1]) - place(w[0])).norm()).sum::<f64>() / 0.3;
             assert!((chi - 1.0).abs() < 0.01, "gathered {ratio}: chi {chi}");
         }
     }

@@ -1,4 +1,5 @@
-//! Laws of the membrane: stress against Green strain along the grain.
+//! Constitutive laws of the membrane: second Piola-Kirchhoff stress (N/m) as a function of the Green strain, in the
+//! axes of the grain.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -7,25 +8,25 @@ use nalgebra::Matrix2;
 use crate::Fabric;
 use linalg::lanes::Number;
 
-/// A symmetric tensor in the cloth's plane, in the axes of its grain.
+/// A symmetric 2 x 2 tensor in the plane of the cloth, in the axes of the grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tensor<N = f64> {
-    /// Entry along the weft.
+    /// Diagonal entry along the weft.
     pub weft: N,
-    /// Entry along the warp.
+    /// Diagonal entry along the warp.
     pub warp: N,
     /// Entry off the diagonal.
     pub shear: N,
 }
 
 impl Tensor {
-    /// Of a symmetric matrix, weft first.
+    /// Tensor of a symmetric matrix, weft first.
     #[must_use]
     pub fn of(matrix: &Matrix2<f64>) -> Self {
         Self { weft: matrix[(0, 0)], warp: matrix[(1, 1)], shear: matrix[(0, 1)] }
     }
 
-    /// As a matrix, weft first.
+    /// Matrix of the tensor, weft first.
     #[must_use]
     pub fn matrix(self) -> Matrix2<f64> {
         Matrix2::new(self.weft, self.shear, self.shear, self.warp)
@@ -33,7 +34,7 @@ impl Tensor {
 }
 
 impl<N: Number> Tensor<N> {
-    /// Its positive part: negative eigenvalues set to zero.
+    /// Positive semidefinite part: negative eigenvalues are set to zero.
     #[must_use]
     #[inline(always)]
     pub fn without_compression(self) -> Self {
@@ -42,7 +43,8 @@ impl<N: Number> Tensor<N> {
         let apart = half * (self.weft - self.warp);
         let radius = self.shear.mul_add(self.shear, apart * apart).sqrt();
         let (high, low) = ((mean + radius).max(zero), (mean - radius).min(zero));
-        // Of eigenvalues of either sign, `high (S - low I) / (high - low)` projects onto the positive one.
+        // Where the eigenvalues have opposite signs, `high (S - low I) / (high - low)` projects onto the eigenvector of
+        // the positive one.
         let share = high / (high - low).max(high.splat(f64::MIN_POSITIVE));
         Self { weft: self.weft - low, warp: self.warp - low, ..self } * share
     }
@@ -74,43 +76,44 @@ impl<N: Number> Mul<N> for Tensor<N> {
 
 geom::constants! {
     "cloth.law",
-    /// Green strain from which on slackened cloth is no longer slack.
+    /// Green strain at which a slackened linear law has regained its stiffness.
     const SLACK: f64 = 0.01;
 }
 
-/// The law of one direction of the grain: stress against Green strain, N/m.
+/// Law of one direction of the grain: `sigma(E) = K E + R (w^2 + 2 w b)`, N/m, of the Green strain `E`. `w` is the
+/// tensile strain up to `E*`, and `b` the tensile strain beyond `E*`.
 ///
-/// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from
-/// its value at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang,
-/// O'Brien, Ramamoorthi 2011]. Beyond that the stress goes on along its tangent. Compression keeps the modulus at
-/// rest. The stress is the derivative of an energy, once continuously differentiable, and its slope never falls
-/// below that at rest.
+/// Knits stiffen as their loops straighten. In tension the secant modulus `sigma / E` rises linearly from its value `K`
+/// at rest, through the one measured at a known stretch, as the measurements were interpolated [Wang, O'Brien,
+/// Ramamoorthi 2011]. Beyond `E*` the stress continues along its tangent. Compression keeps the modulus `K`. The stress
+/// is the derivative of an energy and is continuously differentiable once. Its slope never falls below `K`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre<N = f64> {
-    /// Modulus at rest, N/m.
+    /// Modulus `K` at rest, N/m.
     pub rest: N,
-    /// Rise of the secant modulus with Green strain, N/m; 0 for a linear law.
+    /// Rise `R` of the secant modulus with the Green strain, N/m; 0 for a linear law.
     pub rise: N,
-    /// Green strain up to which it rises.
+    /// Green strain `E*` up to which the secant modulus rises.
     pub until: N,
 }
 
 impl Fibre {
-    /// A linear law.
+    /// Linear law with one modulus, N/m.
     #[must_use]
     pub fn linear(modulus: f64) -> Self {
         Self { rest: modulus, rise: 0.0, until: f64::INFINITY }
     }
 
-    /// A law with secant modulus `rest` at rest and `stretched` at stretch ratio `1 + stretch`.
+    /// Law with the secant modulus `rest` at rest and `stretched` at the stretch ratio `1 + stretch`. `E* = s (1 + s /
+    /// 2)` is the Green strain of a stretch `s`.
     #[must_use]
     pub fn stiffening(rest: f64, stretched: f64, stretch: f64) -> Self {
         let until = stretch * (1.0 + 0.5 * stretch);
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
     }
 
-    /// The same law with a share of its modulus at rest. Its slope rises to what it is anyway by `SLACK`, or by where
-    /// a law that stiffens has its last. So drawn, cloth is a little longer, and as stiff as ever.
+    /// Returns the law with a share of its modulus at rest. Its slope regains the original value at `E*`, or at `SLACK`
+    /// for a linear law. So the cloth is a little longer under tension, and then as stiff as before.
     #[must_use]
     pub fn slackened(self, share: f64) -> Self {
         let until = if self.until.is_finite() { self.until } else { SLACK };
@@ -119,7 +122,7 @@ impl Fibre {
 }
 
 impl<N: Number> Fibre<N> {
-    /// Stress, N/m.
+    /// Stress `sigma(E)`, N/m.
     #[must_use]
     #[inline(always)]
     pub fn stress(&self, strain: N) -> N {
@@ -128,14 +131,14 @@ impl<N: Number> Fibre<N> {
         strain.mul_add(self.rest, rising * self.rise)
     }
 
-    /// Slope of the stress, N/m.
+    /// Tangent modulus `d sigma / d E`, N/m.
     #[must_use]
     #[inline(always)]
     pub fn tangent(&self, strain: N) -> N {
         self.parts(strain).0.mul_add(strain.splat(2.0) * self.rise, self.rest)
     }
 
-    /// Energy per area, N/m.
+    /// Strain energy per area, the integral of `sigma`, N/m: `K E^2 / 2 + R (w^3 / 3 + w b (w + b))`.
     #[must_use]
     #[inline(always)]
     pub fn energy(&self, strain: N) -> N {
@@ -144,7 +147,7 @@ impl<N: Number> Fibre<N> {
         (strain * strain).mul_add(strain.splat(0.5) * self.rest, rising * self.rise)
     }
 
-    /// The stretch within which the modulus rises, and what is beyond.
+    /// Tensile strain up to `E*`, and the rest beyond.
     #[inline(always)]
     fn parts(&self, strain: N) -> (N, N) {
         let stretch = strain.max(strain.splat(0.0));
@@ -153,17 +156,34 @@ impl<N: Number> Fibre<N> {
     }
 }
 
-/// Membrane law in grain axes (1 weft, 2 warp).
+/// Orthotropic St. Venant-Kirchhoff law in grain axes (1 weft, 2 warp) [T 4.2-4.10]: `S11 = sigma_1(E11) + c12 E22`,
+/// `S22 = sigma_2(E22) + c12 E11`, `S12 = 2 G E12`, N/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orthotropic<N = f64> {
-    /// Along the weft.
+    /// Law `sigma_1` along the weft.
     pub weft: Fibre<N>,
-    /// Coupling entry, N/m.
+    /// Coupling modulus `c12`, N/m.
     pub c12: N,
-    /// Along the warp.
+    /// Law `sigma_2` along the warp.
     pub warp: Fibre<N>,
-    /// Shear: `S12 = shear * 2 E12`, N/m.
+    /// Shear modulus `G`, N/m.
     pub shear: N,
+}
+
+impl Fabric {
+    /// Law along the grain line (warp).
+    #[must_use]
+    pub fn warp_law(&self) -> Fibre {
+        let rest = self.membrane_warp_n_m;
+        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_warp_n_m, s.stretch))
+    }
+
+    /// Law across the grain line (weft).
+    #[must_use]
+    pub fn weft_law(&self) -> Fibre {
+        let rest = self.membrane_weft_n_m;
+        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_weft_n_m, s.stretch))
+    }
 }
 
 impl Orthotropic {
@@ -178,7 +198,8 @@ impl Orthotropic {
         }
     }
 
-    /// The same law with a share of its stiffness at rest; along the grain it stiffens as it is drawn ([`Fibre::slackened`]).
+    /// Returns the law with a share of its stiffness at rest. Along the grain it regains its stiffness under tension
+    /// ([`Fibre::slackened`]).
     #[must_use]
     pub fn slackened(self, share: f64) -> Self {
         Self {
@@ -189,13 +210,13 @@ impl Orthotropic {
         }
     }
 
-    /// Four laws, each number in a lane.
+    /// Packs four laws into the lanes of one.
     #[must_use]
     pub fn packed(laws: [&Self; 4]) -> Orthotropic<[f64; 4]> {
-        let fibre = |of: fn(&Self) -> &Fibre| Fibre {
-            rest: laws.map(|law| of(law).rest),
-            rise: laws.map(|law| of(law).rise),
-            until: laws.map(|law| of(law).until),
+        let fibre = |direction: fn(&Self) -> &Fibre| Fibre {
+            rest: laws.map(|law| direction(law).rest),
+            rise: laws.map(|law| direction(law).rise),
+            until: laws.map(|law| direction(law).until),
         };
         Orthotropic {
             weft: fibre(|law| &law.weft),
@@ -207,7 +228,7 @@ impl Orthotropic {
 }
 
 impl<N: Number> Orthotropic<N> {
-    /// Stress of a strain, N/m.
+    /// Second Piola-Kirchhoff stress `S(E)`, N/m.
     #[must_use]
     #[inline(always)]
     pub fn stress(&self, strain: Tensor<N>) -> Tensor<N> {
@@ -218,14 +239,14 @@ impl<N: Number> Orthotropic<N> {
         }
     }
 
-    /// Slopes of the stresses along weft and warp at a strain, N/m.
+    /// Tangent moduli along weft and warp at a strain, N/m.
     #[must_use]
     #[inline(always)]
     pub fn tangents(&self, strain: Tensor<N>) -> [N; 2] {
         [self.weft.tangent(strain.weft), self.warp.tangent(strain.warp)]
     }
 
-    /// What a small change of strain adds to the stress, N/m.
+    /// First-order change of the stress for a change of strain, N/m: the tangent stiffness applied to it.
     #[must_use]
     #[inline(always)]
     pub fn tangent(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
@@ -237,7 +258,8 @@ impl<N: Number> Orthotropic<N> {
         }
     }
 
-    /// Energy per area of a strain, N/m.
+    /// Strain energy per area of a strain, N/m: `psi_1(E11) + psi_2(E22) + c12 E11 E22 + 2 G E12^2`, with the energies
+    /// `psi` of the two directions.
     #[must_use]
     #[inline(always)]
     pub fn energy(&self, strain: Tensor<N>) -> N {

@@ -1,145 +1,65 @@
-//! Orthotropic St. Venant-Kirchhoff membrane on constant-strain triangles [T 4.2-4.10], for knits with moduli that rise under
-//! stretch ([`law`](super::law)).
+//! Membrane of constant-strain triangles with an orthotropic St. Venant-Kirchhoff law [T 4.2-4.10]. The moduli of knits
+//! rise under stretch ([`law`](super::law)).
 //!
-//! With `F = Ds Dm^-1` (3x2, columns along weft and warp) the Green strain is `E = (F^T F - I)/2`, the second
-//! Piola-Kirchhoff stress `S = C : E` and the energy `W = A/2 S : E`. With shape gradients `g_i` (rows of `Dm^-1`, the
-//! first minus their sum) the nodal force is `f_i = -A F S g_i` and the stiffness
-//! `K_ij = A (B_i^T C B_j + (g_i . S+ g_j) I)`, where `B_i = dE/dx_i` and `S+` is `S` without its negative eigenvalues:
-//! a compressed membrane would make the stiffness indefinite. Forces and energy use `S` itself.
+//! With `F = Ds Dm^-1` (3 x 2, columns along weft and warp) the Green strain is `E = (F^T F - I)/2`, and `S(E)` is the
+//! second Piola-Kirchhoff stress, N/m. The energy of a triangle is `A` times the integral of `S : dE`, J; that is `A/2
+//! S : E` for a linear law. The shape gradients `g_i` are the rows of `Dm^-1`, and the first is the negative of their
+//! sum. Then the nodal force is `f_i = -A F S g_i`, and the stiffness `K_ij = A (B_i^T C B_j + (g_i . S+ g_j) I)`,
+//! where `B_i = dE/dx_i` and `C = dS/dE`. `S+` is `S` without its negative eigenvalues: compression would make the
+//! stiffness indefinite. Forces and energy use `S` itself.
 //!
-//! A step that turns triangles also stretches them, in second order, and at the stiffness of cloth that spurious stress
-//! outweighs the true one: the stiffness at its end would hold the cloth like a drum. So `S+` may be taken from the stress
-//! that the last linear solve predicted instead ([`Membrane::assemble_towards`]), which has no such part; the equilibrium is
-//! the same, and is reached in fewer steps [Magisano 2017].
+//! A step that rotates triangles also stretches them, to second order. At the membrane stiffness of cloth that spurious
+//! stress outweighs the true one, and the geometric stiffness at the end of the step would be far too high. So `S+` may
+//! be taken from the stress that the last linear solve predicted ([`Membrane::assemble_towards`]), which has no such
+//! part. The equilibrium is the same, and is reached in fewer steps [Magisano 2017].
 
-use nalgebra::{Matrix2, Matrix3x2};
+use nalgebra::Matrix2;
 use wide::f32x4;
 
 use super::arcs::{Arcs, Bent};
+use super::element::{Element, Foreseen};
 use super::fours::{Assembly, Compression, Correction, Four};
 use super::law::{Orthotropic, Tensor};
-use geom::{V2, V3};
+use geom::V3;
 use linalg::PairList;
 use linalg::quad::Block;
 use linalg::simd;
 
-/// A constant-strain triangle of the membrane.
-#[derive(Clone, Copy, Debug)]
-pub struct Element {
-    /// Simulated vertices, counter-clockwise.
-    vertices: [u32; 3],
-    /// Number of its law.
-    law: u32,
-    /// Rest area, m2.
-    pub area: f64,
-    /// Gradients of the second and third shape functions in (weft, warp), 1/m: that of the first is their sum's negative.
-    gradients: [V2; 2],
-}
-
-impl Element {
-    /// A triangle with rest corners `rest`; `grain` is the unit warp direction. `None` when the triangle has no area.
-    #[must_use]
-    pub fn new(vertices: [usize; 3], rest: [V2; 3], grain: V2) -> Option<Self> {
-        let weft = V2::new(grain.y, -grain.x);
-        let local = rest.map(|p| V2::new(p.dot(&weft), p.dot(&grain)));
-        let dm = Matrix2::from_columns(&[local[1] - local[0], local[2] - local[0]]);
-        let area = 0.5 * dm.determinant();
-        let inverse = dm.try_inverse().filter(|_| area > 0.0)?;
-        let gradients = [inverse.row(0).transpose(), inverse.row(1).transpose()];
-        Some(Self { vertices: vertices.map(|v| v as u32), law: 0, area, gradients })
-    }
-
-    /// The same triangle of the membrane's law of this number; without it, the first.
-    #[must_use]
-    pub fn of_law(self, number: usize) -> Self {
-        Self { law: number as u32, ..self }
-    }
-
-    /// The same triangle with its vertices called otherwise, not yet in a membrane.
-    #[must_use]
-    pub fn renamed(&self, vertices: [usize; 3]) -> Self {
-        Self { vertices: vertices.map(|v| v as u32), ..*self }
-    }
-
-    /// Simulated vertices, counter-clockwise.
-    #[must_use]
-    pub fn vertices(&self) -> [usize; 3] {
-        self.vertices.map(|v| v as usize)
-    }
-
-    /// What has become of a unit length of weft and of warp: the columns of the deformation gradient.
-    #[inline]
-    fn fibres(&self, x: &[V3]) -> [V3; 2] {
-        let [a, b, c] = self.vertices().map(|v| x[v]);
-        let (p, q) = (b - a, c - a);
-        let [g, h] = self.gradients;
-        [p * g.x + q * h.x, p * g.y + q * h.y]
-    }
-
-    /// Deformation gradient, columns along weft and warp.
-    #[must_use]
-    pub fn deformation_gradient(&self, x: &[V3]) -> Matrix3x2<f64> {
-        Matrix3x2::from_columns(&self.fibres(x))
-    }
-
-    /// Gradients of the second and third shape functions in (weft, warp), 1/m.
-    #[must_use]
-    pub fn gradients(&self) -> [V2; 2] {
-        self.gradients
-    }
-}
-
-/// Stress of an element, and what a displacement adds to it in first order, N/m.
-#[derive(Clone, Copy, Debug)]
-pub struct Foreseen {
-    /// Stress before the displacement.
-    pub stress: Tensor,
-    /// What the displacement adds.
-    pub change: Tensor,
-}
-
-impl Foreseen {
-    /// Stress after a share of the displacement.
-    #[must_use]
-    pub fn after(&self, share: f64) -> Tensor {
-        self.stress + self.change * share
-    }
-}
-
 /// The membrane of a garment.
 #[derive(Clone, Debug)]
 pub struct Membrane {
-    /// Laws, by their numbers.
+    /// Material laws; triangles refer to them by index.
     laws: Vec<Orthotropic>,
     /// Triangles of the garment, in its order.
     pub elements: Vec<Element>,
-    /// The triangles four by four, as kernels take them.
+    /// The triangles in groups of four, as the vectorised kernels take them.
     fours: Vec<Four>,
-    /// The laws of four triangles, each once.
+    /// Distinct combinations of the law indices of four triangles.
     mixtures: Vec<[u32; 4]>,
-    /// The laws of `mixtures`, a lane a triangle.
+    /// Laws of the `mixtures`, one lane for each triangle.
     packed: Vec<Orthotropic<[f64; 4]>>,
     /// Pairs of vertices that share a triangle.
     pub pairs: PairList,
-    /// Pairs of the sides of each triangle.
+    /// Indices of the sides of each triangle among `pairs`.
     pub sides: Vec<[u32; 3]>,
-    /// The sides as arcs; none where there are chords.
+    /// The sides as arcs; empty where sides are taken as chords.
     pub arcs: Arcs,
 }
 
-/// Stiffness that arcs have, with what is assembled for it.
+/// Terms for the stiffness of the arcs ([`super::arcs`]).
 #[derive(Clone, Debug, Default)]
 pub struct Bowed {
-    /// Stiffness of the sides as arcs.
+    /// Excess of the arcs and its derivatives.
     pub bent: Bent,
-    /// Tensions of the sides, N/m, without compression.
+    /// Tensile part of the tensions that are conjugate to half of the squared sides, N/m.
     pub tensions: Vec<f64>,
-    /// Of each triangle, what half of a squared side adds to the tension of a side, N/m3: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    /// For each triangle the second derivatives of its energy by half of its squared sides, N/m3: of each side with
+    /// itself, then of the pairs (0, 1), (1, 2), (2, 0).
     pub couplings: Vec<[f32; 6]>,
 }
 
 impl Membrane {
-    /// Collects the elements of a garment, and their laws by their numbers.
+    /// Sets up the membrane of some elements and their laws.
     #[must_use]
     pub fn new(laws: Vec<Orthotropic>, elements: Vec<Element>) -> Self {
         let sides = [[0, 1], [1, 2], [2, 0]];
@@ -170,14 +90,14 @@ impl Membrane {
         Self { laws, elements, fours, mixtures, packed, pairs, sides, arcs: Arcs::default() }
     }
 
-    /// The same triangles with other laws.
+    /// Returns the same membrane with each law changed.
     #[must_use]
     pub fn with_laws(self, change: impl Fn(&Orthotropic) -> Orthotropic) -> Self {
         let laws: Vec<Orthotropic> = self.laws.iter().map(change).collect();
         Self { packed: packed(&laws, &self.mixtures), laws, ..self }
     }
 
-    /// Its laws, by their numbers.
+    /// Material laws; triangles refer to them by index.
     #[must_use]
     pub fn laws(&self) -> &[Orthotropic] {
         &self.laws
@@ -189,13 +109,13 @@ impl Membrane {
         &self.laws[self.elements[triangle].law as usize]
     }
 
-    /// The same with its sides as arcs.
+    /// Returns the same membrane with its sides as arcs.
     #[must_use]
     pub fn with_arcs(self, arcs: Arcs) -> Self {
         Self { arcs, ..self }
     }
 
-    /// Stiffness blocks, one a pair, with nothing in them yet.
+    /// Zero stiffness blocks, one for each pair.
     #[must_use]
     pub fn blocks(&self) -> Vec<Block<f32x4>> {
         vec![[f32x4::ZERO; 3]; self.pairs.pairs().len()]
@@ -208,14 +128,14 @@ impl Membrane {
         simd::dispatch(self.assembly(x, &bent))
     }
 
-    /// Green strains, one an element, weft first.
+    /// Green strain of each element, weft first, arcs included.
     #[must_use]
     pub fn strains(&self, x: &[V3]) -> Vec<Matrix2<f64>> {
         let bent = self.arcs.bent(x);
         let strain = |(element, sides): (&Element, &[u32; 3])| {
             let f = element.deformation_gradient(x);
             let chords = 0.5 * (f.transpose() * f - Matrix2::identity());
-            let [g, h] = element.gradients;
+            let [g, h] = element.gradients();
             let gradients = [-g - h, g, h];
             let of_side = |k: usize| {
                 let (i, j) = (gradients[k], gradients[(k + 1) % 3]);
@@ -235,9 +155,9 @@ impl Membrane {
         self.arcs.add_forces(&bent, &tensions, forces);
     }
 
-    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J, and what
-    /// arcs add. The blocks' geometric part is that of the stresses `predicted`, one an element, or without them of the
-    /// stresses at `x`.
+    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m). Returns the energy (J) and the terms of
+    /// the arcs. The geometric part of the blocks is that of the stresses `predicted`, one for each element, or without
+    /// them of the stresses at `x`.
     pub fn assemble(
         &self,
         x: &[V3],
@@ -280,15 +200,16 @@ impl Membrane {
         }
     }
 
-    /// Adds a share of the forces (N) that the compressive part of `stresses`, one an element, has in first order along a displacement `d`:
-    /// what the stiffness, which leaves that part out, does not know of.
+    /// Adds a share of the first-order forces (N) of the compressive part of `stresses`, one for each element, along a
+    /// displacement `d`. The assembled stiffness leaves that part out.
     pub fn add_compression(&self, stresses: &[Tensor], d: &[V3], share: f64, forces: &mut [V3]) {
         simd::dispatch(Compression { fours: &self.fours, stresses, d, share, forces });
     }
 
-    /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a
-    /// linear solve at `x` foresees there, which it returns. It also adds the off-diagonal blocks of the stiffness that
-    /// stretching alone has at that end, N/m, with what arcs add to it.
+    /// Assembles the second-order correction of a step from `x` to `x + d`. It adds the forces (N) of the stresses at
+    /// the end of the step in excess of those that a linear solve at `x` predicts there. To `blocks` it adds the
+    /// off-diagonal blocks of the material stiffness at that end, N/m. It returns the predicted stresses and the terms
+    /// of the arcs.
     pub fn assemble_towards(
         &self,
         x: &[V3],
@@ -324,7 +245,7 @@ impl Membrane {
     }
 }
 
-/// The laws of each mixture.
+/// Packed laws of each combination.
 fn packed(laws: &[Orthotropic], mixtures: &[[u32; 4]]) -> Vec<Orthotropic<[f64; 4]>> {
     mixtures.iter().map(|mixture| Orthotropic::packed(mixture.map(|law| &laws[law as usize]))).collect()
 }
@@ -336,6 +257,7 @@ mod tests {
     use crate::fabric::Stretched;
     use crate::laboratory::sheets::{shaken, sheet};
     use crate::testing::{check_forces, fabric};
+    use geom::V2;
     use linalg::quad;
     use linalg::simd::{Plain, Simd};
 
@@ -505,11 +427,5 @@ mod tests {
         let turn = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0);
         let x: Vec<V3> = flat.iter().map(|p| turn * p + V3::new(1.0, 2.0, 3.0)).collect();
         assert!(membrane.energy(&x) < 1e-20);
-    }
-
-    #[test]
-    fn a_triangle_without_area_is_refused() {
-        let points = [V2::zeros(), V2::new(1.0, 0.0), V2::new(2.0, 0.0)];
-        assert!(Element::new([0, 1, 2], points, V2::new(0.0, 1.0)).is_none());
     }
 }

@@ -1,8 +1,9 @@
-//! Cloth: a garment mesh with elastic energies, at whatever state of sewing.
+//! Cloth: the mesh of a garment with its elastic energies, sewn or unsewn.
 
 pub mod arcs;
 pub mod band;
 pub mod bending;
+pub mod element;
 mod fours;
 pub mod gathers;
 pub mod law;
@@ -21,28 +22,29 @@ use pattern::Garment;
 use arcs::{Arcs, Laid};
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
+use element::Element;
 use gathers::Gathers;
 use law::Orthotropic;
-use membrane::{Element, Membrane};
+use membrane::Membrane;
 
-/// Coulomb coefficients of a fabric.
+/// Coulomb friction coefficients of a fabric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// On the body and the floor.
+    /// Coefficient on the body and the floor.
     pub body: f64,
-    /// On other cloth.
+    /// Coefficient on other cloth.
     pub cloth: f64,
 }
 
 impl Friction {
-    /// Those of a fabric.
+    /// Friction coefficients of a fabric.
     #[must_use]
     pub fn of(fabric: &Fabric) -> Self {
         Self { body: fabric.friction_body, cloth: fabric.friction_self }
     }
 }
 
-/// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
+/// Mechanical model of a garment. Its *simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
 pub struct Cloth {
     /// Simulated vertex of each garment vertex.
@@ -51,20 +53,20 @@ pub struct Cloth {
     pub triangles: Vec<[usize; 3]>,
     /// Lumped masses, kg.
     pub masses: Vec<f64>,
-    /// Rest areas that belong to the vertices, m2.
+    /// Lumped rest areas of the vertices, m2: a third of each adjacent triangle.
     pub areas: Vec<f64>,
-    /// Coulomb coefficients of the vertices.
+    /// Friction coefficients of the vertices.
     pub frictions: Vec<Friction>,
-    /// Stretch and shear of the triangles.
+    /// Stretch and shear in the plane of the cloth.
     pub membrane: Membrane,
     /// Bending across the edges that two triangles share.
     pub bending: Bending,
-    /// Strengthened edges, as threads along them.
+    /// Reinforced edges, as elastic threads along them.
     pub bands: Bands,
 }
 
 impl Cloth {
-    /// Sets up a garment whose vertices are merged as `vertex_of` says (values 0..n without gaps).
+    /// Sets up a garment whose vertices are merged as `vertex_of` says. Its values are 0..n without gaps.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
@@ -72,7 +74,8 @@ impl Cloth {
         Self::of_layers(garment, &[(garment.pieces.len(), fabric)], vertex_of)
     }
 
-    /// Sets up garments together, of which each has so many of the pieces, in their order, and its own fabric.
+    /// Sets up several garments in one mesh. `layers` gives the number of pieces and the fabric of each garment, in the
+    /// order of the pieces.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
@@ -93,7 +96,7 @@ impl Cloth {
                 let element = Element::new(vertices, rest, piece.grain)
                     .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?
                     .of_law(law);
-                // What is gathered weighs what was cut.
+                // Gathered cloth has the mass of the cut cloth, so the area is that in the pattern.
                 let area = 0.5 * (drawn[1] - drawn[0]).perp(&(drawn[2] - drawn[0]));
                 for v in vertices {
                     areas[v] += area / 3.0;
@@ -119,7 +122,8 @@ impl Cloth {
         })
     }
 
-    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before.
+    /// Returns the same cloth with a share of its membrane stiffness ([`Orthotropic::slackened`]). Its bending
+    /// stiffness is unchanged.
     #[must_use]
     pub fn slackened(mut self, share: f64) -> Self {
         self.membrane = self.membrane.with_laws(|law| law.slackened(share));
@@ -139,30 +143,41 @@ impl Cloth {
         self.masses.len()
     }
 
-    /// Whether there is nothing to simulate.
+    /// True if there is no vertex to simulate.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.masses.is_empty()
     }
 
-    /// Positions of the garment's vertices from those of the simulated ones.
+    /// Positions of the garment vertices, each that of its simulated vertex.
     #[must_use]
     pub fn unweld(&self, x: &[V3]) -> Vec<V3> {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Positions of the simulated vertices: the mean of the garment vertices of each group.
+    /// Positions of the simulated vertices: the mean over the garment vertices of each group.
     #[must_use]
     pub fn weld(&self, positions: &[V3]) -> Vec<V3> {
         sewing::merged(&self.vertex_of, positions)
     }
 }
 
-/// Finds the hinges between triangles as they come.
+/// A side of a triangle whose neighbour across it is not known yet.
+struct OpenSide {
+    /// Vertex opposite the side.
+    opposite: usize,
+    flap: Flap,
+    /// Index of the triangle.
+    plate: usize,
+    /// Number of the side in the triangle.
+    side: usize,
+}
+
+/// Collects triangles one by one, and finds the hinge between each two that share an edge.
 #[derive(Default)]
 struct PlateBuilder {
-    /// Directed edges whose other side has not come yet: opposite vertex, flap, and the plate's side.
-    open: BTreeMap<[usize; 2], (usize, Flap, [usize; 2])>,
+    /// Sides whose neighbour has not come yet, by the direction of the edge.
+    open: BTreeMap<[usize; 2], OpenSide>,
     hinges: Vec<Hinge>,
     plates: Vec<Plate>,
     laid: Vec<Laid>,
@@ -189,8 +204,8 @@ impl PlateBuilder {
             let [a, b, opposite] = order.map(|m| vertices[m]);
             let [ra, rb, rc] = order.map(|m| rest[m]);
             match self.open.remove(&[b, a]) {
-                // The neighbour runs along the shared edge the other way.
-                Some((other, flap, [neighbour, side])) => {
+                // The neighbour traverses the shared edge in the opposite direction.
+                Some(OpenSide { opposite: other, flap, plate: neighbour, side }) => {
                     self.laid[neighbour].across[side] = Some([plate, k]);
                     self.laid[plate].across[k] = Some([neighbour, side]);
                     self.plates[neighbour].hinges[side] = Some(self.hinges.len());
@@ -198,7 +213,8 @@ impl PlateBuilder {
                     self.hinges.push(Hinge::new([b, a, other, opposite], [flap, Flap { rest: [rb, ra, rc] }]));
                 }
                 None => {
-                    self.open.insert([a, b], (opposite, Flap { rest: [ra, rb, rc] }, [plate, k]));
+                    let flap = Flap { rest: [ra, rb, rc] };
+                    self.open.insert([a, b], OpenSide { opposite, flap, plate, side: k });
                 }
             }
         }
@@ -209,7 +225,7 @@ impl PlateBuilder {
     }
 }
 
-/// Constants of the cloth that decide results.
+/// Collects the constants of the cloth model that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS, slack::CONSTANTS].concat()
 }

@@ -1,24 +1,25 @@
-//! A part of a cloth by itself: the vertices that may move, and those around them that hold them.
+//! A part of a cloth as a system of its own: vertices that may move, and those around them that hold them.
 
 use super::Cloth;
 use super::bending::{Bending, Tangent};
-use super::membrane::{Element, Membrane};
+use super::element::Element;
+use super::membrane::Membrane;
 use linalg::PairList;
 
-/// Which vertices make a part, and what they are called there: their order stays.
+/// Vertices of a part with their indices in it. Their order is that in the cloth.
 pub struct Part {
-    /// The cloth's vertices in the part, ascending.
+    /// Vertices of the part in the cloth, in ascending order.
     pub vertices: Vec<usize>,
-    /// Whether each of them may move.
+    /// True for each of them that may move.
     pub is_free: Vec<bool>,
-    /// Name in the part of each of the cloth's vertices.
+    /// Index in the part of each vertex of the cloth.
     names: Vec<Option<usize>>,
-    /// Triangles whose energies change when free vertices move.
+    /// Triangles whose energies depend on free vertices.
     triangles: Vec<usize>,
 }
 
 impl Part {
-    /// The vertices that are `free`, everything that stretching and bending couple to them, and `others`.
+    /// Selects the vertices that are `free`, all vertices that membrane or bending couple to them, and `others`.
     #[must_use]
     pub fn new(cloth: &Cloth, free: &[bool], others: &[usize]) -> Self {
         let mut is_in = free.to_vec();
@@ -46,7 +47,7 @@ impl Part {
         Self { is_free: vertices.iter().map(|&v| free[v]).collect(), vertices, names, triangles }
     }
 
-    /// Names of vertices in the part, if all are in it and one of them may move.
+    /// Indices of some vertices in the part; `None` unless all are in it and at least one of them may move.
     #[must_use]
     pub fn names<const N: usize>(&self, vertices: [usize; N]) -> Option<[usize; N]> {
         let names = vertices.map(|v| self.names[v]);
@@ -54,7 +55,7 @@ impl Part {
         (is_free && names.iter().all(Option::is_some)).then(|| names.map(Option::unwrap_or_default))
     }
 
-    /// What belongs to the part's vertices.
+    /// Selects the values of the vertices of the part.
     #[must_use]
     pub fn of<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.vertices.iter().map(|&v| values[v]).collect()
@@ -62,7 +63,8 @@ impl Part {
 }
 
 impl Cloth {
-    /// A part by itself, with the energies that change when its free vertices move, and the triangles that these belong to.
+    /// Returns a part as a cloth of its own, with the energies that depend on its free vertices, and the indices of its
+    /// triangles.
     #[must_use]
     pub fn part(&self, part: &Part) -> (Self, Vec<usize>) {
         let name = |v: usize| part.names[v].unwrap_or_default();
@@ -89,7 +91,8 @@ impl Cloth {
 }
 
 impl Bending {
-    /// That of the pairs of which one may move in a part; `sides` are those of the cloth's triangles and then of the part's.
+    /// Bending of a part: the pairs with a vertex that may move. `sides` are the sides of the triangles of the cloth,
+    /// then those of the part.
     #[must_use]
     pub fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
         let (pairs, entries) = renamed(part, &self.pairs, &self.entries);
@@ -98,7 +101,8 @@ impl Bending {
 }
 
 impl Tangent {
-    /// That of the pairs of which one may move in a part; `sides` are the cloth's and then the part's.
+    /// Stiffness of a part: the pairs with a vertex that may move. `sides` are the sides of the triangles of the cloth,
+    /// then those of the part.
     fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
         let mut along = vec![0.0; sides[1].pairs().len()];
         for (&pair, entry) in sides[0].pairs().iter().zip(&self.along) {
@@ -111,7 +115,7 @@ impl Tangent {
     }
 }
 
-/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of
+/// Pairs with a vertex that may move in a part, by its indices, with their entries. Their order stays, since that of
 /// the vertices does.
 fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
     let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));

@@ -1,19 +1,21 @@
-//! Slack cloth: shares of its stiffness in the plane with which cloth comes to rest, one after the other, before it has all of it.
+//! Slack cloth: a sequence of reduced membrane stiffnesses with which cloth comes to rest before it has its full
+//! stiffness (a continuation method).
 
 use crate::Fabric;
 use geom::units::GRAVITY;
 
 geom::constants! {
     "cloth.slack",
-    /// By how much the weight that hangs from it stretches slack cloth.
+    /// Relative elongation of the slack cloth under the weight that hangs from it, for each stage.
     ///
-    /// Cloth that stretches as easily as it bends has one way to lie, or few, and wherever it begins it finds that; stiffened by and by
-    /// it goes on from there. Stiff from the start it stays in the folds that it happened to be sewn into.
+    /// Cloth that stretches as easily as it bends has one equilibrium or few, and reaches it from any start. Stiffened
+    /// in stages it follows that equilibrium. Cloth that is stiff from the start keeps the folds that it was sewn into
+    /// by chance.
     const STRETCHES: [f64; 3] = [0.025, 0.008, 0.0012];
 }
 
-/// Shares of a fabric's stiffness in the plane, growing, where so much of it hangs; none of 1 and more, as of cloth that stretches as
-/// easily as it is.
+/// Shares of the membrane stiffness for the stages, in increasing order, for cloth of which a length `hanging_m` hangs.
+/// Shares of 1 and more are left out: such a fabric stretches by as much with its full stiffness.
 #[must_use]
 pub fn shares(fabric: &Fabric, hanging_m: f64) -> Vec<f64> {
     let Fabric { density_kg_m2, membrane_warp_n_m, membrane_weft_n_m, .. } = *fabric;

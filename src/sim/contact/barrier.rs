@@ -1,32 +1,34 @@
-//! How two layers of cloth push each other apart.
+//! Contact potential between two layers of cloth: a penalty spring and a barrier.
 
-/// What a contact does at some distance, over its penalty stiffness.
+/// Contact potential at a distance and its derivatives, over the penalty stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
     /// Energy over the stiffness, m2.
     pub energy: f64,
-    /// Force over the stiffness, m; it pushes apart.
+    /// Repulsive force over the stiffness, m.
     pub force: f64,
-    /// Slope of the force with the depth of the contact, over the stiffness.
+    /// Derivative of the force by the depth of the contact, over the stiffness.
     pub stiffness: f64,
 }
 
 geom::constants! {
     "contact.barrier",
-    /// Share of the thickness below which the barrier rises.
+    /// Distance `d0` below which the barrier acts, as a share of the thickness.
     const FROM: f64 = 0.5;
-    /// Share of the thickness down to which it rises as a logarithm; nearer still it runs on as a parabola.
+    /// Distance down to which the barrier is logarithmic, as a share of the thickness. Below it the barrier is
+    /// continued as a parabola, so that the potential stays finite.
     const TO: f64 = 0.01;
-    /// Strength of the barrier over that of the spring.
+    /// Factor of the barrier relative to the spring.
     const STRENGTH: f64 = 4.0;
 }
 
-/// The push at a distance: a spring over the thickness, and within half of it a barrier `-(d - d0)^2 ln(d / d0)` besides
-/// [Li 2020], whose slope grows ten-thousandfold before it is cut off. `None` beyond the thickness.
+/// Contact potential at the distance `d`; `None` at or beyond the thickness `t`. The energy over the stiffness is `(t -
+/// d)^2 / 2`, a spring. Below `d0 = t/2` the logarithmic barrier `-4 (d - d0)^2 ln(d / d0)` [Li 2020] is added. Its
+/// second derivative reaches ten thousand times that of the spring before the barrier is cut off.
 #[must_use]
 pub fn push(distance_m: f64, thickness_m: f64) -> Option<Push> {
     let depth = thickness_m - distance_m;
-    // Not a number where a triangle has collapsed.
+    // NaN where a triangle has collapsed.
     if depth.is_nan() || depth <= 0.0 {
         return None;
     }
@@ -55,16 +57,16 @@ mod tests {
         let mut last = 0.0;
         for k in (0..200).rev() {
             let (d, h) = (thickness * (f64::from(k) + 0.5) / 200.0, 1e-9);
-            let at = |d: f64| push(d, thickness).expect("within the thickness");
+            let push_at = |d: f64| push(d, thickness).expect("within the thickness");
             let slope = |f: &dyn Fn(f64) -> f64| -(f(d + h) - f(d - h)) / (2.0 * h);
-            let Push { force, stiffness, .. } = at(d);
-            assert!((slope(&|d| at(d).energy) / force - 1.0).abs() < 1e-5, "force at {d}");
-            assert!((slope(&|d| at(d).force) / stiffness - 1.0).abs() < 1e-5, "stiffness at {d}");
+            let Push { force, stiffness, .. } = push_at(d);
+            assert!((slope(&|d| push_at(d).energy) / force - 1.0).abs() < 1e-5, "force at {d}");
+            assert!((slope(&|d| push_at(d).force) / stiffness - 1.0).abs() < 1e-5, "stiffness at {d}");
             assert!(force > last, "at {d}");
             last = force;
         }
         assert_eq!(push(thickness, thickness), None);
-        // Ten times what body contact presses with at a depth of 1 mm, at a tenth of its penalty.
+        // Ten times the pressure of body contact at a depth of 1 mm, with a tenth of its penalty.
         assert!(push(0.01 * thickness, thickness).expect("within").force > 0.1);
     }
 }

@@ -1,15 +1,15 @@
-//! Contact of cloth with the body and the floor: a penalty in the distance field, and Coulomb friction by anchors.
+//! Contact of cloth with the body and the floor: a penalty in a distance field, and Coulomb friction with anchors.
 //!
-//! A sample of the cloth nearer than the offset `d0` is pushed out by a pressure that grows with its depth `d = d0 -
-//! phi`. It grows as `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with slope `k` from there on. The
-//! force is that times the rest area. So what only carries its weight lies softly (a hard contact of a few pascals is
-//! lost by a move of a micrometre, and found again by the next), and what is drawn tight lies hard. The force runs
-//! along the raw gradient of the field, so that it is exactly the energy's. Friction ties a touching sample to an
-//! anchor by a spring of stiffness `k_t`; beyond the Coulomb limit the anchor is dragged along [method 7].
+//! A sample of the cloth is repelled where its distance `phi` in the field is less than the offset `d0`. The pressure
+//! grows with the depth `d = d0 - phi` as `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with the slope
+//! `k` from there on. The force is the pressure times the rest area. So light contacts are soft: a hard contact of a
+//! few pascals would be lost by a motion of a micrometre, and found again by the next. Loaded contacts are stiff. The
+//! force is along the raw gradient of the field, so that it is exactly the derivative of the energy. Friction ties a
+//! touching sample to an anchor by a spring of stiffness `k_t`. Beyond the Coulomb limit the anchor is dragged along.
 //!
-//! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside: where the
-//! body is more curved than the mesh is fine, chords would cut into it. A force on such a point is shared by the vertices
-//! about it, as the point's place is.
+//! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside. Where
+//! the body is more curved than the mesh resolves, chords would cut into it. The force on such a point is distributed
+//! to its vertices by its barycentric weights.
 
 use std::collections::BTreeMap;
 
@@ -26,56 +26,57 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.body",
-    /// Stiffness that the field's curvature takes, as a share of that along its gradient, which is left out.
+    /// Contribution of the curvature of the field to the stiffness below which it is left out, as a share of the
+    /// contribution along the gradient.
     const NEARLY_FLAT: f64 = 0.02;
-    /// Most that an offset grows at once, m.
+    /// Greatest growth of an offset at once, m.
     const MOST_YIELD_M: f64 = 2e-3;
-    /// Farthest that the blurred field may lie from the true skin where cloth touches, m.
+    /// Greatest error of the blurred field near cloth that touches, m.
     const FIELD_ERROR_M: f64 = 4e-3;
-    /// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
+    /// Bound on the gradient of the field. A true distance field has the gradient 1; the rest is for rounding.
     const STEEPEST: f64 = 1.05;
 }
 
-/// A point of the cloth that is kept out of the body.
+/// A sample point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     point: Point,
-    /// Distance in the field at which it begins to be pushed, m.
+    /// Distance in the field below which it is repelled, m.
     offset_m: f64,
-    /// Rest area that it stands for, m2.
+    /// Rest area of the sample, m2.
     area_m2: f64,
 }
 
-/// When a sample was last looked up in the field.
+/// Last evaluation of the field at a sample.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
-    /// Place of the sample then, m.
+    /// Position of the sample then, m.
     place: V3,
-    /// How far it may go from there before it can touch, m.
+    /// Distance that it may move from there before it can touch, m.
     slack_m: f64,
 }
 
 impl Seen {
-    /// Of a sample that was not looked up yet.
+    /// Value for a sample at which the field was not evaluated yet.
     const NEVER: Self = Self { place: V3::new(0.0, 0.0, 0.0), slack_m: f64::MIN };
 
-    /// Whether the sample cannot touch at `p`.
+    /// True if the sample cannot touch at `p`, so that the field need not be evaluated.
     #[inline(always)]
     fn is_clear(&self, p: &V3) -> bool {
         self.slack_m > 0.0 && (p - self.place).norm_squared() < self.slack_m * self.slack_m
     }
 }
 
-/// A sample in contact, as seen at the start of a step.
+/// A sample in contact at the start of a step.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     sample: usize,
-    /// Gradient of the distance.
+    /// Gradient of the distance there.
     gradient: V3,
     push: Push,
 }
 
-/// Contact of one cloth with one body.
+/// Contact of a cloth with a body.
 pub struct BodyContact<'a> {
     field: &'a DistanceField,
     /// Height of the floor, m; `None` where there is none.
@@ -84,19 +85,19 @@ pub struct BodyContact<'a> {
     /// The vertices in their order, then points between them.
     samples: Vec<Sample>,
     vertices: usize,
-    /// Where friction holds each sample.
+    /// Friction anchor of each sample, m.
     anchors: Vec<Option<V3>>,
-    /// By itself, since it is all that is asked of most samples.
+    /// Last evaluations, stored apart from `samples`, since most samples need nothing else.
     seen: Vec<Seen>,
-    /// Coulomb coefficients of the vertices; `None` while friction is off.
+    /// Friction coefficients of the vertices; `None` while friction is off.
     friction: Option<Vec<f64>>,
-    /// Whether friction holds beyond its limit.
+    /// True if friction holds beyond the Coulomb limit.
     holds_fast: bool,
     touching: Vec<Touch>,
 }
 
 impl<'a> BodyContact<'a> {
-    /// Contact for vertices with rest areas `areas` (m2), without friction.
+    /// Sets up contact without friction for vertices with the rest areas `areas`, m2.
     #[must_use]
     pub fn new(field: &'a DistanceField, params: ContactParams, areas: &[f64]) -> Self {
         let sample =
@@ -115,7 +116,7 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// The contact of a part of the cloth.
+    /// Contact of a part of the cloth.
     #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let vertex = |(name, &v): (usize, &usize)| Sample { point: Point::vertex(name), ..self.samples[v] };
@@ -136,14 +137,14 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// The points between vertices of a part, by their number, and as they are called there.
+    /// Points between vertices of a part: their indices, and the samples with the vertex indices of the part.
     fn between(&self, part: &Part) -> impl Iterator<Item = (usize, Sample)> {
         let renamed = |point: &Point| Some(Point { vertices: part.names(point.vertices)?, ..*point });
         let between = self.samples.iter().enumerate().skip(self.vertices);
         between.filter_map(move |(k, sample)| Some((k, Sample { point: renamed(&sample.point)?, ..*sample })))
     }
 
-    /// Takes over where friction has come to hold a part of the cloth.
+    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, contact: &BodyContact) {
         let between: Vec<usize> = self.between(part).map(|(k, _)| k).collect();
         for (&k, anchor) in part.vertices.iter().chain(&between).zip(&contact.anchors) {
@@ -151,13 +152,13 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Has a floor hold the cloth up from now on, as the body does: its height, m.
+    /// Adds a floor at a height (m), with the same contact as the body.
     pub fn set_floor(&mut self, height_m: f64) {
         self.floor_m = Some(height_m);
         self.seen.fill(Seen::NEVER);
     }
 
-    /// Distance from body and floor, and its gradient.
+    /// Distance to body and floor, m, and its gradient.
     #[inline(always)]
     fn distance(&self, p: &V3) -> (f64, V3) {
         let (distance, gradient) = self.field.value_and_gradient(p);
@@ -167,32 +168,32 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Second derivative of that distance.
+    /// Hessian of that distance, 1/m.
     fn curvature(&self, p: &V3) -> Matrix3<f64> {
         let is_on_floor = |floor_m| p.z - floor_m < self.field.value_and_gradient(p).0;
         if self.floor_m.is_some_and(is_on_floor) { Matrix3::zeros() } else { self.field.hessian(p) }
     }
 
-    /// Takes another penalty from now on.
+    /// Sets the penalty stiffness.
     pub fn set_stiffness(&mut self, stiffness_n_m3: f64) {
         self.params.stiffness_n_m3 = stiffness_n_m3;
     }
 
-    /// How far the penalty yields at `x`, m: what the hardest pressed sample is nearer than its offset.
+    /// Greatest depth of a sample below its offset at `x`, m: the yield of the penalty.
     #[must_use]
     pub fn yields_m(&self, x: &[V3]) -> f64 {
         let depths = (0..self.samples.len()).filter_map(|k| self.depth(k, x));
         depths.map(|(depth, _)| depth).fold(0.0, f64::max)
     }
 
-    /// Switches friction on, with a Coulomb coefficient of each vertex. Anchors are set where the cloth now lies.
+    /// Switches friction on, with a coefficient for each vertex. Anchors are set at the present position.
     pub fn set_friction(&mut self, coefficients: impl Iterator<Item = f64>) {
         self.friction = Some(coefficients.collect());
         self.anchors.fill(None);
     }
 
-    /// From now on friction holds every sample by its anchor, whatever that takes. A sample that has slid lies just at its limit: a small
-    /// move the one way would be held there, and the other way not.
+    /// Makes friction hold every sample at its anchor from now on, whatever the force. A sample that has slid is just
+    /// at its Coulomb limit: a small motion in one direction would be held, and in the other not.
     pub fn hold_fast(&mut self) {
         self.holds_fast = true;
     }
@@ -203,8 +204,8 @@ impl<'a> BodyContact<'a> {
         self.touching.len()
     }
 
-    /// Has every edge middle and triangle centre kept out like the vertices: for meshes so coarse that an edge could go
-    /// through an arm unseen.
+    /// Adds every edge midpoint and triangle centroid as a sample. It is for coarse meshes, whose edges could pass
+    /// through an arm unnoticed.
     #[must_use]
     pub fn with_points_between(mut self, triangles: &[[usize; 3]]) -> Self {
         let edges = edges_of(triangles);
@@ -214,7 +215,7 @@ impl<'a> BodyContact<'a> {
         self
     }
 
-    /// Takes a point between vertices for a sample.
+    /// Adds a point between vertices as a sample.
     fn push(&mut self, point: Point, offset_m: f64) {
         let area_m2 = (0..3).map(|k| self.samples[point.vertices[k]].area_m2 * point.weights[k]).sum();
         self.samples.push(Sample { point, offset_m, area_m2 });
@@ -222,13 +223,12 @@ impl<'a> BodyContact<'a> {
         self.seen.push(Seen::NEVER);
     }
 
-    /// Looks at vertices and at the middles of these edges and centres of triangles against the exact surface, and has
-    /// those that lie inside held [`ContactParams::clearance_m`] off it from now on. Returns how deep the deepest lay,
-    /// m (0 when none).
+    /// Tests vertices, midpoints of `edges` and centroids of `triangles` against the exact surface. Those inside are
+    /// held [`ContactParams::clearance_m`] off it from now on. Returns the greatest depth, m (0 where there is none).
     ///
-    /// The offset of such a point is told in the field, which is blurred: what the blur takes from a sharp convex place
-    /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so
-    /// hard there that the penalty yields: its offset grows by as much (an augmented penalty).
+    /// The offset of such a point is corrected for the blur of the field, which cuts off sharp convex parts of the
+    /// body. Where the cloth `is_at_rest` and a point held before is still inside, the penalty yields to the load. The
+    /// offset then grows by the depth (an augmented penalty).
     pub fn hold_out(
         &mut self,
         skin: &Skin,
@@ -248,7 +248,7 @@ impl<'a> BodyContact<'a> {
             }
             let Some(depth) = skin.depth(&p, distance) else { continue };
             deepest = deepest.max(depth);
-            // The vertices are the first samples, each by its number.
+            // The vertices are the first samples, in their order.
             let [first, _, last] = point.vertices;
             let held_as = if first == last { Some(first) } else { known.get(&point.vertices).copied() };
             let is_held = held_as.is_some();
@@ -268,16 +268,16 @@ impl<'a> BodyContact<'a> {
         deepest
     }
 
-    /// Where a sample is.
+    /// Position of a sample, m.
     #[inline(always)]
-    fn at(&self, k: usize, x: &[V3]) -> V3 {
+    fn place(&self, k: usize, x: &[V3]) -> V3 {
         if k < self.vertices { x[k] } else { self.samples[k].point.at(x) }
     }
 
-    /// How much nearer than its offset a sample is, m, and the gradient of the distance there; `None` where it is not.
+    /// Depth of a sample below its offset, m, and the gradient of the distance there; `None` where it does not touch.
     #[inline(always)]
     fn depth(&self, k: usize, x: &[V3]) -> Option<(f64, V3)> {
-        let p = self.at(k, x);
+        let p = self.place(k, x);
         if self.seen[k].is_clear(&p) {
             return None;
         }
@@ -285,7 +285,7 @@ impl<'a> BodyContact<'a> {
         Some((self.samples[k].offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Contact and friction energy, J; friction's with the normal forces and anchors of the current step.
+    /// Contact and friction energy, J. That of friction uses the normal forces and anchors of the current step.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         let mut energy = 0.0;
@@ -297,7 +297,8 @@ impl<'a> BodyContact<'a> {
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy_j).sum::<f64>()
     }
 
-    /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
+    /// Adds the contact and friction forces at `x`, N. Those of friction use the normal forces and anchors of the
+    /// current step.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for k in 0..self.samples.len() {
             if let Some((depth, gradient)) = self.depth(k, x) {
@@ -309,6 +310,7 @@ impl<'a> BodyContact<'a> {
         self.add_friction(x, forces);
     }
 
+    /// Adds the friction forces at `x`, N.
     fn add_friction(&self, x: &[V3], forces: &mut [V3]) {
         for touch in &self.touching {
             if let Some(f) = self.friction_at(touch, x) {
@@ -317,8 +319,8 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Finds the touching samples and adds their forces and the stiffness of vertices; returns their energy, J, and the stiffness of
-    /// points between.
+    /// Finds the touching samples. Adds their forces (N) to `forces` and the stiffness of vertices (N/m) to `diagonal`.
+    /// Returns the energy (J) and the stiffness of points between vertices.
     pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> (f64, Vec<Contact4>) {
         self.find_touching(x);
         let (mut pushed, mut rubbed) = (0.0, 0.0);
@@ -344,11 +346,11 @@ impl<'a> BodyContact<'a> {
         (pushed + rubbed, couplings)
     }
 
-    /// Stiffness of a touching sample at `p`: the second derivative of its energy without what would pull it in, and
-    /// `sideways` that of friction.
+    /// Stiffness of a touching sample at `p`: the Hessian of its energy without its negative eigenvalues, and
+    /// `sideways` the tangential stiffness of friction.
     ///
-    /// The field's own curvature matters where skin faces skin: in an armpit the gradient is small and turns over a few
-    /// millimetres, and cloth between the two is held by that turning alone.
+    /// The curvature of the field matters where skin faces skin. In an armpit the gradient is small and turns within a
+    /// few millimetres, and cloth between the two sides is held by that alone.
     fn stiffness_at(&self, touch: &Touch, p: &V3, sideways: f64) -> Matrix3<f64> {
         let upright = touch.gradient * touch.gradient.transpose() * touch.push.stiffness_n_m3;
         let bent = self.curvature(p) * touch.push.pressure_n_m2;
@@ -364,9 +366,9 @@ impl<'a> BodyContact<'a> {
         stiffness * self.samples[touch.sample].area_m2 + friction
     }
 
-    /// Adds the forces of samples that touch at `x`, and what these lack of the stiffness that [`BodyContact::assemble`] has found for
-    /// the start of the step: those that come to touch, and those that go deeper. Adds that of vertices to `diagonal` and returns that
-    /// of points between.
+    /// Adds the forces of the samples that touch at `x`, the end of a step. It also provides the stiffness by which
+    /// they exceed that of [`BodyContact::assemble`] at the start: of new contacts, and of deeper ones. The stiffness
+    /// of vertices is added to `diagonal`, and that of points between them is returned.
     #[must_use]
     pub fn meet(&self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
         let mut has = vec![0.0; self.samples.len()];
@@ -389,10 +391,11 @@ impl<'a> BodyContact<'a> {
         couplings
     }
 
+    /// Finds the samples in contact at `x`, and sets anchors for new ones.
     fn find_touching(&mut self, x: &[V3]) {
         self.touching.clear();
         for k in 0..self.samples.len() {
-            let p = self.at(k, x);
+            let p = self.place(k, x);
             if self.seen[k].is_clear(&p) {
                 self.anchors[k] = None;
                 continue;
@@ -411,6 +414,7 @@ impl<'a> BodyContact<'a> {
         }
     }
 
+    /// Friction of a touching sample at `x`; `None` without friction or anchor.
     fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
         let sample = &self.samples[touch.sample];
         let coefficient = self.friction.as_ref()?[sample.point.vertices[0]];
@@ -423,14 +427,15 @@ impl<'a> BodyContact<'a> {
         Some(Hold { limit_n: limit, stiffness_n_m, is_fast: self.holds_fast }.at(slip))
     }
 
-    /// Sets the anchors after a step has been taken to `x`: those of sliding samples are dragged along, and all come to lie level with their
-    /// samples. An anchor that stayed behind along the normal would pull sideways as soon as that turns, as by 12 degrees within 0.05 mm
-    /// in the crease of an armpit: vertices hopped to and fro there for ever.
+    /// Updates the anchors after a step to `x`: those of sliding samples are dragged along, and all are moved along the
+    /// normal to the level of their samples. An anchor left behind along the normal would pull sideways as soon as the
+    /// normal turns. In the crease of an armpit it turns by 12 degrees within 0.05 mm, and vertices would oscillate
+    /// there for ever.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         for k in 0..self.touching.len() {
             let touch = self.touching[k];
             let held = self.friction_at(&touch, x).map(|f| f.held);
-            let p = self.at(touch.sample, x);
+            let p = self.place(touch.sample, x);
             if let (Some(anchor), Some(held)) = (&mut self.anchors[touch.sample], held) {
                 *anchor = p - held;
             }

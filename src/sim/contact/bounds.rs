@@ -1,10 +1,10 @@
-//! Boxes along the axes, in vector registers: the search for near cloth compares a hundred thousand of them.
+//! Axis-aligned bounding boxes in vector registers. The search for near cloth compares a hundred thousand of them.
 
 use wide::f32x4;
 
 use geom::V3;
 
-/// Lowest and highest corner in single precision; never smaller than what they bound. The fourth number is zero.
+/// An axis-aligned bounding box in single precision, rounded outwards. The fourth component is zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     low: f32x4,
@@ -13,11 +13,11 @@ pub struct Bounds {
 
 geom::constants! {
     "contact.bounds",
-    /// What boxes are widened by, as a share of where they lie and of what is added: all that rounding can have taken.
+    /// Relative widening of boxes, which covers the rounding of coordinates and of the widening itself.
     const ROUNDING: f32 = 2.0 * f32::EPSILON;
 }
 
-/// A point in single precision, as [`Bounds::around`] takes it.
+/// A point in single precision, for [`Bounds::around`].
 #[must_use]
 #[inline(always)]
 pub fn rounded(p: &V3) -> f32x4 {
@@ -25,19 +25,19 @@ pub fn rounded(p: &V3) -> f32x4 {
 }
 
 impl Bounds {
-    /// The box about no points: it meets no other.
+    /// Box of no points; it overlaps no other.
     pub const NOTHING: Self = Self {
         low: f32x4::new([f32::MAX, f32::MAX, f32::MAX, 0.0]),
         high: f32x4::new([f32::MIN, f32::MIN, f32::MIN, 0.0]),
     };
 
-    /// From the lowest to the highest corner.
+    /// Box from the lowest to the highest corner.
     #[must_use]
     pub fn new(low: &V3, high: &V3) -> Self {
         Self { low: rounded(low), high: rounded(high) }.widened(0.0)
     }
 
-    /// Of some points, widened by `reach_m`.
+    /// Box of some points, widened by `reach_m`.
     #[must_use]
     #[inline(always)]
     pub fn around<const N: usize>(points: [f32x4; N], reach_m: f32) -> Self {
@@ -48,7 +48,7 @@ impl Bounds {
         Self { low, high }.widened(reach_m)
     }
 
-    /// Wider by so much on all sides.
+    /// Box widened by `reach_m` on all sides.
     #[must_use]
     #[inline(always)]
     pub fn widened(&self, reach_m: f32) -> Self {
@@ -58,7 +58,7 @@ impl Bounds {
         Self { low: low - (low.abs() + reach) * rounding, high: high + (high.abs() + reach) * rounding }
     }
 
-    /// The box about both boxes.
+    /// Box that encloses both boxes.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { low: self.low.fast_min(other.low), high: self.high.fast_max(other.high) }
@@ -80,14 +80,14 @@ impl Bounds {
         0.5 * (high - low).max()
     }
 
-    /// How far apart two boxes are at least, m; 0 where they overlap.
+    /// Distance between two boxes, m; 0 where they overlap.
     #[must_use]
     pub fn apart_m(&self, other: &Self) -> f64 {
         let between = (self.low - other.high).fast_max(other.low - self.high).fast_max(f32x4::ZERO);
         between.to_array().iter().map(|d| f64::from(*d) * f64::from(*d)).sum::<f64>().sqrt()
     }
 
-    /// Whether they overlap.
+    /// True if the boxes overlap.
     #[must_use]
     #[inline(always)]
     pub fn meets(&self, other: &Self) -> bool {
@@ -112,12 +112,13 @@ mod tests {
             let slack = [two[0].inf(&two[1]) - reach - low, high - two[0].sup(&two[1]) - reach];
             assert!(slack.iter().all(|s| s.min() >= 0.0 && s.max() < 3e-6), "{two:?} in {bounds:?}");
         }
-        let at = |x: f64, y: f64| Bounds::new(&V3::new(x, y, 0.0), &V3::new(x + 1.0, y + 1.0, 1.0));
+        let unit_box = |x: f64, y: f64| Bounds::new(&V3::new(x, y, 0.0), &V3::new(x + 1.0, y + 1.0, 1.0));
         for (x, y, expect) in [(0.5, 0.5, 0.0), (1.0, 0.0, 0.0), (4.0, 0.0, 3.0), (-4.0, 5.0, 5.0)] {
-            let (one, other) = (at(0.0, 0.0), at(x, y));
-            assert!((one.apart_m(&other) - expect).abs() < 1e-5 && one.meets(&other) == (expect == 0.0), "{x}, {y}");
-            assert!(Bounds::NOTHING.with(&other).meets(&one) == (expect == 0.0));
+            let (first, second) = (unit_box(0.0, 0.0), unit_box(x, y));
+            assert!((first.apart_m(&second) - expect).abs() < 1e-5, "{x}, {y}");
+            assert!(first.meets(&second) == (expect == 0.0), "{x}, {y}");
+            assert!(Bounds::NOTHING.with(&second).meets(&first) == (expect == 0.0));
         }
-        assert!(!Bounds::NOTHING.meets(&at(0.0, 0.0)));
+        assert!(!Bounds::NOTHING.meets(&unit_box(0.0, 0.0)));
     }
 }

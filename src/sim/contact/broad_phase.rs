@@ -1,4 +1,5 @@
-//! The search for parts of a cloth that are near each other and share no vertex.
+//! Broad phase of the collision detection: the search for pairs of primitives of a cloth that are near each other and
+//! share no vertex. A pair is a vertex and a triangle, or two edges.
 
 use std::ops::Range;
 
@@ -13,55 +14,57 @@ use geom::V3;
 use geom::triangle::sorted;
 use linalg::PairList;
 
-/// The cloth as the search sees it.
+/// Search structure of a cloth. Its primitives are grouped in clusters, and pairs of clusters remember how far apart
+/// their unknown pairs of primitives are at least.
 pub struct BroadPhase<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
     clusters: Clusters,
-    /// One of the vertices that a vertex is sewn to, the same for all of them.
+    /// Representative of the vertices that a vertex is sewn to.
     joined: Vec<usize>,
-    /// Positions when the cloth was last looked at, rounded.
+    /// Positions at the last look, rounded to single precision.
     seen: Vec<f32x4>,
-    /// Boxes about the clusters then.
+    /// Bounding boxes of the clusters at the last look.
     extents: Vec<Bounds>,
-    /// Clusters that were near each other when the cloth was last looked at, but for flat ones, in rising order.
+    /// Pairs of clusters that were near each other at the last look, except flat ones, in ascending order.
     near: Vec<Near>,
-    /// Distance within which clusters are near, m.
+    /// Distance below which clusters are near, m.
     horizon_m: f64,
-    /// The pairs that are known, by clusters that are near.
+    /// Known pairs of primitives, grouped by near clusters.
     pairs: Vec<Pair>,
 }
 
-/// Two parts of the cloth that share no vertex.
+/// Two primitives of the cloth that share no vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// A vertex and a triangle, or two edges.
     pub primitives: Primitives,
-    /// Their distance when the cloth was last looked at, m.
+    /// Their distance at the last look, m.
     pub distance_m: f64,
 }
 
-/// How far apart parts of two clusters are at most that are to be known, m.
+/// Distance up to which the pairs of primitives of two clusters are to be known.
 pub struct Within {
-    /// Where more is known than this, they are not sought again.
+    /// Distance, m. Where pairs are known up to it, they are not searched again.
     pub at_least_m: f64,
-    /// How far they are sought, if they are.
+    /// Distance up to which they are searched otherwise, m.
     pub at_best_m: f64,
 }
 
-/// Two clusters, the first no later than the second, or one twice.
+/// A pair of near clusters.
 struct Near {
+    /// Indices of the clusters, in ascending order; both are the same for a cluster with itself.
     clusters: [usize; 2],
-    /// Distance of their boxes, m.
+    /// Distance of their bounding boxes, m.
     apart_m: f64,
-    /// Distance within which pairs of their parts are known, m.
+    /// Distance up to which pairs of their primitives are known, m.
     known_m: f64,
-    /// Range of those pairs in the list of all.
+    /// Range of those pairs in the list of all pairs.
     pairs: Range<usize>,
 }
 
 impl Near {
-    /// How far apart any of their parts are of which it is unknown, m.
+    /// Lower bound of the distance of unknown pairs of their primitives, m.
     fn unknown_m(&self) -> f64 {
         self.apart_m.max(self.known_m)
     }
@@ -87,7 +90,7 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// Takes the two of each `sewn` pair for one vertex.
+    /// Treats the two vertices of each `sewn` pair as one.
     pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
         for [a, b] in sewn {
             let (kept, gone) = (self.joined[a], self.joined[b]);
@@ -95,39 +98,39 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// The cloth's edges.
+    /// Edges of the cloth.
     #[must_use]
     pub fn edges(&self) -> &[[usize; 2]] {
         self.edges.pairs()
     }
 
-    /// The cloth's triangles.
+    /// Triangles of the cloth.
     #[must_use]
     pub fn triangles(&self) -> &'a [[usize; 3]] {
         self.triangles
     }
 
-    /// Whether what was left out as flat is so at `x` still.
+    /// True if the clusters that were left out as flat are still flat at `x`.
     #[must_use]
     pub fn stay_flat(&self, x: &[V3]) -> bool {
         self.clusters.stay_flat(x, self.triangles)
     }
 
-    /// How the cloth moves where its vertices are displaced like this.
+    /// Motion of the clusters for some displacements of the vertices.
     #[must_use]
     pub fn motion(&self, displacements: &[V3]) -> Motion {
         self.clusters.motion(displacements)
     }
 
-    /// The motion of a cloth that stays where it is.
+    /// Motion of a cloth at rest: none.
     #[must_use]
     pub fn rest(&self) -> Motion {
         self.clusters.rest()
     }
 
-    /// Looks at the cloth at `x`, where it has `made` a motion since it was last looked at, and finds the pairs of its parts that are
-    /// as near as `within` asks for their two clusters. If that is within `horizon_m`, all pairs so near are among them, but for those
-    /// within flat cloth.
+    /// Looks at the cloth at `x`, which has `made` a motion since the last look, and returns the near pairs of
+    /// primitives. They are known up to the distance that `within` asks for their two clusters, if that is below
+    /// `horizon_m`. Pairs within flat cloth are left out.
     pub fn find_pairs(
         &mut self,
         x: &[V3],
@@ -168,8 +171,9 @@ impl<'a> BroadPhase<'a> {
         &self.pairs
     }
 
-    /// Looks at the cloth at `x`: what is flat, and which of the other clusters are within `horizon_m` of each other; what was known
-    /// of them is known less far, by as much as they have come nearer.
+    /// Looks at the cloth at `x`: finds the flat clusters, and which of the others are within `horizon_m` of each
+    /// other. The distance up to which pairs are known shrinks by the greatest approach of the clusters in the motion
+    /// `made`.
     fn look(&mut self, x: &[V3], horizon_m: f64, made: Option<&Motion>) {
         self.clusters.look(x, self.triangles);
         self.seen = x.iter().map(rounded).collect();
@@ -184,7 +188,7 @@ impl<'a> BroadPhase<'a> {
         let grid = BoxGrid::new(&corners, &sets, horizon_m, (2.0 * half + horizon_m).max(CELL_M));
         let mut around = Vec::new();
         self.horizon_m = horizon_m;
-        // All in rising order of the two clusters, and met side by side.
+        // All lists are in ascending order of the two clusters, and are merged.
         let mut before = std::mem::take(&mut self.near).into_iter().peekable();
         let mut flat = self.clusters.flat().peekable();
         for p in 0..extents.len() {
@@ -204,17 +208,19 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// How much nearer parts of the cloth may still come before pairs that are unknown can meet, m, where it has made these `motions`
-    /// since it was looked at, each so many times.
+    /// Greatest further approach of two primitives before an unknown pair can meet, m. The cloth has made these
+    /// `motions` since the last look, each a number of times.
     #[must_use]
     pub fn room_m<const N: usize>(&self, motions: [(&Motion, f64); N]) -> f64 {
-        let used = |of: &dyn Fn(&Motion) -> f64| motions.iter().map(|(motion, times)| of(motion) * times).sum::<f64>();
+        let used = |approach: &dyn Fn(&Motion) -> f64| {
+            motions.iter().map(|(motion, times)| approach(motion) * times).sum::<f64>()
+        };
         let far = self.horizon_m - 2.0 * used(&|motion| motion.farthest_m);
         let left = |near: &Near| near.unknown_m() - used(&|motion| motion.closing_m(near.clusters));
         self.near.iter().map(left).fold(far, f64::min)
     }
 
-    /// Largest share of a motion that can be made after another before unknown pairs can meet.
+    /// Greatest share of the motion `next` that can be made after `made` before an unknown pair can meet.
     #[must_use]
     pub fn free_share(&self, made: &Motion, next: &Motion) -> f64 {
         let far = (self.horizon_m - 2.0 * made.farthest_m) / (2.0 * next.farthest_m);
@@ -222,7 +228,7 @@ impl<'a> BroadPhase<'a> {
         self.near.iter().map(share).fold(far, f64::min)
     }
 
-    /// Takes the pairs of two clusters, or of one with itself.
+    /// Finds the near pairs of primitives of two clusters, or of one with itself.
     fn between(
         &self,
         [one, other]: [&Boxes; 2],
@@ -258,7 +264,7 @@ impl<'a> BroadPhase<'a> {
         }
     }
 
-    /// Whether the two sides have no vertex in common, nor any that are sewn to each other.
+    /// True if two sets of vertices have none in common, nor any that are sewn together.
     #[must_use]
     pub fn are_apart(&self, one: &[usize], other: &[usize]) -> bool {
         one.iter().all(|&v| other.iter().all(|&w| self.joined[v] != self.joined[w]))
@@ -267,14 +273,14 @@ impl<'a> BroadPhase<'a> {
 
 geom::constants! {
     "contact.broad_phase",
-    /// Least cell of the grid, m: smaller ones hold each cluster many times.
+    /// Least cell size of the grid, m. In smaller cells each cluster would be found many times.
     const CELL_M: f64 = 0.02;
 }
 
-/// A vertex, triangle or edge with the box about it.
+/// Index of a vertex, triangle or edge, with its bounding box.
 type Boxed = (u32, Bounds);
 
-/// Boxes about what belongs to a cluster, and about all of it.
+/// Bounding boxes of the members of a cluster, and of the whole cluster.
 struct Boxes {
     vertices: Vec<Boxed>,
     triangles: Vec<Boxed>,
@@ -298,7 +304,8 @@ impl Boxes {
     }
 }
 
-/// Those of `boxed` that reach into a box once both are widened by `half_m`, so widened, in `scratch`.
+/// Selects those of `boxed` that overlap a box once both are widened by `half_m`. They are returned widened, in
+/// `scratch`.
 fn near<'s>(boxed: &[Boxed], into: &Bounds, half_m: f32, scratch: &'s mut Vec<Boxed>) -> &'s [Boxed] {
     let into = into.widened(half_m);
     let widened = boxed.iter().map(|(which, bounds)| (*which, bounds.widened(half_m)));
@@ -316,18 +323,18 @@ mod tests {
 
     const EDGE_M: f64 = 0.01;
 
-    /// Vertices of a pair, and whether it is of two edges.
+    /// Vertices of a pair, and `true` for a pair of edges.
     type Tagged = ([usize; 4], bool);
 
     fn tagged(primitives: Primitives) -> Tagged {
         (primitives.vertices(), matches!(primitives, Primitives::EdgeEdge(_)))
     }
 
-    /// Pairs nearer than `reach` that share no vertex, each with its distance, by looking at all.
+    /// Pairs nearer than `reach` that share no vertex, each with its distance, found by testing all pairs.
     fn all_within(x: &[V3], triangles: &[[usize; 3]], reach: f64) -> Vec<(Tagged, f64)> {
         let edges = edges_of(triangles);
-        let edge_pairs = edges.pairs().iter().enumerate().flat_map(|(e, one)| {
-            edges.pairs()[e + 1..].iter().map(|other| Primitives::EdgeEdge([one[0], one[1], other[0], other[1]]))
+        let edge_pairs = edges.pairs().iter().enumerate().flat_map(|(e, &[a, b])| {
+            edges.pairs()[e + 1..].iter().map(move |&[c, d]| Primitives::EdgeEdge([a, b, c, d]))
         });
         let corners = (0..x.len()).flat_map(|v| triangles.iter().map(move |t| (v, sorted(*t))));
         let pairs = corners.map(|(v, [a, b, c])| Primitives::VertexTriangle([v, a, b, c])).chain(edge_pairs);
@@ -343,7 +350,7 @@ mod tests {
     fn only_pairs_within_flat_cloth_are_left_out() {
         let (rest, triangles) = sheet(24, 8, EDGE_M);
         let reach = 0.9 * EDGE_M;
-        // Rolled up, so that layers lie 6 mm from each other, with a sharp crease, and as flat as it comes.
+        // Rolled up, so that layers are 6 mm apart; with a sharp crease; and flat.
         let rolled = |p: &V2| {
             let angle = (2.0 * p.x / 9e-4).sqrt();
             V3::new(9e-4 * angle * angle.cos(), p.y, 9e-4 * angle * angle.sin())
@@ -353,7 +360,7 @@ mod tests {
             let mut x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
             let mut broad_phase = BroadPhase::new(&triangles, x.len());
             let mut made = None;
-            // Sought everywhere, then only where too much has become unknown.
+            // Searched everywhere, then only where too much has become unknown.
             for at_least_m in [reach, 0.8 * reach] {
                 let within = |clusters| Within { at_least_m, at_best_m: reach_m(clusters) };
                 let pairs = broad_phase.find_pairs(&x, 2.0 * reach, made.as_ref(), within);
@@ -378,7 +385,7 @@ mod tests {
                 (made, x) = (Some(broad_phase.motion(&displacements)), next);
             }
         };
-        // Pairs of clusters that go by themselves are sought less far than others.
+        // Some pairs of clusters are searched less far than others.
         let mixed = |[p, q]: [usize; 2]| if (p + q) % 3 == 0 { reach } else { 0.7 * reach };
         for reach_m in [&|_| reach, &mixed as &dyn Fn([usize; 2]) -> f64] {
             check(&rolled, reach_m, true);

@@ -1,39 +1,43 @@
-//! Whether two parts of the cloth meet on the straight way from one place to another.
+//! Continuous collision detection (CCD): whether two primitives of the cloth meet on the straight path between two
+//! positions.
 
 use super::distance::{ClosestPoints, Primitives};
 use geom::V3;
 
 geom::constants! {
     "contact.ccd",
-    /// Share of its distance that a pair keeps on its way at least.
+    /// Least distance of a pair on its path, as a share of its distance at the start.
     const KEPT_SHARE: f64 = 0.1;
-    /// Share of the distance that is gone at once.
+    /// Share of the remaining distance that one advance uses up.
     const ADVANCE_SHARE: f64 = 0.9;
-    /// Share of its distance that a pair keeps which must come no nearer: what rounding leaves of it.
+    /// Least distance, as a share of the present one, of a pair that may come no nearer: a margin for rounding.
     const NEARLY: f64 = 0.999;
-    /// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
+    /// Distance below which two primitives touch, m. It is a twentieth of the distance to which the strongest contact
+    /// force presses layers.
     pub const TOUCHING_M: f64 = 1e-6;
-    /// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
+    /// Greatest number of advances. A pair that takes more moves along so near that it may count as meeting.
     const MAX_ITERATIONS: usize = 40;
 }
 
-/// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`.
+/// True if a pair comes nearer than a tenth of its distance on the path from `x` to `y`.
 #[must_use]
 pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     free_share(x, y, primitives, 0.0) < 1.0
 }
 
-/// Share of the way from `x` to `y`, its vertices moving evenly, that a pair can go. It goes until it has come nearer
-/// than about a tenth of its distance, or than `least_m`, or, where it is that near already, nearer than it is. By
-/// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair
-/// that touches already has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross
-/// is drawn out again.
+/// Share of the path from `x` to `y` that a pair can take, its vertices moving uniformly. It ends where the distance
+/// falls below about a tenth of the one at the start, or below `least_m`. A pair that is nearer than `least_m` already
+/// may come no nearer. The method is additive conservative advancement: each advance is too short to use up the
+/// distance [Li, Kaufman, Jiang 2021].
+///
+/// A pair that touches at the start is not limited. It would stop every step of the whole cloth, and crossings that
+/// result are drawn out again.
 #[must_use]
 pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f64 {
     let vertices = primitives.vertices();
-    let mut at = vertices.map(|v| x[v]);
+    let mut places = vertices.map(|v| x[v]);
     let mut moves = vertices.map(|v| y[v] - x[v]);
-    // What all have in common brings none nearer.
+    // A common translation changes no distance.
     let mean = moves.iter().sum::<V3>() / 4.0;
     moves.iter_mut().for_each(|d| *d -= mean);
     let [a, b, c, d] = moves.map(|d| d.norm());
@@ -41,7 +45,7 @@ pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f
         Primitives::VertexTriangle(_) => a + b.max(c).max(d),
         Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
     };
-    let mut distance = ClosestPoints::at(&at, primitives).gap.norm();
+    let mut distance = ClosestPoints::at(&places, primitives).gap.norm();
     let least = (KEPT_SHARE * distance).max(least_m.min(NEARLY * distance));
     if distance - least > closing || distance < TOUCHING_M {
         return 1.0;
@@ -53,8 +57,8 @@ pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f
             return 1.0;
         }
         time += advance;
-        at.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
-        let before = std::mem::replace(&mut distance, ClosestPoints::at(&at, primitives).gap.norm());
+        places.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
+        let before = std::mem::replace(&mut distance, ClosestPoints::at(&places, primitives).gap.norm());
         if distance <= before && distance <= least + KEPT_SHARE * least {
             break;
         }
@@ -73,7 +77,7 @@ mod tests {
             let with = |p: [f64; 3]| [vec![V3::from(p)], triangle.to_vec()].concat();
             let pair = Primitives::VertexTriangle([0, 1, 2, 3]);
             assert_eq!(collides(&with(from), &with(to), pair), expect, "{from:?} to {to:?}");
-            // Together with the triangle it may go wherever it likes.
+            // Moved together with the triangle it never collides.
             let [x, mut y] = [from, from].map(with);
             y.iter_mut().for_each(|p| *p += V3::new(0.3, -0.2, 1.0));
             assert!(!collides(&x, &y, pair));

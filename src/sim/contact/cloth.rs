@@ -1,15 +1,18 @@
-//! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
+//! Contact of the cloth with itself (self-contact): vertices are kept a thickness away from triangles, and edges from
+//! edges.
 //!
-//! Each pair is pushed apart by the true distance of its two primitives. That runs on smoothly where a nearest point
-//! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push rises steeply
-//! as two layers come near (`barrier`), so that tension does not draw one through the other. No step may take it
-//! through: where a pair would meet on the way from the last step (`ccd`) the energy is infinite. All pairs that share
-//! no vertex are watched, but for those within flat cloth (`normal_cones`), so what does not cross hardly ever comes
-//! to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther
-//! where clusters of cloth close in on each other faster. Steps go no farther than pairs beyond it need to meet, so
-//! none is met unseen. What many vertices do together brings none nearer (`normal_cones`). Cloth that already crosses
-//! when it is first seen passes through itself there, while the line along which it crosses is drawn out of it
-//! (`untangle`). Layers rub on each other (`rub`).
+//! The potential of a pair is a function of the distance of its two primitives. That distance is continuous where a
+//! closest point passes over a rim [Li 2020], so the energy has no jumps at which a line search would stop. The force
+//! rises steeply as two layers approach (`barrier`), so that tension does not draw one through the other. No step may
+//! take them through: where a pair would meet on the path from the last step (`ccd`), the energy is infinite.
+//!
+//! All pairs without a common vertex are watched, except those within flat cloth (`normal_cones`). So cloth that does
+//! not cross itself hardly ever comes to do so: only layers pressed to within a micrometre may pass. Pairs are searched
+//! up to a distance, which is greater where clusters of cloth approach each other faster. Steps go no farther than
+//! unknown pairs need to meet. A common motion of many vertices brings no pair nearer (`normal_cones`).
+//!
+//! Cloth that crosses itself when it is first seen passes through itself there, while the line of intersection is drawn
+//! out of it (`untangle`). Layers rub on each other (`rub`).
 
 use std::borrow::Cow;
 
@@ -28,15 +31,15 @@ use linalg::Contact4;
 /// Parameters of self-contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ClothContactParams {
-    /// Distance at which layers begin to push each other apart, m.
+    /// Distance below which layers repel each other, m.
     pub thickness_m: f64,
-    /// Penalty, N/m3.
+    /// Penalty stiffness, N/m3.
     pub stiffness_n_m3: f64,
-    /// Pairs are sought up to this distance at most, m: twice what two vertices move towards each other in a step.
+    /// Greatest distance up to which pairs are searched, m: twice the displacement of a vertex in a step.
     pub reach_m: f64,
-    /// Force that draws a crossing out, N; it grows where that does not do.
+    /// Force that draws a crossing out, N. It grows where it does not suffice.
     pub release_n: f64,
-    /// Steps for which crossings are drawn out.
+    /// Number of steps for which crossings are drawn out.
     pub release_steps: u32,
 }
 
@@ -48,55 +51,60 @@ impl Default for ClothContactParams {
 
 geom::constants! {
     "contact.cloth",
-    /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
-    /// in which they face each other.
+    /// Squared sine of the angle between two edges below which the mollifier fades their contact out. Parallel edges
+    /// have no unique direction of contact.
     const MOLLIFIED_BELOW: f64 = 0.01;
-    /// For how many steps as long as the last pairs are known: at least, and at best.
+    /// Number of steps as long as the last one for which known pairs must suffice: at least, and when they are
+    /// searched.
     const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
-    /// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
+    /// Least margin of the approach of a pair before it is searched again, and the margin when it is searched, m.
     const SLACK_M: [f64; 2] = [1e-3, 4e-3];
-    /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs, and
-    /// a quarter as many as within twice that distance.
+    /// Limit of the search distance over the size of the triangles. A vertex of a finer mesh then has no more pairs.
+    /// Within twice that distance it would have four times as many.
     const REACH_SIZES: f64 = 0.7;
-    /// Least value of that limit, m: in a step two vertices approach each other by at most half of it.
+    /// Least value of that limit, m. In a step two vertices approach each other by at most half of it.
     const LEAST_REACH_M: f64 = 8e-3;
-    /// Share of the way to what is unknown that a step may take: corrections come on top.
+    /// Share of the distance to unknown pairs that a step may take. The rest is for its second-order correction.
     const FREE_SHARE: f64 = 0.9;
-    /// Shells of distance by which pairs are sorted.
+    /// Number of intervals of distance by which pairs are sorted.
     const SHELLS: f64 = 64.0;
-    /// Rounds in which what would meet goes a part of its way, and in which it then stays where it is.
+    /// Number of rounds in which vertices that would collide go a part of their path. In later rounds they stay where
+    /// they are.
     const SHARED_STOPS: usize = 6;
+    /// Greatest number of rounds in all.
     const MOST_STOPS: usize = 60;
-    /// Rounds in which what is near is kept apart.
+    /// Number of rounds in which near pairs are moved apart.
     const APART_ROUNDS: usize = 6;
-    /// Share of the thickness by which a pair is brought apart at once.
+    /// Greatest increase of the distance of such a pair, as a share of the thickness.
     const GROWN_SHARE: f64 = 0.25;
-    /// Distance below which nothing comes nearer that is moved without regard to energy, m.
+    /// Distance below which primitives that are moved without regard to energy come no nearer, m.
     const NEAREST_M: f64 = 1e-4;
-    /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its broad_phase.
+    /// Greatest thickness of a contact over the size of the triangles. Within flat cloth no primitive then repels its
+    /// neighbours.
     const THICKNESS_SIZES: f64 = 0.5;
 }
 
-/// How deep a pair is in contact at some positions.
+/// Contact of a pair of primitives at some positions.
 struct Press {
     primitives: Primitives,
     vertices: [usize; 4],
     weights: [f64; 4],
-    /// Direction away from the second primitive.
+    /// Unit vector from the second primitive to the first.
     normal: V3,
     push: Push,
-    /// How much nearer than the thickness the pair is, m.
+    /// Depth of the contact: thickness less distance, m.
     depth_m: f64,
-    /// Penalty stiffness: by the smallest rest area among the vertices.
+    /// Penalty stiffness, N/m: that per area times the smallest rest area among the vertices.
     stiffness_n_m: f64,
-    /// Mollifier [Li 2020]: the share of the contact that counts: less than 1 for nearly parallel edges.
+    /// Mollifier [Li 2020], the factor `e/e0 (2 - e/e0)` of the contact of two nearly parallel edges, and else 1. `e`
+    /// is the squared norm of their cross product, and `e0` its threshold.
     mollifier: f64,
-    /// Gradient of the mollifier by the first edge and by the second.
+    /// Gradient of the mollifier by the first edge and by the second, 1/m.
     mollifier_gradient: Option<[V3; 2]>,
 }
 
 impl Press {
-    /// What friction has to know of it.
+    /// Data of the contact for friction.
     fn pressed(self) -> Pressed {
         let Self { primitives, weights, normal, push, stiffness_n_m, mollifier, .. } = self;
         let force_n = mollifier * stiffness_n_m * push.force;
@@ -104,20 +112,21 @@ impl Press {
     }
 }
 
-/// Self-contact of one cloth.
+/// Contact of one cloth with itself.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
     /// `None` in a part of the cloth.
     broad_phase: Option<BroadPhase<'a>>,
     areas: Cow<'a, [f64]>,
-    /// Nearest first, as far as shells tell.
+    /// Known pairs, sorted by intervals of their distance when they were found.
     pairs: Vec<Pair>,
+    /// Positions at which the pairs were found, m.
     found_at: Vec<V3>,
-    /// Where the cloth was at the last step.
+    /// Positions at the last step, m.
     last: Vec<V3>,
-    /// How it had come there from where pairs were found.
+    /// Motion from the positions at which pairs were found to those of the last step.
     made: Option<Motion>,
-    /// How much nearer than there unknown pairs may come before they could meet, m.
+    /// Greatest approach from the last step before unknown pairs could meet, m.
     room_m: f64,
     untangling: Untangling,
     /// `None` while friction is off.
@@ -125,7 +134,7 @@ pub struct ClothContact<'a> {
 }
 
 impl<'a> ClothContact<'a> {
-    /// Self-contact over the triangles of a cloth; `areas` are the vertices' rest areas, m2.
+    /// Sets up self-contact of the triangles of a cloth; `areas` are the rest areas of the vertices, m2.
     #[must_use]
     pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: impl Into<Cow<'a, [f64]>>) -> Self {
         let areas = areas.into();
@@ -145,29 +154,30 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Switches friction of layers on each other on, with a Coulomb coefficient of each vertex. They are held where they now lie.
+    /// Switches friction between layers on, with a coefficient for each vertex. Anchors are set at the present
+    /// position.
     pub fn set_friction(&mut self, coefficients: impl Iterator<Item = f64>) {
         self.rub = Some(Rub::new(coefficients.collect()));
     }
 
-    /// From now on friction holds layers on each other, whatever that takes.
+    /// Makes friction hold layers on each other from now on, whatever the force.
     pub fn hold_fast(&mut self) {
         self.rub.iter_mut().for_each(Rub::hold_fast);
     }
 
-    /// Sets where layers are held after a step has been taken to `x`: what has slid is held from there.
+    /// Updates the friction anchors after a step to `x`: those of contacts that have slid are dragged along.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         self.rub.iter_mut().for_each(|rub| rub.end(x));
     }
 
-    /// Takes over where friction has come to hold the layers of a part of the cloth.
+    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, contact: &ClothContact) {
         if let (Some(rub), Some(of_part)) = (&mut self.rub, &contact.rub) {
             rub.take(of_part, |primitives| primitives.renamed(|vertices| Some(vertices.map(|v| part.vertices[v]))));
         }
     }
 
-    /// Takes `sewn` pairs for one vertex each, and leaves alone what crosses: for cloth that is being sewn.
+    /// Treats each `sewn` pair as one vertex, and leaves crossings alone: for cloth that is being sewn.
     #[must_use]
     pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
         if let Some(broad_phase) = &mut self.broad_phase {
@@ -177,25 +187,26 @@ impl<'a> ClothContact<'a> {
         self
     }
 
-    /// Whether nothing crosses, nor did so of late.
+    /// True if nothing crosses, and nothing has come free of a crossing recently.
     #[must_use]
     pub fn is_untangled(&self) -> bool {
         self.untangling.is_empty() && !self.untangling.is_fresh()
     }
 
-    /// Gives contacts the thickness that they are still growing to, and says whether there were any: cloth is not at rest before.
+    /// Gives contacts that are still growing their full thickness. Returns `true` if there were any: then the cloth was
+    /// not at rest.
     pub fn ripen(&mut self) -> bool {
         self.untangling.ripen()
     }
 
-    /// Vertices of pairs of which one is `free`.
+    /// Vertices of the pairs that have a `free` vertex.
     pub fn partners<'s>(&'s self, free: &'s [bool]) -> impl Iterator<Item = usize> + 's {
         let vertices = self.pairs.iter().map(|pair| pair.primitives.vertices());
         vertices.filter(|vertices| vertices.iter().any(|&v| free[v])).flatten()
     }
 
-    /// The contact of a part of the cloth, which lies at `x`, with itself and with the rest: it knows the near pairs that were found
-    /// already, and seeks no others.
+    /// Contact of a part of the cloth at `x`, with itself and with the rest. It knows the near pairs that were found
+    /// already, and searches no others.
     #[must_use]
     pub fn part<'p>(&self, part: &Part, x: &[V3]) -> ClothContact<'p> {
         let renamed =
@@ -214,8 +225,9 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
-    /// could be missed in the next, and finds the way out of crossings.
+    /// Updates the contact for the positions after a step. It searches near pairs again where the cloth has moved so
+    /// far, or folded so sharply, that the next step could miss one. It also finds the way out of crossings, and begins
+    /// a step of friction.
     pub fn update(&mut self, x: &[V3]) {
         self.look(x);
         if let Some(mut rub) = self.rub.take() {
@@ -224,6 +236,7 @@ impl<'a> ClothContact<'a> {
         }
     }
 
+    /// Updates known pairs and crossings for the positions `x`.
     fn look(&mut self, x: &[V3]) {
         self.untangling.grow();
         let Some(mut broad_phase) = self.broad_phase.take() else {
@@ -246,7 +259,8 @@ impl<'a> ClothContact<'a> {
         }
         may_cross |= !stays_flat;
         if may_cross {
-            // What is about to be one vertex does not cross; taken for a crossing, it would let all else about it pass.
+            // Primitives that are being sewn together do not count as crossing. Otherwise everything around them could
+            // pass.
             let are_apart = |crossing: &Intersection| broad_phase.are_apart(&crossing.edge, &crossing.triangle);
             let mut found = intersections(x, broad_phase.edges(), broad_phase.triangles());
             found.retain(are_apart);
@@ -255,35 +269,37 @@ impl<'a> ClothContact<'a> {
         self.broad_phase = Some(broad_phase);
     }
 
-    /// Whether what is known of near pairs, since when the cloth has `made` a motion, does for more steps like the last; finds how much
-    /// room is left.
+    /// True if the known pairs suffice for more steps like the last, where the cloth has `made` a motion since they
+    /// were found. Updates the room that is left.
     fn lasts(&mut self, broad_phase: &BroadPhase, made: &Motion, step: &Motion) -> bool {
         self.room_m = broad_phase.room_m([(made, 1.0)]);
         broad_phase.room_m([(made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
-    /// Whether the cloth, which has `made` a motion to `x` since pairs were found, may have come to cross itself: it did already, or touched
-    /// at the last step and may have passed since, or was moved by others. What is near, and does not touch, is kept from it.
+    /// True if the cloth at `x` may cross itself. It may if it did before, if it touched at the last step, or if others
+    /// moved it farther than known pairs reach. Pairs that are near and do not touch cannot have passed.
     fn may_cross(&self, broad_phase: &BroadPhase, x: &[V3], made: Option<&Motion>) -> bool {
         let is_known = |made| 2.0 * farthest(x, &self.last) < self.room_m || broad_phase.room_m([(made, 1.0)]) > 0.0;
         !made.is_some_and(is_known) || !self.untangling.is_empty() || self.touches()
     }
 
-    /// Whether parts of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the next step.
+    /// True if primitives of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the
+    /// next step.
     #[must_use]
     pub fn touches(&self) -> bool {
         let touches = |primitives| ClosestPoints::of(&self.last, primitives).gap.norm() < ccd::TOUCHING_M;
         self.near([&self.last], ccd::TOUCHING_M).any(touches)
     }
 
-    /// How far vertices may go, each its own way, from where the cloth was at the last [`ClothContact::update`], m: farther, near
+    /// Greatest displacement of each vertex in any direction from the last [`ClothContact::update`], m. Beyond it, near
     /// pairs could be unknown.
     #[must_use]
     pub fn free_path_m(&self) -> f64 {
         0.5 * FREE_SHARE * self.room_m
     }
 
-    /// Share of these displacements that vertices may go for the same reason: what many do together brings them no nearer.
+    /// Share of these displacements that the vertices may go for the same reason. A common motion of many vertices does
+    /// not count.
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         let share = self.free_path_m() / longest_m(displacements);
@@ -295,7 +311,7 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// Whether no unknown pair can meet at `x`.
+    /// True if no unknown pair can meet at `x`.
     fn is_known(&self, x: &[V3]) -> bool {
         2.0 * farthest(x, &self.last) < self.room_m
             || self.broad_phase.as_ref().is_some_and(|broad_phase| {
@@ -304,7 +320,7 @@ impl<'a> ClothContact<'a> {
             })
     }
 
-    /// Seeks near pairs at `x`, for steps like the last.
+    /// Searches near pairs at `x`, for steps like the last.
     fn seek(&mut self, broad_phase: &mut BroadPhase, x: &[V3], step: Option<&Motion>) {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
@@ -322,23 +338,23 @@ impl<'a> ClothContact<'a> {
         for pair in found {
             ends[usize::from(shell(pair.distance_m, most_m)) + 1] += 1;
         }
-        // Sorted by counting: where each shell begins.
+        // Counting sort: the beginning of each interval.
         for shell in 1..ends.len() {
             ends[shell] += ends[shell - 1];
         }
         self.pairs.clear();
         self.pairs.resize(found.len(), Pair { primitives: Primitives::EdgeEdge([0; 4]), distance_m: 0.0 });
         for pair in found {
-            let at = &mut ends[usize::from(shell(pair.distance_m, most_m))];
-            self.pairs[*at] = *pair;
-            *at += 1;
+            let slot = &mut ends[usize::from(shell(pair.distance_m, most_m))];
+            self.pairs[*slot] = *pair;
+            *slot += 1;
         }
         self.found_at = x.to_vec();
         self.made = Some(broad_phase.rest());
         self.room_m = broad_phase.room_m([]);
     }
 
-    /// Pairs that can be nearer than `within_m` at any of some places, or on the way between them.
+    /// Pairs that can be nearer than `within_m` at any of some positions, or on the paths between them.
     fn near<const N: usize>(&self, places: [&[V3]; N], within_m: f64) -> impl Iterator<Item = Primitives> {
         let moved = places.map(|x| differences(x, &self.found_at));
         let most_m = moved.iter().map(|d| longest_m(d)).fold(0.0, f64::max);
@@ -352,13 +368,14 @@ impl<'a> ClothContact<'a> {
         self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
     }
 
-    /// Whether cloth would go through itself on the straight way from the last step to `x`.
+    /// True if the cloth would pass through itself on the straight path from the last step to `x`.
     fn is_barred(&self, x: &[V3]) -> bool {
         !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| ccd::collides(&self.last, x, primitives))
     }
 
-    /// Where vertices come to that go from where the cloth was at the last [`ClothContact::update`] to `x` each for itself, and stop before
-    /// they meet what is near: for cloth that is moved without regard to energy. Says how many had to stop.
+    /// Moves vertices from their positions at the last [`ClothContact::update`] towards `x`, and stops each before it
+    /// collides. It is for cloth that is moved without regard to energy. Returns the number of vertices that had to
+    /// stop.
     pub fn stop(&self, x: &mut [V3]) -> usize {
         let mut shares = vec![1.0_f64; x.len()];
         let goals = x.to_vec();
@@ -383,10 +400,20 @@ impl<'a> ClothContact<'a> {
         shares.iter().filter(|share| **share < 1.0).count()
     }
 
-    /// Moves vertices at `x` so that what is near keeps to the side, and comes to the distance, that it had at the last
-    /// [`ClothContact::update`], or a little more of it up to the thickness. They move by the mean of what all pairs
-    /// ask for, some times over.
+    /// Moves vertices at `x` so that near pairs keep their side. They also regain the distance that they had at the
+    /// last [`ClothContact::update`], or a little more of it up to the thickness. Each vertex moves by the mean of what
+    /// its pairs ask for, in several rounds.
     pub fn keep_apart(&self, x: &mut [V3]) {
+        struct Sided {
+            vertices: [usize; 4],
+            weights: [f64; 4],
+            /// Unit vector from the second primitive to the first.
+            normal: V3,
+            /// Distance that the pair is to have, m.
+            wanted_m: f64,
+            /// Sum of the squared weights.
+            norm: f64,
+        }
         let sided = |primitives: Primitives| {
             let ClosestPoints { weights, gap } = ClosestPoints::of(&self.last, primitives);
             let norm = weights.iter().map(|w| w * w).sum::<f64>();
@@ -394,13 +421,13 @@ impl<'a> ClothContact<'a> {
             let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
             let thickness_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
             let wanted_m = thickness_m.min(gap.norm() + GROWN_SHARE * thickness_m);
-            Some((vertices, weights, gap.try_normalize(0.0)?, wanted_m, norm))
+            Some(Sided { vertices, weights, normal: gap.try_normalize(0.0)?, wanted_m, norm })
         };
-        let pairs: Vec<_> = self.near([x, &self.last], self.params.thickness_m).filter_map(sided).collect();
+        let pairs: Vec<Sided> = self.near([x, &self.last], self.params.thickness_m).filter_map(sided).collect();
         let mut sums = vec![(V3::zeros(), 0.0); x.len()];
         for _ in 0..APART_ROUNDS {
             let mut any = false;
-            for (vertices, weights, normal, wanted_m, norm) in &pairs {
+            for Sided { vertices, weights, normal, wanted_m, norm } in &pairs {
                 let distance_m: f64 = (0..4).map(|k| x[vertices[k]].dot(normal) * weights[k]).sum();
                 let lack_m = wanted_m - distance_m;
                 if lack_m > 0.0 {
@@ -421,8 +448,8 @@ impl<'a> ClothContact<'a> {
         }
     }
 
-    /// The displacement of each vertex at `x` that would bring it out of what it presses on, the mean where there is more; none where it
-    /// presses on nothing.
+    /// Displacement that would free each vertex at `x` from its contacts, the mean over them; `None` for a vertex
+    /// without contact.
     #[must_use]
     pub fn ways_out(&self, x: &[V3]) -> Vec<Option<V3>> {
         let mut sums = vec![(V3::zeros(), 0.0); x.len()];
@@ -437,6 +464,7 @@ impl<'a> ClothContact<'a> {
         sums.into_iter().map(|(sum, n)| (n > 0.0).then(|| sum / n)).collect()
     }
 
+    /// Contact of a pair at `x`; `None` where it does not touch.
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
         let vertices = primitives.vertices();
         let nearest = ClosestPoints::of(x, primitives);
@@ -472,18 +500,19 @@ impl<'a> ClothContact<'a> {
         Some(press)
     }
 
+    /// All contacts at `x`.
     fn presses<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = Press> + 's {
         self.near([x], self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
     }
 
-    /// Contact energy, J; infinite where the cloth would go through itself on the way from the last step, so that no line
-    /// search goes there.
+    /// Contact energy, J. It is infinite where the cloth would pass through itself on the path from the last step, so
+    /// that a line search rejects it.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         if self.is_barred(x) { f64::INFINITY } else { self.pressed_energy(x) }
     }
 
-    /// Contact energy, J, wherever that leads.
+    /// Contact energy, J, whether or not the cloth would pass through itself.
     #[must_use]
     pub fn pressed_energy(&self, x: &[V3]) -> f64 {
         let pressed = |press: Press| press.stiffness_n_m * press.mollifier * press.push.energy;
@@ -491,7 +520,7 @@ impl<'a> ClothContact<'a> {
         self.presses(x).map(pressed).sum::<f64>() + self.untangling.energy(x) + rubbed_j
     }
 
-    /// Adds the contact forces and returns the stiffness.
+    /// Adds the contact forces, N, and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
@@ -516,17 +545,17 @@ impl<'a> ClothContact<'a> {
     }
 }
 
-/// Which of the shells that part the reach a distance falls in.
+/// Index of the interval into which a distance falls.
 fn shell(distance_m: f64, reach_m: f64) -> u8 {
     (SHELLS * distance_m / reach_m) as u8
 }
 
-/// How far each vertex is from where it was, m.
+/// Displacement of each vertex from earlier positions, m.
 fn differences(x: &[V3], from: &[V3]) -> Vec<V3> {
     x.iter().zip(from).map(|(p, q)| p - q).collect()
 }
 
-/// Greatest distance of a vertex from where it was, m.
+/// Greatest displacement of a vertex from earlier positions, m.
 fn farthest(x: &[V3], from: &[V3]) -> f64 {
     x.iter().zip(from).map(|(p, q)| (p - q).norm_squared()).fold(0.0, f64::max).sqrt()
 }

@@ -1,8 +1,8 @@
-//! Nearest points of a vertex and a triangle, or of two edges [Ericson 2005, 5.1].
+//! Closest points of a vertex and a triangle, or of two edges [Ericson 2005, 5.1].
 
 use geom::{V3, triangle};
 
-/// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
+/// Vertices of a pair of primitives: `[vertex, triangle]` or `[edge, edge]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Primitives {
     /// A vertex, then the corners of a triangle.
@@ -12,7 +12,7 @@ pub enum Primitives {
 }
 
 impl Primitives {
-    /// All vertices of the pair.
+    /// Returns all vertices of the pair.
     #[must_use]
     pub fn vertices(self) -> [usize; 4] {
         match self {
@@ -20,7 +20,7 @@ impl Primitives {
         }
     }
 
-    /// The pairs of vertices, one of either primitive.
+    /// Returns the pairs of vertices with one vertex of either primitive.
     pub fn across(self) -> impl Iterator<Item = [usize; 2]> {
         let vertices = self.vertices();
         let split = match self {
@@ -30,7 +30,7 @@ impl Primitives {
         (0..split).flat_map(move |k| (split..4).map(move |l| [vertices[k], vertices[l]]))
     }
 
-    /// The same pair with its vertices called otherwise, if they have such names.
+    /// Returns the same pair with other vertex indices; `None` where `names` has none for them.
     pub fn renamed(self, names: impl Fn([usize; 4]) -> Option<[usize; 4]>) -> Option<Self> {
         match self {
             Self::VertexTriangle(vertices) => names(vertices).map(Self::VertexTriangle),
@@ -39,23 +39,23 @@ impl Primitives {
     }
 }
 
-/// Nearest points of a pair: the vector from the second to the first is `sum w_k x_k`.
+/// Closest points of a pair: the vector from the second to the first is `sum w_k x_k`.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoints {
     /// Weights of the vertices; they sum to zero.
     pub weights: [f64; 4],
-    /// From the nearest point of the second primitive to that of the first, m.
+    /// Vector from the closest point of the second primitive to that of the first, m.
     pub gap: V3,
 }
 
 impl ClosestPoints {
-    /// Nearest points at `x`.
+    /// Closest points of a pair in cloth at `x`.
     #[must_use]
     pub fn of(x: &[V3], primitives: Primitives) -> Self {
         Self::at(&primitives.vertices().map(|v| x[v]), primitives)
     }
 
-    /// Nearest points of a pair whose vertices are at `corners`.
+    /// Closest points of a pair whose vertices are at `corners`.
     #[must_use]
     pub fn at(corners: &[V3; 4], primitives: Primitives) -> Self {
         let weights = match primitives {
@@ -70,7 +70,7 @@ impl ClosestPoints {
     }
 }
 
-/// Weights of the nearest points of two edges.
+/// Weights of the closest points of two edges.
 fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
     let (u, w, r) = (b - a, d - c, a - c);
     let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(&w));
@@ -86,7 +86,7 @@ fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
     [1.0 - s, s, t - 1.0, -t]
 }
 
-/// Twice the area that two edges span, squared, and its gradient by the first edge and by the second: it vanishes where
+/// Squared norm of the cross product of two edges, and its gradient by the first and by the second. It vanishes where
 /// they are parallel.
 #[must_use]
 pub fn cross_squared(u: &V3, w: &V3) -> (f64, [V3; 2]) {

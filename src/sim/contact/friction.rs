@@ -1,39 +1,40 @@
-//! Coulomb friction of a contact, by a spring to where it was last held [method 7].
+//! Coulomb friction of a contact: a spring to an anchor, whose force is limited.
 
 use geom::V3;
 
 geom::constants! {
     "contact.friction",
-    /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
+    /// Stiffness of a sliding contact in the linear system, as a share of the sticking one. It keeps the system
+    /// regular.
     const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
 }
 
-/// What friction does to a contact.
+/// Friction of a contact at a slip.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
-    /// Energy of the spring and of what slides beyond it, J.
+    /// Energy, J: `k s^2 / 2` for a slip `s` up to `f_max / k`, linear beyond.
     pub energy_j: f64,
-    /// Force across the normal, against the slip, N.
+    /// Tangential force, opposed to the slip, N.
     pub force: V3,
-    /// Stiffness across the normal, N/m.
+    /// Tangential stiffness, N/m.
     pub stiffness_n_m: f64,
-    /// How far the contact is from where it is held, once it has slid as far as it must, m.
+    /// Slip from the anchor once the anchor has been dragged along, m.
     pub held: V3,
 }
 
-/// A contact that may be held by `limit_n` at most.
+/// Tangential spring of a contact with a Coulomb limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Hold {
-    /// Coulomb limit, N.
+    /// Coulomb limit `f_max`, N.
     pub limit_n: f64,
-    /// Stiffness while it sticks, N/m.
+    /// Stiffness `k` while the contact sticks, N/m.
     pub stiffness_n_m: f64,
-    /// Whether it sticks whatever that takes.
+    /// True if the contact sticks whatever the force.
     pub is_fast: bool,
 }
 
 impl Hold {
-    /// Friction of a contact that has come away from its hold by `slip`, m, across the normal.
+    /// Friction at a tangential slip from the anchor, m.
     #[must_use]
     pub fn at(&self, slip: V3) -> Friction {
         let Self { limit_n, stiffness_n_m: k, is_fast } = *self;
@@ -51,7 +52,7 @@ impl Hold {
     }
 }
 
-/// A vector without its part along a unit normal.
+/// Tangential part of a vector: the vector without its part along a unit normal.
 #[must_use]
 pub fn across(vector: &V3, normal: &V3) -> V3 {
     vector - normal * normal.dot(vector)
@@ -73,7 +74,7 @@ mod tests {
                 assert!((found.force.dot(&axis) + slope).abs() < 1e-6, "{slip}");
             }
             assert_eq!(found.force.norm() > 0.02 * (1.0 - 1e-12), slides, "{slip}");
-            // Held where it has slid to, it pulls as it did.
+            // The dragged anchor gives the same force.
             assert!((hold.at(found.held).force - found.force).norm() < 1e-12);
         };
         check(V3::new(1e-4, 0.0, 5e-5), false);

@@ -1,32 +1,32 @@
-//! Things by place: a uniform grid, filled by counting, so that its order never depends on a hash.
+//! Uniform grid of bounding boxes. It is filled by a counting sort, so that its order does not depend on a hash.
 
 use super::bounds::Bounds;
 use geom::V3;
 use linalg::rows::sorted_by_row;
 
-/// Boxes by the grid cell that their middle lies in.
+/// Boxes sorted by the grid cell of their centre.
 pub struct BoxGrid {
     cell_m: f64,
     low: V3,
     size: [usize; 3],
-    /// How far any box reaches from its middle along an axis at most, m.
+    /// Greatest half extent of a box along an axis, m.
     half_m: f64,
-    /// Where each cell's boxes begin, and one more.
+    /// First box of each cell, and the number of boxes.
     starts: Vec<u32>,
-    /// By cells, so that a search reads on through memory.
+    /// Boxes in the order of the cells, so that a search reads memory sequentially.
     boxes: Vec<(Bounds, u32)>,
 }
 
 geom::constants! {
     "contact.grid",
-    /// Most cells: beyond that they grow.
+    /// Greatest number of cells. Where there would be more, the cells are larger.
     const MOST_CELLS: f64 = 1e6;
-    /// What is granted to rounding, as a share of [`BoxGrid::half_m`].
+    /// Factor on [`BoxGrid::half_m`] that covers rounding.
     const ROUNDED: f64 = 1.0 + 1e-5;
 }
 
 impl BoxGrid {
-    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more.
+    /// Sorts the bounding boxes of point sets, each widened by `reach_m`, into cells of at least `cell_m`.
     #[must_use]
     pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, cell_m: f64) -> Self {
         let reach = V3::repeat(reach_m);
@@ -52,7 +52,8 @@ impl BoxGrid {
         grid
     }
 
-    /// Sets within reach of the box of some points, in increasing order: all of them, and few others; in `found`.
+    /// Returns the sets whose boxes overlap the box of some points, in ascending order, in `found`. Rounding may add a
+    /// few others.
     pub fn near<'f, const N: usize>(&self, points: [&V3; N], found: &'f mut Vec<usize>) -> &'f [usize] {
         let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
         let half = V3::repeat(self.half_m);
@@ -61,7 +62,7 @@ impl BoxGrid {
         found.clear();
         for k in from[2]..=to[2] {
             for j in from[1]..=to[1] {
-                // Cells along x follow each other.
+                // Cells along x are contiguous.
                 let row = [from[0], to[0]].map(|i| self.number([i, j, k]));
                 let boxes = &self.boxes[self.starts[row[0]] as usize..self.starts[row[1] + 1] as usize];
                 let met = boxes.iter().filter(|(bounds, _)| bounds.meets(&wanted));
@@ -72,14 +73,15 @@ impl BoxGrid {
         found
     }
 
+    /// Index of a cell.
     fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)
     }
 
-    /// The cell that a point lies in, or the nearest to it.
+    /// Cell of a point, or the nearest one.
     fn cell(&self, p: &V3) -> [usize; 3] {
         let local = (p - self.low) / self.cell_m;
-        let at = |l: f64, n: usize| (l as usize).min(n - 1);
-        [at(local.x, self.size[0]), at(local.y, self.size[1]), at(local.z, self.size[2])]
+        let index = |l: f64, n: usize| (l as usize).min(n - 1);
+        [index(local.x, self.size[0]), index(local.y, self.size[1]), index(local.z, self.size[2])]
     }
 }

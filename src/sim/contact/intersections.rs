@@ -1,8 +1,8 @@
-//! Where cloth pierces itself, and which way it comes free.
+//! Intersections of cloth with itself, and the forces that untangle them.
 //!
-//! A crossing has no right side to be pushed back to. What it has is a line along which the two sheets cut each other.
-//! Forces along the steepest fall of that line's length draw its ends and bends out of the cloth, whatever the layers
-//! around it do [Volino & Magnenat-Thalmann 2006].
+//! A crossing has no inner and outer side. It does have the line along which two sheets cut each other. Forces along
+//! the gradient of the length of that line draw its ends and bends out of the cloth, whatever the layers around it do
+//! [Volino & Magnenat-Thalmann 2006].
 
 use super::grid::BoxGrid;
 use geom::V3;
@@ -11,13 +11,14 @@ use linalg::{Contact4, PairList};
 
 geom::constants! {
     "contact.intersections",
-    /// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
+    /// Least sine of the angle between edge and pierced triangle in the contribution along the normal, which is
+    /// inversely proportional to it.
     const LEAST_SLOPE: f64 = 0.2;
-    /// Times that what crosses is held back.
+    /// Number of times that crossing vertices are held back.
     const HALVINGS: usize = 6;
 }
 
-/// An edge that pierces a triangle.
+/// An edge that intersects a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Intersection {
     /// Ends of the edge.
@@ -26,7 +27,7 @@ pub struct Intersection {
     pub triangle: [usize; 3],
 }
 
-/// Edges that pierce a triangle with which they share no vertex.
+/// Finds the intersections of edges with triangles with which they share no vertex.
 #[must_use]
 pub fn intersections(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Vec<Intersection> {
     let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
@@ -43,8 +44,9 @@ pub fn intersections(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -
     found
 }
 
-/// As far on the way from `x` to `y` as a cloth goes without piercing itself, each part for itself: what would, is held
-/// back by half, and again. Of all that is tried, what has fewest crossings.
+/// Moves a cloth from `x` towards `y` without making it intersect itself, each vertex as far as possible. Vertices at
+/// an intersection are held back by half, repeatedly. Of all positions tried, those with the fewest intersections are
+/// returned.
 #[must_use]
 pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     let edges = edges_of(triangles);
@@ -70,6 +72,7 @@ pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     best.1
 }
 
+/// True if the segment from `p` to `q` intersects a triangle.
 fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
@@ -80,43 +83,44 @@ fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
     sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
 }
 
-/// Third corners of the triangles at each edge.
+/// Opposite corners of the triangles at each edge.
 pub struct Wings {
     /// Sorted by edge.
     corners: Vec<([usize; 2], usize)>,
 }
 
 impl Wings {
-    /// Collects the opposite corners of every edge of some triangles.
+    /// Collects the opposite corners at every edge of some triangles.
     #[must_use]
     pub fn new(triangles: &[[usize; 3]]) -> Self {
-        let of = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];
+        let sides = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];
         let sorted = |([a, b], c): ([usize; 2], usize)| ([a.min(b), a.max(b)], c);
-        let mut corners: Vec<_> = triangles.iter().flat_map(of).map(sorted).collect();
+        let mut corners: Vec<_> = triangles.iter().flat_map(sides).map(sorted).collect();
         corners.sort_unstable();
         Self { corners }
     }
 
-    fn at(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
+    /// Opposite corners at an edge.
+    fn opposite(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
         let edge = [a.min(b), a.max(b)];
         let start = self.corners.partition_point(|(e, _)| *e < edge);
         self.corners[start..].iter().take_while(move |(e, _)| *e == edge).map(|(_, c)| *c)
     }
 }
 
-/// A force of the length of a crossing line on the five vertices about one of its corners.
+/// Force that shortens the line of intersection, on the five vertices of one crossing of an edge and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Release {
     /// The edge, then the triangle that it pierces.
     pub vertices: [usize; 5],
     /// Weights of the edge's ends, and of the triangle's corners with the opposite sign.
     pub weights: [f64; 5],
-    /// How the line grows shorter when the edge moves against the triangle, without unit, at most 1 long.
+    /// Rate at which the line shortens as the edge moves against the triangle, without unit; its norm is at most 1.
     pub fall: V3,
 }
 
 impl Release {
-    /// The way out of one crossing; `None` where the line runs straight on.
+    /// Force of one crossing; `None` where the line is straight there, and no motion shortens it.
     #[must_use]
     pub fn of(x: &[V3], wings: &Wings, crossing: &Intersection) -> Option<Self> {
         let ([p, q], [a, b, c]) = (crossing.edge, crossing.triangle);
@@ -127,7 +131,7 @@ impl Release {
         let share = ((x[a] - x[p]).dot(&normal) / (x[q] - x[p]).dot(&normal)).clamp(0.0, 1.0);
         let point = x[p].lerp(&x[q], share);
         let mut fall = V3::zeros();
-        for third in wings.at(crossing.edge) {
+        for third in wings.opposite(crossing.edge) {
             let inwards = x[third] - x[p] - along * along.dot(&(x[third] - x[p]));
             let wing = along.cross(&inwards);
             let Some(line) = wing.cross(&normal).try_normalize(0.0) else { continue };
@@ -142,7 +146,7 @@ impl Release {
         let wb = (point - x[a]).cross(&(x[c] - x[a])).dot(&face) / area;
         let wc = (x[b] - x[a]).cross(&(point - x[a])).dot(&face) / area;
         let weights = [1.0 - share, share, wb + wc - 1.0, -wb, -wc];
-        // Not a number where an edge lies in the triangle's plane.
+        // NaN where the edge lies in the plane of the triangle.
         weights.iter().all(|w| w.is_finite()).then_some(Self {
             vertices: [p, q, a, b, c],
             weights,
@@ -150,20 +154,21 @@ impl Release {
         })
     }
 
-    /// Potential that falls as the line grows shorter, m: linear, as at the step's start.
+    /// Potential that decreases as the line shortens, m. It is linear in the positions, by its gradient at the start of
+    /// the step.
     #[must_use]
     pub fn potential(&self, x: &[V3]) -> f64 {
         -(0..5).map(|k| self.weights[k] * self.fall.dot(&x[self.vertices[k]])).sum::<f64>()
     }
 
-    /// Adds a force of `force_n` newtons along the fall.
+    /// Adds a force of `force_n` newtons along the gradient.
     pub fn add_force(&self, force_n: f64, forces: &mut [V3]) {
         for k in 0..5 {
             forces[self.vertices[k]] += self.fall * (force_n * self.weights[k]);
         }
     }
 
-    /// Stiffness against the fall, so that a step goes only about as far as the force is right.
+    /// Stiffness along the force, which limits a step to about the range in which the force is valid.
     #[must_use]
     pub fn couplings(&self, stiffness: f64) -> [Contact4; 2] {
         let normal = self.fall.try_normalize(0.0).unwrap_or_default();
@@ -176,7 +181,7 @@ impl Release {
     }
 }
 
-/// The distinct edges of some triangles.
+/// Distinct edges of some triangles.
 #[must_use]
 pub fn edges_of(triangles: &[[usize; 3]]) -> PairList {
     PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]))

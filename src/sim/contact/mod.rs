@@ -1,4 +1,4 @@
-//! Contact: cloth with body, cloth with itself.
+//! Contact and friction: of cloth with the body, and of cloth with itself.
 
 mod areas;
 mod barrier;
@@ -25,7 +25,7 @@ pub use intersections::{Intersection, intersections};
 pub use penalty::ContactParams;
 pub use skin::Skin;
 
-/// Constants of contact that decide results.
+/// Collects the constants of contact that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [
         barrier::CONSTANTS,

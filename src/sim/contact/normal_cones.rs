@@ -1,99 +1,102 @@
-//! A cloth in small clusters, and which of them need not be held against each other.
+//! Clusters of a cloth, and normal cones that exclude pairs of them from the collision search.
 //!
-//! Cloth that is nearly flat comes nowhere near itself. Where all normals of two clusters that hang together, and of
-//! those that lie between them, are within a narrow cone, no part of one can touch a part of the other [Volino &
-//! Magnenat-Thalmann 1994]. That is nearly all of a drape, so what is left to be searched are folds and layers. At the
-//! cloth's rim flat parts could yet meet within their plane, as the two sides of a slit do: there nothing is left out.
+//! Nearly flat cloth does not collide with itself. Consider two connected clusters and those between them: if all their
+//! normals are within a narrow cone, no part of one can touch a part of the other [Volino & Magnenat-Thalmann 1994].
+//! That holds for nearly all of a drape, so only folds and layers are searched. At the rim of the cloth flat parts
+//! could still meet within their plane, as the two sides of a slit do. There nothing is left out.
 
 use geom::V3;
 use linalg::PairList;
 
 geom::constants! {
     "contact.normal_cones",
-    /// Least distance, in edges, between the middles of clusters.
+    /// Least distance between the centres of clusters, in edges.
     const APART: usize = 3;
-    /// Half the angle of the cone within which normals of flat cloth lie when it is searched, rad; and until it is searched again.
+    /// Half angle of the cone in which the normals of flat cloth must lie when it is searched, rad. Until the next
+    /// search they may lie in the wider cone of `STILL_FLAT_RAD`.
     const FLAT_RAD: f64 = 0.8;
+    /// Half angle of the cone that they may not leave before the next search, rad.
     const STILL_FLAT_RAD: f64 = 1.2;
 }
 
 /// The clusters of a cloth.
 pub struct Clusters {
-    /// Those of a cluster: vertices, triangles and edges, each in one cluster only.
+    /// Members of each cluster: vertices, triangles and edges, each in one cluster only.
     pub members: Vec<Members>,
-    /// Triangles at a cluster's vertices.
+    /// Triangles at the vertices of each cluster.
     around: Vec<Vec<usize>>,
     is_at_rim: Vec<bool>,
-    /// Pairs of clusters that hang together: that an edge joins, or two edges by way of others between them, and each with itself.
+    /// Connected pairs of clusters: those that an edge joins, or two edges by way of another cluster, and each cluster
+    /// with itself.
     joined: PairList,
-    /// Of each pair, the clusters between.
+    /// Clusters between those of each pair.
     between: Vec<Vec<usize>>,
-    /// Of each pair, whether it was flat when the cloth was searched last.
+    /// True for each pair that was flat at the last search.
     is_flat: Vec<bool>,
 }
 
-/// What belongs to a cluster.
+/// Members of a cluster.
 #[derive(Clone, Debug, Default)]
 pub struct Members {
-    /// Vertices that belong to no other cluster.
+    /// Vertices; they belong to no other cluster.
     pub vertices: Vec<usize>,
-    /// Triangles, by their first vertex.
+    /// Triangles whose first vertex is in the cluster.
     pub triangles: Vec<usize>,
-    /// Edges, by their first vertex.
+    /// Edges whose first vertex is in the cluster.
     pub edges: Vec<usize>,
-    /// All vertices of these, sorted.
+    /// All vertices of these, in ascending order.
     pub corners: Vec<usize>,
 }
 
-/// How the clusters of a cloth have moved, or are to.
+/// Motion of the clusters of a cloth: a mean displacement and the greatest deviation from it.
 pub struct Motion {
-    /// Mean displacement of a cluster's corners, m.
+    /// Mean displacement of the corners of each cluster, m.
     means: Vec<V3>,
-    /// How far anything in it strays from that at most, m.
+    /// Greatest deviation of a corner from that, m.
     strays_m: Vec<f64>,
     /// Longest displacement of a vertex, m.
     pub farthest_m: f64,
 }
 
 impl Motion {
-    /// How much nearer any part of one cluster may come to any of another, m: what they have in common brings them no nearer.
+    /// Greatest approach of any part of one cluster to any part of another, m. Their common motion does not count.
     #[must_use]
     pub fn closing_m(&self, [p, q]: [usize; 2]) -> f64 {
         (self.means[p] - self.means[q]).norm() + self.strays_m[p] + self.strays_m[q]
     }
 }
 
-/// The normals of a cluster, as far as it takes to tell which others are flat with it.
+/// Cone of the normals of a cluster.
 #[derive(Clone, Copy)]
 struct Cone {
     axis: V3,
-    /// Least cosine of the angle between its axis and that of another.
+    /// Least cosine of the angle between its axis and that of another for both to be flat together.
     nearest: f64,
 }
 
 impl Cone {
-    /// Whether the normals of both lie within a cone of the angle that they were made for.
+    /// True if the normals of both lie within a cone of the angle for which they were made.
     fn is_flat_with(&self, other: &Self) -> bool {
         self.axis.dot(&other.axis) >= self.nearest.max(other.nearest)
     }
 }
 
 impl Clusters {
-    /// Of a cloth of so many vertices.
+    /// Divides a cloth of `vertices` vertices into clusters.
     #[must_use]
     pub fn new(vertices: usize, triangles: &[[usize; 3]], edges: &PairList) -> Self {
-        let (of, count) = edges.divide(vertices, APART);
+        let (cluster_of, count) = edges.divide(vertices, APART);
         let mut members = vec![Members::default(); count];
         let mut around = vec![Vec::new(); count];
-        (0..vertices).for_each(|v| members[of[v]].vertices.push(v));
+        (0..vertices).for_each(|v| members[cluster_of[v]].vertices.push(v));
         let mut sides = vec![0_u32; edges.pairs().len()];
         for (t, &[a, b, c]) in triangles.iter().enumerate() {
-            members[of[a]].triangles.push(t);
-            let mut at = [of[a], of[b], of[c]];
-            at.sort_unstable();
+            members[cluster_of[a]].triangles.push(t);
+            let mut touched = [a, b, c].map(|v| cluster_of[v]);
+            touched.sort_unstable();
             for k in 0..3 {
-                if k == 0 || at[k] != at[k - 1] {
-                    around[at[k]].push(t);
+                if k == 0 || touched[k] != touched[k - 1] {
+                    around[touched[k]].push(t);
                 }
             }
             for [i, j] in [[a, b], [b, c], [c, a]] {
@@ -102,10 +105,10 @@ impl Clusters {
         }
         let mut is_at_rim = vec![false; count];
         for (e, &[i, j]) in edges.pairs().iter().enumerate() {
-            members[of[i]].edges.push(e);
+            members[cluster_of[i]].edges.push(e);
             if sides[e] != 2 {
-                is_at_rim[of[i]] = true;
-                is_at_rim[of[j]] = true;
+                is_at_rim[cluster_of[i]] = true;
+                is_at_rim[cluster_of[j]] = true;
             }
         }
         for members in &mut members {
@@ -116,11 +119,11 @@ impl Clusters {
             corners.dedup();
             members.corners = corners;
         }
-        let (joined, between) = hanging_together(count, edges.pairs().iter().map(|pair| pair.map(|v| of[v])));
+        let (joined, between) = hanging_together(count, edges.pairs().iter().map(|pair| pair.map(|v| cluster_of[v])));
         Self { members, around, is_at_rim, is_flat: vec![false; between.len()], joined, between }
     }
 
-    /// Looks which clusters that hang together are flat.
+    /// Determines which connected clusters are flat together at `x`.
     pub fn look(&mut self, x: &[V3], triangles: &[[usize; 3]]) {
         let cones = self.cones(x, triangles, FLAT_RAD);
         let is_flat = |(&[a, b], between): (&[usize; 2], &Vec<usize>)| {
@@ -129,12 +132,12 @@ impl Clusters {
         self.is_flat = self.joined.pairs().iter().zip(&self.between).map(is_flat).collect();
     }
 
-    /// Pairs of clusters that were flat together, in rising order.
+    /// Pairs of clusters that were flat together, in ascending order.
     pub fn flat(&self) -> impl Iterator<Item = [usize; 2]> {
         self.joined.pairs().iter().zip(&self.is_flat).filter(|(_, is_flat)| **is_flat).map(|(pair, _)| *pair)
     }
 
-    /// Whether all that was flat is so still.
+    /// True if all pairs that were flat at the last search are still flat at `x`.
     #[must_use]
     pub fn stay_flat(&self, x: &[V3], triangles: &[[usize; 3]]) -> bool {
         let cones = self.cones(x, triangles, STILL_FLAT_RAD);
@@ -142,14 +145,14 @@ impl Clusters {
         pairs.all(|((&pair, between), was_flat)| !was_flat || are_flat(&cones, pair, between))
     }
 
-    /// Of clusters that stay where they are.
+    /// Motion of clusters at rest: none.
     #[must_use]
     pub fn rest(&self) -> Motion {
         let count = self.members.len();
         Motion { means: vec![V3::zeros(); count], strays_m: vec![0.0; count], farthest_m: 0.0 }
     }
 
-    /// How the clusters move where vertices are displaced like this.
+    /// Motion of the clusters for some displacements of the vertices, m.
     #[must_use]
     pub fn motion(&self, displacements: &[V3]) -> Motion {
         let mean = |members: &Members| {
@@ -163,7 +166,7 @@ impl Clusters {
         Motion { means, strays_m, farthest_m: longest_m(displacements) }
     }
 
-    /// The cones of all clusters, for those flat within `half_rad`.
+    /// Normal cones of all clusters, for flatness within the half angle `half_rad`.
     fn cones(&self, x: &[V3], triangles: &[[usize; 3]], half_rad: f64) -> Vec<Cone> {
         let normal =
             |&[a, b, c]: &[usize; 3]| (x[b] - x[a]).cross(&(x[c] - x[a])).try_normalize(0.0).unwrap_or_default();
@@ -172,7 +175,7 @@ impl Clusters {
             let axis = around.iter().map(|&t| normals[t]).sum::<V3>().try_normalize(0.0).unwrap_or_default();
             let least = around.iter().map(|&t| axis.dot(&normals[t])).fold(1.0, f64::min);
             let left_rad = half_rad - least.clamp(-1.0, 1.0).acos();
-            // Nothing is flat with what is not so itself.
+            // A cluster that is not flat itself is flat with no other.
             let nearest = if left_rad > 0.0 { (2.0 * left_rad).cos() } else { f64::MAX };
             Cone { axis, nearest }
         };
@@ -180,14 +183,14 @@ impl Clusters {
     }
 }
 
-/// Whether two clusters are flat with each other and with all between them.
+/// True if two clusters are flat with each other and with all between them.
 fn are_flat(cones: &[Cone], [a, b]: [usize; 2], between: &[usize]) -> bool {
     let [one, other] = [&cones[a], &cones[b]];
     one.is_flat_with(other) && between.iter().all(|&c| one.is_flat_with(&cones[c]) && cones[c].is_flat_with(other))
 }
 
-/// Of `count` clusters that `links` join: the pairs that are joined, also by way of others, or one twice, and the clusters between
-/// those that no link joins.
+/// Connected pairs of `count` clusters that `links` join, directly, by way of a third, or each with itself. Then, for
+/// the pairs that no link joins, the clusters between.
 fn hanging_together(count: usize, links: impl Iterator<Item = [usize; 2]>) -> (PairList, Vec<Vec<usize>>) {
     let links = PairList::new(links.chain((0..count).map(|c| [c, c])));
     let mut next_to = vec![Vec::new(); count];

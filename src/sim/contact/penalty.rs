@@ -1,21 +1,21 @@
-//! How hard the body pushes cloth at some depth.
+//! Penalty law of body contact: pressure as a function of depth.
 
 /// Parameters of body contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ContactParams {
-    /// Distance from the skin at which cloth begins to be pushed, m.
+    /// Distance from the skin below which cloth is repelled, m.
     pub offset_m: f64,
-    /// Penalty, N/m3 (pressure per depth).
+    /// Penalty stiffness `k`, N/m3 (pressure per depth).
     pub stiffness_n_m3: f64,
-    /// Depth over which the pressure of a light contact grows e-fold, m.
+    /// Depth `l` over which the pressure of a light contact grows by a factor e, m.
     pub softness_m: f64,
-    /// Pressure at which that growth begins, N/m2: about the weight of cloth.
+    /// Scale `p0` of the pressure of a light contact, N/m2: about the weight of cloth.
     pub light_n_m2: f64,
-    /// Greatest displacement of a sticking contact, m: a light one is held no more stiffly than that takes.
+    /// Greatest slip of a sticking contact, m. It limits the tangential stiffness of light contacts.
     pub slip_m: f64,
-    /// Greatest tangential stiffness of a sticking contact over the penalty.
+    /// Greatest tangential stiffness of a sticking contact over the penalty stiffness.
     pub tangential_share: f64,
-    /// Distance from the skin that a point found inside is given, m.
+    /// Distance from the skin to which a point found inside is moved, m.
     pub clearance_m: f64,
 }
 
@@ -33,7 +33,7 @@ impl Default for ContactParams {
     }
 }
 
-/// What a contact does at some depth.
+/// Contact potential at a depth and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Push {
     /// Energy per area, N/m.
@@ -45,7 +45,8 @@ pub struct Push {
 }
 
 impl ContactParams {
-    /// What it does at some depth, m.
+    /// Contact potential at the depth `d`, m. The pressure is `p0 (exp(d / l) - 1)` until its slope is `k`, and then
+    /// rises with the slope `k`.
     #[must_use]
     pub fn push(&self, depth: f64) -> Push {
         let (l, p0, k) = (self.softness_m, self.light_n_m2, self.stiffness_n_m3);

@@ -1,7 +1,9 @@
-//! Friction of layers of cloth on each other: where two of their parts touch, what has slid between them pulls back, up to Coulomb's limit.
+//! Friction between layers of cloth: a slip between two touching primitives is opposed by a spring, up to the Coulomb
+//! limit.
 //!
-//! Forces, weights and normals are those at the start of a step, as for the body: within a step the energy is then one of positions
-//! alone. What is held between two primitives is remembered while they touch, and forgotten when they part.
+//! Normal forces, weights and normals are those at the start of a step, as for the body. Within a step the energy is
+//! then a function of the positions alone. The slip of a pair from its anchor is remembered while the pair touches, and
+//! forgotten when it parts.
 
 use std::collections::BTreeMap;
 
@@ -13,52 +15,53 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.rub",
-    /// Greatest displacement of two layers that stick, m: a light contact is held no more stiffly than that takes.
+    /// Greatest slip of two layers that stick, m. It limits the tangential stiffness of light contacts.
     const SLIP_M: f64 = 2e-4;
-    /// Greatest stiffness of a sticking contact over that of the layers' push.
+    /// Greatest tangential stiffness of a sticking contact over the stiffness of the normal contact.
     const TANGENTIAL_SHARE: f64 = 0.3;
 }
 
-/// Two primitives that push each other.
+/// Two primitives in contact.
 pub struct Pressed {
     /// A vertex and a triangle, or two edges.
     pub primitives: Primitives,
-    /// Weights of their vertices; they sum to zero.
+    /// Weights of the vertices at the closest points; they sum to zero.
     pub weights: [f64; 4],
-    /// Unit vector from the second to the first.
+    /// Unit vector from the second primitive to the first.
     pub normal: V3,
-    /// With what they push, N.
+    /// Normal force, N.
     pub force_n: f64,
-    /// Stiffness of the push over its softest, N/m.
+    /// Penalty stiffness of the contact, without the barrier, N/m.
     pub stiffness_n_m: f64,
 }
 
-/// A contact as seen at the start of a step.
+/// A contact at the start of a step.
 struct Touch {
     pressed: Pressed,
     hold: Hold,
-    /// What had slid by then, less where it was, m: the slip at `x` is `sum w x` and this, across the normal.
+    /// Slip at the start of the step less the separation there, m. The slip at `x` is the tangential part of `sum w x`
+    /// plus this.
     before: V3,
 }
 
-/// Friction between layers of one cloth.
+/// Friction between the layers of one cloth.
 pub struct Rub {
-    /// Coulomb coefficients of the vertices; that of two is their mean.
+    /// Friction coefficients of the vertices; that of a contact is the mean of two.
     coefficients: Vec<f64>,
     is_fast: bool,
-    /// How far what touched is from where it is held, m.
+    /// Slip of each touching pair from its anchor, m.
     held: BTreeMap<Primitives, V3>,
     touching: Vec<Touch>,
 }
 
 impl Rub {
-    /// Friction with a Coulomb coefficient of each vertex, from where the cloth now lies.
+    /// Sets up friction with a coefficient for each vertex. Anchors are set at the present position.
     #[must_use]
     pub fn new(coefficients: Vec<f64>) -> Self {
         Self { coefficients, is_fast: false, held: BTreeMap::new(), touching: Vec::new() }
     }
 
-    /// The friction of a part of the cloth.
+    /// Friction of a part of the cloth.
     #[must_use]
     pub fn part(&self, part: &Part) -> Self {
         let renamed = |primitives: Primitives| primitives.renamed(|vertices| part.names(vertices));
@@ -67,23 +70,23 @@ impl Rub {
         Self { coefficients, is_fast: self.is_fast, held: held.collect(), touching: Vec::new() }
     }
 
-    /// Takes over how a part has come to be held; `renamed` calls its primitives as they are called here.
+    /// Takes over the slips of a part of the cloth. `renamed` maps its primitives to those of this cloth.
     pub fn take(&mut self, part: &Self, renamed: impl Fn(Primitives) -> Option<Primitives>) {
         self.held.extend(part.held.iter().filter_map(|(primitives, held)| Some((renamed(*primitives)?, *held))));
     }
 
-    /// From now on everything is held, whatever that takes.
+    /// Makes friction hold everything from now on, whatever the force.
     pub fn hold_fast(&mut self) {
         self.is_fast = true;
     }
 
-    /// Begins a step from `x`, where these primitives push each other.
+    /// Begins a step from `x`, where the primitives `pressed` are in contact.
     pub fn begin(&mut self, x: &[V3], pressed: impl Iterator<Item = Pressed>) {
         self.touching.clear();
         for pressed in pressed {
-            // The first vertex is of the one primitive, the last of the other.
-            let [one, _, _, other] = pressed.primitives.vertices().map(|v| self.coefficients[v]);
-            let limit_n = 0.5 * (one + other) * pressed.force_n;
+            // The first vertex belongs to the first primitive, and the last to the second.
+            let [first, _, _, last] = pressed.primitives.vertices().map(|v| self.coefficients[v]);
+            let limit_n = 0.5 * (first + last) * pressed.force_n;
             if limit_n <= 0.0 {
                 continue;
             }
@@ -96,20 +99,20 @@ impl Rub {
         self.held = self.touching.iter().map(|touch| (touch.pressed.primitives, touch.slip(x))).collect();
     }
 
-    /// Ends a step at `x`: what has slid is held from there.
+    /// Ends a step at `x`: the anchors of contacts that have slid are dragged along.
     pub fn end(&mut self, x: &[V3]) {
         for touch in &self.touching {
             self.held.insert(touch.pressed.primitives, touch.friction(x).held);
         }
     }
 
-    /// Energy at `x`, J.
+    /// Friction energy at `x`, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.touching.iter().map(|touch| touch.friction(x).energy_j).sum()
     }
 
-    /// Adds the forces at `x` and the stiffness.
+    /// Adds the friction forces at `x`, N, and the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3], contacts: &mut Vec<Contact4>) {
         for touch in &self.touching {
             let Pressed { primitives, weights, normal, .. } = touch.pressed;
@@ -128,13 +131,14 @@ impl Rub {
 }
 
 impl Pressed {
-    /// The vector between its nearest points at the start of the step, as its vertices carry them to `x`.
+    /// Vector between the points that were closest at the start of the step, at the positions `x`, m.
     fn apart(&self, x: &[V3]) -> V3 {
         self.primitives.vertices().iter().zip(self.weights).map(|(&v, weight)| x[v] * weight).sum()
     }
 }
 
 impl Touch {
+    /// Tangential slip from the anchor at `x`, m.
     fn slip(&self, x: &[V3]) -> V3 {
         across(&(self.before + self.pressed.apart(x)), &self.pressed.normal)
     }

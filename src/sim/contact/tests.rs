@@ -1,4 +1,4 @@
-//! What contact does with single triangles.
+//! Tests of contact on single triangles and small sheets.
 
 use super::grid::BoxGrid;
 use super::intersections::{Release, Wings, edges_of, held_apart, intersections};
@@ -35,7 +35,7 @@ fn a_chord_through_the_body_is_held_out() {
     contact.add_forces(&x, &mut forces);
     assert!(forces.iter().all(|f| f.z > 0.0));
     check_forces(|x| contact.energy(x), &forces, &x, 1e-7, 1e-6);
-    // Pressed in at rest, it is given more room each time.
+    // At rest and still inside, its offset grows each time.
     let before = contact.energy(&x);
     contact.hold_out(&skin, mesh, &x, true);
     assert!(contact.energy(&x) > before);
@@ -46,7 +46,7 @@ fn friction_forgets_how_deep_a_contact_was_before() {
     let radius = 5e-3;
     let field = DistanceField::build(&shapes::sphere(radius, 48), 5e-4).expect("a closed ball");
     let on = |angle: f64, height_m: f64| vec![V3::new(angle.sin(), 0.0, angle.cos()) * (radius + height_m)];
-    // Pressed in at the pole by steps, then moved along the ball, whose normal turns.
+    // Pressed in at the pole in steps, then moved along the ball, whose normal turns.
     let held = |heights_m: &[f64]| {
         let mut contact = BodyContact::new(&field, ContactParams::default(), &[1e-4]);
         contact.set_friction(std::iter::once(0.3));
@@ -66,7 +66,7 @@ fn friction_forgets_how_deep_a_contact_was_before() {
     assert!((at_once - by_steps).norm() < 1e-9 * at_once.norm(), "{by_steps} for {at_once}");
 }
 
-/// A triangle, and another whose corner is at some height above it, pointing down.
+/// A triangle, and another whose corner is at some height above it and points down.
 fn poking(height: f64) -> Vec<V3> {
     let sheet = [V3::new(-0.05, -0.05, 0.0), V3::new(0.05, -0.05, 0.0), V3::new(0.0, 0.08, 0.0)];
     let poking = [V3::zeros(), V3::new(0.03, 0.0, 0.04), V3::new(-0.03, 0.002, 0.04)];
@@ -122,53 +122,53 @@ fn two_sheets() -> (Vec<V2>, Vec<V2>, Vec<[usize; 3]>) {
 #[test]
 fn cloth_is_pushed_off_cloth_and_no_step_takes_it_through() {
     let (large, small, triangles) = two_sheets();
-    let at = |[x, y, z]: [f64; 3]| -> Vec<V3> {
+    let sheets_at = |[x, y, z]: [f64; 3]| -> Vec<V3> {
         let upper = small.iter().map(|p| V3::new(p.x + 0.033 + x, p.y + 0.0305 + y, z));
         large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect()
     };
     let areas = vec![1e-4; large.len() + small.len()];
     let contact_at = |place: [f64; 3]| {
         let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
-        contact.update(&at(place));
+        contact.update(&sheets_at(place));
         contact
     };
     let above = contact_at([0.0, 0.0, 3e-3]);
-    assert_eq!(above.energy(&at([0.0, 0.0, 2.5e-3])), 0.0);
+    assert_eq!(above.energy(&sheets_at([0.0, 0.0, 2.5e-3])), 0.0);
     for height in [1.3e-3, 4e-4] {
-        let x = at([0.0, 0.0, height]);
+        let x = sheets_at([0.0, 0.0, height]);
         let mut forces = vec![V3::zeros(); areas.len()];
         assert!(above.assemble(&x, &mut forces).len() >= 4);
         assert!(forces[large.len()..].iter().all(|f| f.z > 0.0));
         check_forces(|x| above.energy(x), &forces, &x, 1e-9, 1e-5);
     }
-    // Through it, or past what has been sought: never. Along it: freely.
-    assert_eq!(above.energy(&at([0.0, 0.0, -1e-3])), f64::INFINITY);
-    assert_eq!(above.energy(&at([0.0, 0.0, -5e-3])), f64::INFINITY);
-    assert_eq!(above.energy(&at([0.0, 0.0, 0.05])), f64::INFINITY);
+    // Through it, or beyond the pairs that were searched: never. Along it: freely.
+    assert_eq!(above.energy(&sheets_at([0.0, 0.0, -1e-3])), f64::INFINITY);
+    assert_eq!(above.energy(&sheets_at([0.0, 0.0, -5e-3])), f64::INFINITY);
+    assert_eq!(above.energy(&sheets_at([0.0, 0.0, 0.05])), f64::INFINITY);
     let near = contact_at([0.0, 0.0, 3e-4]);
-    assert!(near.energy(&at([2e-3, -1e-3, 3e-4])).is_finite());
+    assert!(near.energy(&sheets_at([2e-3, -1e-3, 3e-4])).is_finite());
 }
 
 #[test]
 fn what_falls_together_goes_far_and_what_closes_in_does_not() {
     let (large, small, triangles) = two_sheets();
-    let at = |fallen: f64, height: f64| -> Vec<V3> {
+    let sheets_at = |fallen: f64, height: f64| -> Vec<V3> {
         let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height - fallen));
         large.iter().map(|p| V3::new(p.x, p.y, -fallen)).chain(upper).collect()
     };
     let areas = vec![1e-4; large.len() + small.len()];
     let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
-    contact.update(&at(0.0, 5e-3));
-    contact.update(&at(5e-3, 5e-3));
-    let by = |to: &[V3]| -> Vec<V3> { to.iter().zip(at(5e-3, 5e-3)).map(|(p, q)| p - q).collect() };
-    let (together, closing) = (at(0.015, 5e-3), at(5e-3, -5e-3));
+    contact.update(&sheets_at(0.0, 5e-3));
+    contact.update(&sheets_at(5e-3, 5e-3));
+    let by = |to: &[V3]| -> Vec<V3> { to.iter().zip(sheets_at(5e-3, 5e-3)).map(|(p, q)| p - q).collect() };
+    let (together, closing) = (sheets_at(0.015, 5e-3), sheets_at(5e-3, -5e-3));
     assert!(contact.free_path_m() < 5e-3 && contact.free_share(&by(&together)) > 1.0);
     assert_eq!(contact.energy(&together), 0.0);
     let share = contact.free_share(&by(&closing));
     assert!((0.1..1.0).contains(&share), "{share}");
     assert_eq!(contact.energy(&closing), f64::INFINITY);
-    // Farther than it was looked at, not even together.
-    assert_eq!(contact.energy(&at(0.05, 5e-3)), f64::INFINITY);
+    // Farther than pairs were searched it may not go, even together.
+    assert_eq!(contact.energy(&sheets_at(0.05, 5e-3)), f64::INFINITY);
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn triangles_side_by_side_do_not_fold_through_each_other() {
 
 #[test]
 fn a_load_does_not_press_cloth_through_cloth() {
-    // On a sheet held at its rim lies another under 20 kPa: ten times what a spring over the thickness takes.
+    // A sheet held at its rim carries another under 20 kPa: ten times what a spring over the thickness can take.
     let ((large, mut triangles), (small, others)) = (sheet(6, 6, 0.015), sheet(2, 2, 0.012));
     triangles.extend(others.iter().map(|t| t.map(|v| v + large.len())));
     let rest: Vec<V2> = large.iter().copied().chain(small.iter().map(|p| p + V2::new(0.2, 0.0))).collect();
@@ -219,7 +219,7 @@ fn a_load_does_not_press_cloth_through_cloth() {
     assert_eq!(quality::self_crossings(&x, &cloth.triangles), 0);
     let lowest = x[large.len()..].iter().map(|p| p.z).fold(f64::MAX, f64::min);
     assert!(lowest < -3e-3, "the load is felt: {lowest}");
-    // Where it went, there is cloth below it.
+    // The cloth that carries it is below it.
     let below = x[..large.len()].iter().map(|p| p.z).fold(f64::MAX, f64::min);
     assert!((lowest - below).abs() < 4e-3, "{lowest} over {below}");
 }
@@ -234,14 +234,13 @@ fn what_does_not_come_free_is_drawn_harder_until_it_does() {
         contact.assemble(x, &mut forces);
         forces[3..].iter().sum::<V3>().z
     };
-    let at = poking;
-    let first = pull(&at(-0.01));
+    let first = pull(&poking(-0.01));
     assert!(first > 0.0);
-    let later: Vec<f64> = (0..20).map(|_| pull(&at(-0.01))).collect();
+    let later: Vec<f64> = (0..20).map(|_| pull(&poking(-0.01))).collect();
     assert!(later[19] > 3.0 * first && later.windows(2).all(|w| w[1] >= w[0]), "{first}, then {later:?}");
-    // Free, cloth is pushed apart by contact alone, and the next crossing begins anew.
-    assert_eq!(pull(&at(0.01)), 0.0);
-    assert_eq!(pull(&at(-0.01)), first);
+    // Free cloth is pushed apart by contact alone, and the next crossing begins anew.
+    assert_eq!(pull(&poking(0.01)), 0.0);
+    assert_eq!(pull(&poking(-0.01)), first);
 }
 
 #[test]
@@ -251,7 +250,7 @@ fn what_has_been_drawn_for_long_enough_passes_for_good() {
         let params = ClothContactParams { release_steps: 3, ..ClothContactParams::default() };
         let mut contact = ClothContact::new(params, &triangles, &areas);
         (0..crossed_for).for_each(|_| contact.update(&poking(-1e-3)));
-        // Free again and at rest: its contact would have its whole thickness.
+        // Free again and at rest, its contact has its whole thickness.
         contact.update(&poking(1e-4));
         assert_eq!(contact.ripen(), !passes, "after {crossed_for} steps");
         assert_eq!(contact.pressed_energy(&poking(1e-4)) == 0.0, passes, "after {crossed_for} steps");
@@ -284,7 +283,7 @@ fn what_has_come_free_is_pushed_apart_little_by_little() {
     let growing: Vec<f64> = (0..30).map(|_| push(&mut pushed, &free)).collect();
     assert!(growing[0] < 1e-3 * whole, "{growing:?} of {whole}");
     assert!(growing.windows(2).all(|w| w[1] >= w[0]) && growing[15] < whole && growing[29] == whole, "{growing:?}");
-    // Nothing is at rest on a contact that is still to grow, and no part of it is stepped by itself.
+    // Cloth is not at rest on a contact that still grows, and no part of it is stepped by itself.
     let mut fresh = freed();
     push(&mut fresh, &free);
     assert!(!fresh.is_untangled() && fresh.ripen() && fresh.is_untangled() && !fresh.ripen());
@@ -294,7 +293,7 @@ fn what_has_come_free_is_pushed_apart_little_by_little() {
 #[test]
 fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
     let (large, small, triangles) = two_sheets();
-    let at = |height: f64, corner: f64| -> Vec<V3> {
+    let sheets_at = |height: f64, corner: f64| -> Vec<V3> {
         let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height + 0.1 * p.x));
         let mut x: Vec<V3> = large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect();
         x[0].z = corner;
@@ -302,18 +301,18 @@ fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
     };
     let edges = edges_of(&triangles);
     let count = |x: &[V3]| intersections(x, edges.pairs(), &triangles).len();
-    let (from, to) = (at(1e-3, 0.0), at(-2e-4, 5e-3));
+    let (from, to) = (sheets_at(1e-3, 0.0), sheets_at(-2e-4, 5e-3));
     assert!(count(&from) == 0 && count(&to) > 0);
     let reached = held_apart(&from, &to, &triangles);
     assert_eq!(count(&reached), 0);
     assert_eq!(reached[0], to[0]);
-    assert_eq!(held_apart(&from, &at(5e-4, 1e-3), &triangles), at(5e-4, 1e-3));
+    assert_eq!(held_apart(&from, &sheets_at(5e-4, 1e-3), &triangles), sheets_at(5e-4, 1e-3));
 }
 
 #[test]
 fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
-    // A triangle and, folded over it, another that is to be sewn to it at two corners: these have come out below it by a
-    // millimetre, beside their partners, its third corner lies above its middle.
+    // A triangle, and another folded over it that is to be sewn to it at two corners. These corners are a millimetre
+    // below it, beside their partners. The third corner is above its middle.
     let below = V3::new(0.0, 0.01, -1e-3);
     let corners = [V3::new(0.0, 0.0, 0.0), V3::new(0.06, 0.0, 0.0), V3::new(0.03, 0.06, 0.0)];
     let x =
@@ -329,7 +328,7 @@ fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
     };
     let contact = || ClothContact::new(ClothContactParams::default(), &triangles, &areas);
     assert_eq!(through(&mut contact().but_near([[0, 3], [1, 4]].into_iter())), f64::INFINITY);
-    // What crosses cloth that it is not sewn to comes free as it likes.
+    // Cloth that crosses a piece to which it is not sewn comes free without hindrance.
     assert!(through(&mut contact()).is_finite());
 }
 
@@ -337,25 +336,25 @@ fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
 fn what_is_moved_without_regard_to_energy_is_kept_apart_and_stops_before_it_meets() {
     let (large, small, triangles) = two_sheets();
     let edges = edges_of(&triangles);
-    let at = |height: f64| -> Vec<V3> {
+    let sheets_at = |height: f64| -> Vec<V3> {
         let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height));
         large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect()
     };
     let areas = vec![1e-4; large.len() + small.len()];
     let check = |from: f64, to: f64, stops: bool| {
         let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
-        contact.update(&at(from));
-        let mut stopped = at(to);
+        contact.update(&sheets_at(from));
+        let mut stopped = sheets_at(to);
         assert_eq!(contact.stop(&mut stopped) > 0, stops, "from {from} to {to}");
         assert!(intersections(&stopped, edges.pairs(), &triangles).is_empty(), "from {from} to {to}");
-        // Kept apart first, both give way, and the small sheet stays on its side.
-        let mut apart = at(to);
+        // Moved apart first, both give way, and the small sheet stays on its side.
+        let mut apart = sheets_at(to);
         contact.keep_apart(&mut apart);
         let mean = |x: &[V3], range: std::ops::Range<usize>| {
             let count = range.len() as f64;
             x[range].iter().map(|p| p.z).sum::<f64>() / count
         };
-        let (below, above) = (mean(&at(to), 0..large.len()), mean(&apart, large.len()..apart.len()));
+        let (below, above) = (mean(&sheets_at(to), 0..large.len()), mean(&apart, large.len()..apart.len()));
         assert_eq!(above > to + 1e-9, stops, "from {from} to {to}: {above} over {below}");
     };
     check(1e-3, -1e-3, true);

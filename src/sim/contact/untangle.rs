@@ -1,4 +1,4 @@
-//! Cloth that crosses itself, and how it is drawn apart.
+//! Untangling of cloth that crosses itself.
 
 use super::distance::Primitives;
 use super::intersections::{Intersection, Release, Wings};
@@ -7,46 +7,49 @@ use linalg::Contact4;
 
 geom::constants! {
     "contact.untangle",
-    /// Steps without fewer crossings after which they are drawn out harder.
+    /// Number of steps without fewer crossings after which the force grows.
     const PATIENCE: u32 = 4;
     /// Factor by which the force then grows.
     const GROWTH: f64 = 1.5;
-    /// Most that it grows by in all.
+    /// Greatest growth of the force in all.
     const MOST_GROWTH: f64 = 100.0;
-    /// Steps over which the contact of what has come free grows to its thickness.
+    /// Number of steps over which the contact of a pair that has come free grows to its thickness.
     const FRESH_STEPS: u32 = 20;
-    /// How far a step against a releasing force goes at most, m.
+    /// Displacement to which the stiffness of a releasing force limits a step, m.
     const STEP_M: f64 = 2e-3;
 }
 
-/// What crosses at a step. It has no right side: its edges and triangles let each other pass until they have come free, and
-/// forces draw them out. These grow for as long as the crossings do not get fewer, as cloth may be drawn tight there.
+/// Crossings of a cloth with itself. They have no inner and outer side: their edges and triangles pass each other
+/// freely until they have come apart, and forces draw them out. The forces grow while the number of crossings does not
+/// decrease, since the cloth may be under tension there.
 ///
-/// What comes free lies far nearer than cloth that was never crossed. Pushed apart at once by all that a contact can, it is thrown
-/// through whatever lies behind it, caught there, drawn out, and thrown again. So its contact starts thin, and grows.
+/// A pair that comes free is far nearer than cloth that never crossed. With the full contact force at once it would be
+/// thrown through whatever is behind it, caught there, drawn out, and thrown again. So its contact starts thin, and
+/// grows.
 ///
-/// What still crosses when it has been drawn for long enough is left: from then on all that crosses may pass for good. At the edge of
-/// such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come free again for ever.
+/// Crossings that remain after a number of steps are left: from then on everything that crosses may pass for good. At
+/// the edge of such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come
+/// free again for ever.
 pub struct Untangling {
-    /// Once there is a crossing.
+    /// Opposite corners at each edge, once there has been a crossing.
     wings: Option<Wings>,
-    /// Pairs of vertices, one of an edge and one of a triangle that it pierces, both ways round, sorted.
+    /// Pairs of a vertex of an edge and a vertex of a triangle that it crosses, in both orders, sorted.
     passing: Vec<[usize; 2]>,
-    /// Such pairs that have come free, and for how many steps they have been, sorted.
+    /// Such pairs that have come free, with the number of steps since, sorted.
     fresh: Vec<([usize; 2], u32)>,
     releases: Vec<Release>,
     /// Force that draws a crossing out, at first and now, N.
     force_n: [f64; 2],
-    /// Steps for which crossings are still drawn out.
+    /// Number of steps for which crossings are still drawn out.
     steps_left: u32,
-    /// Whether they are left alone from the first.
+    /// True if crossings are left alone from the first.
     are_left_alone: bool,
-    /// Fewest crossings since there have been any, and for how many steps they have not got fewer.
+    /// Smallest number of crossings since there have been any, and the number of steps in which it has not decreased.
     least: (usize, u32),
 }
 
 impl Untangling {
-    /// None yet. Those to come are drawn out by `force_n` newtons at first, for `steps` steps in all.
+    /// Starts without crossings. Those to come are drawn out by `force_n` newtons at first, for `steps` steps in all.
     #[must_use]
     pub fn new(force_n: f64, steps: u32) -> Self {
         Self {
@@ -61,35 +64,35 @@ impl Untangling {
         }
     }
 
-    /// Leaves what crosses alone.
+    /// Leaves crossings alone from now on.
     pub fn leave(&mut self) {
         self.are_left_alone = true;
     }
 
-    /// Whether nothing crosses.
+    /// True if nothing crosses.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.passing.is_empty()
     }
 
-    /// Whether something has come free of late, so that its contact has not got its thickness yet.
+    /// True if a pair has come free so recently that its contact has not its full thickness yet.
     #[must_use]
     pub fn is_fresh(&self) -> bool {
         !self.fresh.is_empty()
     }
 
-    /// Gives all that has come free the thickness of its contact, and says whether there was any.
+    /// Gives all pairs that have come free the full thickness of their contact. Returns `true` if there were any.
     pub fn ripen(&mut self) -> bool {
         !std::mem::take(&mut self.fresh).is_empty()
     }
 
-    /// Lets the contacts of what has come free grow by a step.
+    /// Lets the contacts of pairs that have come free grow by a step.
     pub fn grow(&mut self) {
         self.fresh.iter_mut().for_each(|(_, age)| *age += 1);
         self.fresh.retain(|(_, age)| *age < FRESH_STEPS);
     }
 
-    /// Takes up what crosses of these triangles at `x`.
+    /// Takes up the crossings `found` among these triangles at `x`.
     pub fn see(&mut self, x: &[V3], triangles: &[[usize; 3]], found: &[Intersection]) {
         let before = std::mem::take(&mut self.passing);
         for Intersection { edge, triangle } in found {
@@ -114,7 +117,7 @@ impl Untangling {
         self.harden(found.len());
     }
 
-    /// Lets the force grow if there are no fewer crossings than for some time.
+    /// Lets the force grow if the number of crossings has not decreased for some time.
     fn harden(&mut self, count: usize) {
         let ([first, now], (least, waited)) = (&mut self.force_n, &mut self.least);
         if count == 0 {
@@ -130,7 +133,7 @@ impl Untangling {
         }
     }
 
-    /// Whether a pair belongs to a crossing, so that neither side hinders the other.
+    /// True if a pair belongs to a crossing, so that its primitives pass each other freely.
     #[must_use]
     pub fn pass(&self, primitives: Primitives) -> bool {
         if self.passing.is_empty() {
@@ -139,7 +142,7 @@ impl Untangling {
         primitives.across().any(|pair| self.passing.binary_search(&pair).is_ok())
     }
 
-    /// Share of its thickness that the contact of a pair has: less than 1 where it has come free of late.
+    /// Share of the thickness that the contact of a pair has: less than 1 where it has come free recently.
     #[must_use]
     pub fn thickness_share(&self, primitives: Primitives) -> f64 {
         if self.fresh.is_empty() {
@@ -150,13 +153,13 @@ impl Untangling {
         youngest.map_or(1.0, |age| f64::from(age + 1) / f64::from(FRESH_STEPS + 1))
     }
 
-    /// Energy of the forces, J.
+    /// Potential energy of the forces, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.force_n[1] * self.releases.iter().map(|release| release.potential(x)).sum::<f64>()
     }
 
-    /// Adds the forces, and the stiffness that keeps a step along them short.
+    /// Adds the forces, N, and the stiffness that limits a step along them.
     pub fn assemble(&self, forces: &mut [V3], contacts: &mut Vec<Contact4>) {
         let force_n = self.force_n[1];
         for release in &self.releases {

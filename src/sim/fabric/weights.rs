@@ -1,4 +1,4 @@
-//! How stiff known cloths of a weight are: quantiles of the bending rigidity of 618 fabrics [Feng et al. 2022].
+//! Bending rigidity of known cloths by weight: percentiles of 618 fabrics [Feng et al. 2022].
 
 use std::fmt;
 use std::sync::LazyLock;
@@ -7,37 +7,37 @@ use std::sync::LazyLock;
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Cloths {
-    /// Shares that the quantiles are of, percent, rising.
+    /// Percentages of the percentiles, in ascending order.
     percentiles: Vec<f64>,
-    /// Classes of weight, rising.
+    /// Classes of areal density, in ascending order.
     weight: Vec<Weight>,
 }
 
-/// Known cloths of about one weight.
+/// Known cloths of one class of areal density.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Weight {
-    /// Areal density that they are lighter than, kg/m2; the heaviest class has no such bound.
+    /// Upper bound of the areal density, kg/m2. It is not applied to the last class.
     to_kg_m2: f64,
-    /// How many there are.
+    /// Number of cloths in the class.
     cloths: usize,
-    /// Quantiles of the rigidity along the grain line, N m.
+    /// Percentiles of the rigidity along the grain line, N m.
     warp_nm: Vec<f64>,
-    /// And of that across it.
+    /// Percentiles of the rigidity across it, N m.
     weft_nm: Vec<f64>,
 }
 
 static CLOTHS: LazyLock<Cloths> =
     LazyLock::new(|| toml::from_str(include_str!("weights.toml")).expect("the built-in quantiles are valid"));
 
-/// Where a cloth stands among the known ones of its weight, percent of them that bend more easily.
+/// Percentile rank of a cloth among the known ones of its weight: the percentage of them that bend more easily.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standing {
-    /// Below the lowest quantile, which is of this share.
+    /// Below the lowest known percentile, which is this one.
     Below(f64),
-    /// Between two quantiles.
+    /// Interpolated between known percentiles.
     At(f64),
-    /// Above the highest quantile, which is of this share.
+    /// Above the highest known percentile, which is this one.
     Above(f64),
 }
 
@@ -51,41 +51,41 @@ impl fmt::Display for Standing {
     }
 }
 
-/// Rigidity along and across the grain line that so many percent of the known cloths of a weight do not exceed, N m; no less
-/// than the lowest quantile and no more than the highest.
+/// Percentile of the rigidity along and across the grain line among the known cloths of a weight, N m. It is limited to
+/// the range from the lowest to the highest known percentile.
 #[must_use]
 pub fn rigidities(density_kg_m2: f64, percentile: f64) -> [f64; 2] {
-    let Weight { warp_nm, weft_nm, .. } = of(density_kg_m2);
+    let Weight { warp_nm, weft_nm, .. } = class_of(density_kg_m2);
     [warp_nm, weft_nm].map(|quantiles| quantile(quantiles, percentile))
 }
 
-/// Where rigidities along and across the grain line stand among the known cloths of a weight.
+/// Percentile ranks of rigidities along and across the grain line among the known cloths of a weight.
 #[must_use]
 pub fn standings(density_kg_m2: f64, rigidities_nm: [f64; 2]) -> [Standing; 2] {
-    let Weight { warp_nm, weft_nm, .. } = of(density_kg_m2);
+    let Weight { warp_nm, weft_nm, .. } = class_of(density_kg_m2);
     [standing(warp_nm, rigidities_nm[0]), standing(weft_nm, rigidities_nm[1])]
 }
 
-/// Shares of the lowest and the highest quantile known, percent: between them lies what is told as a scatter.
+/// Lowest and highest known percentile, percent. The range between them is reported as scatter.
 #[must_use]
 pub fn ends() -> [f64; 2] {
     let percentiles = &CLOTHS.percentiles;
     [percentiles[0], percentiles[percentiles.len() - 1]]
 }
 
-/// How many cloths of a weight are known.
+/// Number of known cloths of a weight.
 #[must_use]
 pub fn count(density_kg_m2: f64) -> usize {
-    of(density_kg_m2).cloths
+    class_of(density_kg_m2).cloths
 }
 
-/// The class of a weight.
-fn of(density_kg_m2: f64) -> &'static Weight {
+/// Weight class of an areal density.
+fn class_of(density_kg_m2: f64) -> &'static Weight {
     let classes = &CLOTHS.weight;
     classes.iter().find(|class| density_kg_m2 < class.to_kg_m2).unwrap_or(&classes[classes.len() - 1])
 }
 
-/// A quantile, by logarithms between those known.
+/// A percentile, interpolated in the logarithm of the rigidity.
 fn quantile(quantiles: &[f64], percentile: f64) -> f64 {
     let shares = &CLOTHS.percentiles;
     let last = shares.len() - 1;
@@ -97,7 +97,7 @@ fn quantile(quantiles: &[f64], percentile: f64) -> f64 {
     quantiles[k] * (quantiles[k + 1] / quantiles[k]).powf(share)
 }
 
-/// The inverse of [`quantile`].
+/// Percentile rank of a rigidity: the inverse of [`quantile`].
 fn standing(quantiles: &[f64], rigidity_nm: f64) -> Standing {
     let shares = &CLOTHS.percentiles;
     let last = shares.len() - 1;

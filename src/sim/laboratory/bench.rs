@@ -1,55 +1,55 @@
-//! The reality bench: the laboratory's experiments beside what is known of them, by theory or from a published measurement.
+//! The bench: results of the experiments beside known values, from theory or from a published measurement.
 
 use super::bending::{Bent, Mesh, bent, cantilever, elastica, lateral_buckling};
 use super::drape::cusick;
 use super::isotropic;
 use super::stretch::{hanging_strip, hanging_thread};
-use super::touch::{layer_on_incline, on_incline, pressed_tube};
+use super::touch::{Laid, layer_on_incline, on_incline, pressed_tube};
 use crate::fabric::{Part, known, library};
 use crate::{Fabric, SimError};
 
 geom::constants! {
     "laboratory.bench",
-    /// Rings of a specimen of Cusick's test.
+    /// Number of rings of the mesh of a specimen in Cusick's test.
     const RINGS: usize = 24;
 }
 
-/// Lays a sheet on a slope with a friction coefficient: the residual, and how far it has moved, m.
-type Laying = fn(&Fabric, f64, f64) -> Result<(f64, f64), SimError>;
+/// Lays a sheet of a fabric on a slope, with a friction coefficient and an angle in rad.
+type Laying = fn(&Fabric, f64, f64) -> Result<Laid, SimError>;
 
 /// An experiment with a known answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Experiment {
-    /// A strip that hangs by its own weight.
+    /// A strip that hangs and stretches under its own weight.
     Strip,
-    /// A strip clamped level at one end.
+    /// A strip clamped horizontally at one end, which bends under its own weight.
     Cantilever,
-    /// A strip clamped on edge.
+    /// A strip clamped on its edge, which buckles laterally under its own weight.
     Buckling,
-    /// A sheet bent about a cylinder or a cone.
+    /// A sheet bent to a cylinder or a cone.
     Bending,
     /// A sheet on an incline.
     Incline,
-    /// A tube drawn over a cylinder.
+    /// A tube stretched over a cylinder.
     Tube,
     /// Cusick's drape test.
     Drape,
 }
 
-/// What an experiment found.
+/// Result of an experiment beside the known value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Experiment that found it.
+    /// Experiment of the result.
     pub experiment: Experiment,
     /// Specimen and load, in words.
     pub case: String,
-    /// What is compared, with its unit.
+    /// Compared quantity, with its unit.
     pub quantity: &'static str,
-    /// What is known of it.
+    /// Known value.
     pub known: f64,
-    /// What the solver finds.
+    /// Value that the solver finds.
     pub found: f64,
-    /// Where what is known is from.
+    /// Source of the known value.
     pub source: String,
 }
 
@@ -72,7 +72,7 @@ impl Experiment {
         }
     }
 
-    /// What it is, in a line.
+    /// Description in a line.
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {
@@ -86,7 +86,7 @@ impl Experiment {
         }
     }
 
-    /// Runs it.
+    /// Runs the experiment.
     ///
     /// # Errors
     /// When a mesh is degenerate.
@@ -102,13 +102,15 @@ impl Experiment {
         }
     }
 
+    /// A result of this experiment.
     fn finding(self, case: String, quantity: &'static str, [known, found]: [f64; 2], source: &str) -> Finding {
         Finding { experiment: self, case, quantity, known, found, source: source.to_owned() }
     }
 }
 
 impl Finding {
-    /// By how much what is found exceeds what is known: points of a percentage, degrees of an angle, else percent.
+    /// Error of the found value, with its unit: percentage points for the drape coefficient, degrees for the incline,
+    /// else percent of the known value.
     #[must_use]
     pub fn error(&self) -> (f64, &'static str) {
         match self.experiment {
@@ -121,7 +123,7 @@ impl Finding {
 
 fn strips() -> Result<Vec<Finding>, SimError> {
     let grown = |fabric: &Fabric| {
-        // A strip narrows freely, a thread has nothing to narrow.
+        // A strip contracts freely across, and a thread has no width: the coupling is left out.
         let strip = Fabric { membrane_coupling_n_m: 0.0, ..fabric.clone() };
         let lengths_mm = [hanging_thread(&strip, 1.5), hanging_strip(&strip, 1.5, 40)?].map(|m| 1e3 * m);
         let quantity = "growth of 1.5 m, mm";
@@ -168,7 +170,7 @@ fn inclines() -> Result<Vec<Finding>, SimError> {
         let mut held = 0.0;
         for tenths in -20..=20 {
             let degrees = known + 0.1 * f64::from(tenths);
-            if lay(&sheet, friction, degrees.to_radians())?.0 > 1e-3 {
+            if lay(&sheet, friction, degrees.to_radians())?.residual > 1e-3 {
                 break;
             }
             held = degrees;
@@ -196,11 +198,11 @@ fn tubes() -> Result<Vec<Finding>, SimError> {
     Ok(findings)
 }
 
-/// A fabric whose drape was measured along with its bending.
+/// A fabric of which drape, weight and bending were measured.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Measured {
-    /// Name in the table.
+    /// Name in the table of results.
     name: String,
     /// Name in the library.
     fabric: String,
@@ -216,17 +218,18 @@ fn published() -> Vec<Measured> {
     toml::from_str::<Published>(include_str!("published.toml")).expect("the published numbers are valid").drape
 }
 
-/// Drape coefficient that was measured on a fabric of the library, percent.
+/// Measured drape coefficient of a fabric of the library, percent.
 #[must_use]
 pub fn measured_drape(name: &str) -> Option<f64> {
     published().into_iter().find(|row| row.fabric == name).map(|row| row.drape_pct)
 }
 
 impl Measured {
-    /// The fabric: what was not measured on this cloth is that of a light cotton, since what hangs freely is hardly stretched.
+    /// The fabric. Properties that were not measured on this cloth are those of a light cotton, since freely hanging
+    /// cloth is hardly stretched.
     fn fabric(&self) -> Option<Fabric> {
-        let of = |name: &str| known().iter().find(|known| known.fabric.name == name);
-        let (cloth, cotton) = (of(&self.fabric)?, of("cotton_shirting_light")?);
+        let by_name = |name: &str| known().iter().find(|known| known.fabric.name == name);
+        let (cloth, cotton) = (by_name(&self.fabric)?, by_name("cotton_shirting_light")?);
         let Fabric { density_kg_m2, bending_warp_nm, bending_weft_nm, .. } = cloth.fabric;
         let is_own = !cloth.of_another.contains(&Part::Shear);
         let shear_n_m = if is_own { cloth.fabric.shear_n_m } else { cotton.fabric.shear_n_m };
@@ -281,7 +284,7 @@ mod tests {
                 let most = match experiment {
                     Experiment::Strip => 0.5,
                     Experiment::Buckling => 5.0,
-                    // Cotton is drawn by 1 % at a radius of three edges.
+                    // Cotton is stretched by 1 % at a radius of three edges.
                     Experiment::Tube => 2.0,
                     _ => 1.0,
                 };

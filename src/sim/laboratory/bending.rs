@@ -1,4 +1,5 @@
-//! Cantilevers: a strip clamped level against the elastica, a strip clamped on edge against lateral buckling.
+//! Bending experiments: a cantilever against the elastica, lateral buckling of a strip on edge, and sheets bent about
+//! few edges of their mesh.
 
 use nalgebra::{DMatrix, DVector, Rotation2};
 
@@ -9,19 +10,19 @@ use crate::{Fabric, SimError};
 use geom::units::GRAVITY;
 use geom::{V2, V3};
 
-/// How a specimen is meshed.
+/// Mesh of a specimen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mesh {
-    /// Squares, cut along either diagonal by turns.
+    /// Squares, cut along either diagonal alternately.
     Squares,
-    /// Equilateral triangles, six about each inner vertex.
+    /// Equilateral triangles, six around each inner vertex.
     Hexagons,
     /// Equilateral triangles whose corners are moved by up to a tenth of an edge each way.
     Irregular,
 }
 
 impl Mesh {
-    /// A strip `length` long in `rows` rows, four columns wide; one more row lies beyond `v = 0`, in the clamp.
+    /// Strip of a length in `rows` rows, four columns wide. One more row lies beyond `v = 0`, in the clamp.
     fn strip(self, rows: usize, length: f64) -> Flat {
         let row = length / rows as f64;
         let edge = row / 0.75_f64.sqrt();
@@ -38,10 +39,12 @@ impl Mesh {
     }
 }
 
-/// Drop of the tip over its reach for a strip clamped level under its own weight, for each `gamma = w g L^3 / B` of an
-/// ascending list, with the residual.
+/// Drop of the tip over its horizontal reach, with the residual, for a strip clamped horizontally under its own weight.
+/// `gammas` are ascending values of `gamma = w g L^3 / B`, with the areal density `w`, the length `L` and the bending
+/// rigidity `B`.
 ///
-/// The clamp's last row of hinges stands for half a row on either side, so the clamp is taken to lie half a row within.
+/// The last row of hinges in the clamp stands for half a row on either side. So the clamp is taken to lie half a row
+/// inside.
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -72,14 +75,14 @@ pub fn cantilever(mesh: Mesh, rows: usize, gammas: &[f64]) -> Result<Vec<(f64, f
     Ok(results)
 }
 
-/// Drop over reach of the elastica: `theta'' = -gamma (1 - s) cos theta`, `theta(0) = 0`, `theta'(1) = 0`, by Newton's
+/// Drop over reach of the elastica, `theta'' = -gamma (1 - s) cos theta`, `theta(0) = 0`, `theta'(1) = 0`, by Newton's
 /// method on central differences.
 #[must_use]
 pub fn elastica(gamma: f64) -> f64 {
     let n = 4000;
     let h = 1.0 / f64::from(n as u32);
     let mut theta = vec![0.0_f64; n + 1];
-    // From straight to hanging in stages, each the start of the next.
+    // The load grows in stages, each of which starts from the one before.
     for stage in (0..24).rev() {
         let load = gamma / 2.0_f64.powi(stage);
         for _ in 0..30 {
@@ -104,7 +107,7 @@ pub fn elastica(gamma: f64) -> f64 {
     sum(f64::sin) / sum(f64::cos)
 }
 
-/// Solves in place; returns the greatest entry of the solution.
+/// Solves a tridiagonal system in place, and returns the greatest entry of the solution.
 fn tridiagonal(lower: &[f64], diagonal: &mut [f64], upper: &[f64], right: &mut [f64]) -> f64 {
     let n = right.len();
     for i in 1..n {
@@ -119,17 +122,16 @@ fn tridiagonal(lower: &[f64], diagonal: &mut [f64], upper: &[f64], right: &mut [
     right.iter().fold(0.0, |most, x: &f64| most.max(x.abs()))
 }
 
-/// Critical `gamma = w g L^3 / B` at which a narrow strip, clamped level on its edge, buckles sideways under its own weight;
-/// `columns` triangles across its width, a twentieth of its length.
+/// Critical `gamma = w g L^3 / B` at which a narrow strip, clamped horizontally on its edge, buckles laterally under
+/// its own weight. It is a twentieth of its length wide, with `columns` triangles across.
 ///
-/// Bending twists the strip, so this is the test of the plate's twist. Beam theory gives `12.854 sqrt(2 / (1 + nu))` for
-/// a strip much narrower than long: 18.18 for a plate without Poisson effect.
+/// The buckled strip is twisted, so this tests the torsional stiffness of the plate. Beam theory gives `12.854 sqrt(2 /
+/// (1 + nu))` for a strip much longer than wide: 18.18 for a plate with Poisson ratio 0.
 ///
 /// # Errors
 /// When the mesh is degenerate.
 ///
-/// # Panics
-/// Never: bending that is held along an edge is positive definite.
+/// Never: the bending stiffness of a sheet held along an edge is positive definite.
 pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     let (density, length) = (0.15, 0.2);
     let weight = density * GRAVITY;
@@ -137,11 +139,12 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     let row = edge * 0.75_f64.sqrt();
     let rows = (length / row).round() as usize;
     let fabric = isotropic(density, 1e7 * weight * length, 1.0);
-    // The strip's plane stands upright: u is up, v runs out of the clamp.
+    // The plane of the strip is vertical: u points up, and v out of the clamp.
     let strip = Specimen::new(hexagonal_sheet(columns, rows, edge), &fabric, |p| V3::new(0.0, p.y, p.x))?;
     let mut strip = strip.hold(|p| p.y < row + 1e-9);
     strip.rest(1.0, 1e-6, 50);
-    // Stiffness against sideways displacements: bending by a rigidity of 1, and the stresses' own, from the true forces.
+    // Stiffness against lateral displacements, by differences of the true forces: that of bending for a rigidity of 1,
+    // and the geometric one of the stresses.
     let free: Vec<usize> = (0..strip.positions.len()).filter(|v| !strip.held.contains(v)).collect();
     let sideways = |forces: &dyn Fn(&[V3], &mut [V3])| {
         let step = 1e-7;
@@ -166,20 +169,20 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
     Ok(weight * span.powi(3) / critical)
 }
 
-/// What a sheet is bent about, with its radius of curvature in edges.
+/// Surface that a sheet is bent to, with its radius of curvature in edges.
 ///
-/// A cone opens by 20 degrees to either side of its axis; its radius is the one at the middle of the sheet.
+/// The half angle of the cone is 20 degrees, and its radius is that in the middle of the sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bent {
     /// A cylinder of this radius, in edges.
     Cylinder(f64),
-    /// A cone with this radius of curvature at the middle of the sheet, in edges.
+    /// A cone with this radius of curvature in the middle of the sheet, in edges.
     Cone(f64),
 }
 
 impl Bent {
-    /// Where a point of the sheet goes without being stretched, and the radius of curvature there: both over the edge, as is the point from
-    /// the sheet's middle, along the straight way first.
+    /// Image of a point of the sheet under an isometric map, and the radius of curvature there, both in edges. The
+    /// point is given from the middle of the sheet in edges, along the generators first.
     fn place(self, [along, across]: [f64; 2]) -> (V3, f64) {
         match self {
             Self::Cylinder(radius) => {
@@ -205,10 +208,10 @@ impl std::fmt::Display for Bent {
     }
 }
 
-/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent about something, over that of a plate.
+/// Elastic energy of a sheet of irregular triangles of 15 mm that is bent to a surface, over that of a plate.
 ///
-/// The ends of the sheet are held there. `turned_rad` is the angle between the direction in which it bends and the
-/// weft. The membrane is that of a light cotton; the bending is the same in all directions.
+/// The ends of the sheet are held. `turned_rad` is the angle between the direction of bending and the weft. The
+/// membrane is that of a light cotton, and the bending is isotropic.
 ///
 /// # Errors
 /// When the mesh is degenerate.

@@ -1,4 +1,4 @@
-//! Cusick's drape test, a round specimen that hangs over a smaller disc, and a sheet over a sphere.
+//! Cusick's drape test, in which a round specimen hangs over a smaller disc, and a sheet over a sphere.
 
 use super::Specimen;
 use super::sheets::{Flat, disc, shaken, sheet};
@@ -16,19 +16,20 @@ geom::constants! {
     const DISC_M: f64 = 0.09;
 }
 
-/// A draped specimen.
+/// Result of a drape test.
 pub struct Draped {
-    /// Share of the overhanging ring that the shadow covers, 0 to 1.
+    /// Drape coefficient: share of the overhanging ring that the shadow of the specimen covers, 0 to 1.
     pub coefficient: f64,
-    /// Folds: how often the rim passes upwards through its mean height.
+    /// Number of folds, counted as upward crossings of the mean height along the rim.
     pub nodes: usize,
-    /// Residual it came to rest with.
+    /// Final residual.
     pub residual: f64,
-    /// The rim, in order.
+    /// Positions of the rim, in order, m.
     pub rim: Vec<V3>,
 }
 
-/// Drapes a fabric, meshed in `rings` rings: slack at first, as garments are. Specimens of other numbers start from other noise.
+/// Drapes a specimen of a fabric, meshed in `rings` rings. It is slack at first, as garments are. `number` selects the
+/// noise from which it starts.
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -37,7 +38,7 @@ pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimE
     let (flat, carried_m) = carried(rings);
     let specimen = Specimen::new(flat, fabric, |p| V3::new(p.x, p.y, 0.0))?;
     let mut specimen = specimen.hold(|p| p.norm() < carried_m + 1e-9);
-    // Folds need something to start from: height noise of a hundredth of a ring.
+    // Folds need a perturbation to start from: noise of the height of a hundredth of a ring.
     let start = shaken(&specimen.positions, 0.01 * SPECIMEN_M / rings as f64, seed);
     for v in (0..start.len()).filter(|v| !specimen.held.contains(v)) {
         specimen.positions[v].z = start[v].z;
@@ -62,9 +63,9 @@ pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimE
     })
 }
 
-/// A specimen in so many rings, and the radius of those that the disc holds, m.
+/// Mesh of a specimen in `rings` rings, and the radius of the part that the disc holds, m.
 ///
-/// The last row of hinges of what is held stands for half a row on either side, so it lies half a row beyond the disc.
+/// The last row of hinges in the held part stands for half a row on either side, so it lies half a row beyond the disc.
 fn carried(rings: usize) -> (Flat, f64) {
     let share = DISC_M / SPECIMEN_M;
     let held = (share * rings as f64 + 0.5).round();
@@ -79,19 +80,19 @@ fn carried(rings: usize) -> (Flat, f64) {
     ((rest, triangles), carried_m)
 }
 
-/// A sheet over a sphere, come to rest.
+/// A sheet at rest over a sphere.
 pub struct OverSphere {
-    /// Residual it came to rest with.
+    /// Final residual.
     pub residual: f64,
-    /// Steps of the solver until then.
+    /// Number of steps of the solver.
     pub steps: usize,
-    /// Where it lies, m.
+    /// Positions of its vertices, m.
     pub positions: Vec<V3>,
 }
 
-/// Lays a square metre of a fabric, 71 x 71 vertices, flat on a sphere of radius 0.3 m and lets it come to rest, with
-/// friction on the sphere and contact with itself. It ends when the residual is 1 % or 600 steps are done: a scene that
-/// other simulators are timed on. `sphere` is the sphere's distance field.
+/// Lays a square metre of a fabric, 71 x 71 vertices, flat on a sphere of radius 0.3 m and brings it to rest, with
+/// friction on the sphere and contact with itself. It ends when the residual is 1 % or 600 steps are done. It is a
+/// scene on which other simulators are timed. `sphere` is the distance field of the sphere.
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -104,7 +105,7 @@ pub fn over_sphere(fabric: &Fabric, sphere: &DistanceField) -> Result<OverSphere
     contact.set_friction(std::iter::repeat_n(fabric.friction_body, cloth.len()));
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
-    // It falls by half a metre: as far in a step as contact allows, and so there is more to correct.
+    // It falls by half a metre. So steps are as long as contact allows, and their correction gets more iterations.
     let far = StepParams { clamp_m: 0.03, correction_iterations: 12, ..StepParams::default() };
     let mut stepper = Stepper::new(far);
     let (mut residual, mut steps) = (f64::MAX, 0);

@@ -1,6 +1,6 @@
 //! The laboratory: specimens of cloth in experiments with known answers, for tests and for `docs/mechanics.md`.
 //!
-//! Each experiment is run by the solver that drapes garments, with linear systems solved by a factor.
+//! The experiments use the solver that drapes garments, with a direct solver for the linear systems.
 
 pub mod bench;
 pub mod bending;
@@ -21,20 +21,20 @@ use pattern::{Garment, PieceMesh, Role};
 
 use sheets::Flat;
 
-/// A flat piece of cloth, grain along v, that some vertices hold.
+/// A flat piece of cloth, its grain along v, of which some vertices are held.
 pub struct Specimen {
     /// The piece as a garment without seams.
     pub garment: Garment,
-    /// The piece as the solver sees it, with its elastic energies.
+    /// Mechanical model of the piece.
     pub cloth: Cloth,
-    /// Where its vertices are, m.
+    /// Positions of its vertices, m.
     pub positions: Vec<V3>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
 }
 
 impl Specimen {
-    /// A specimen of a fabric, laid where `place` puts the points of its plane.
+    /// Makes a specimen of a fabric, deformed by the map `place` from its plane to space.
     ///
     /// # Errors
     /// When a triangle has no area.
@@ -52,8 +52,8 @@ impl Specimen {
         self
     }
 
-    /// Lets the specimen come to rest under `gravity` times its weight, until the residual or the number of steps is
-    /// reached; returns the residual.
+    /// Brings the specimen to rest under `gravity` times its weight, until the residual or the number of steps is
+    /// reached. Returns the residual.
     pub fn rest(&mut self, gravity: f64, tolerance: f64, steps: usize) -> f64 {
         let field = nowhere();
         let contact = BodyContact::new(&field, ContactParams::default(), &self.cloth.areas);
@@ -65,7 +65,7 @@ impl Specimen {
     }
 }
 
-/// Steps with accurate linear solves until the residual or the number of steps is reached; returns the residual.
+/// Steps with accurate linear solves until the residual or the number of steps is reached. Returns the residual.
 pub fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize) -> f64 {
     let exact = StepParams { linear_tolerance: 1e-4, h_max_s: 20.0, clamp_m: 0.05, ..StepParams::default() };
     let mut stepper = Stepper::new(exact);
@@ -79,7 +79,7 @@ pub fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize
     residual
 }
 
-/// A flat mesh as a garment of one piece, grain along v.
+/// Makes a garment of one piece of a flat mesh, its grain along v.
 #[must_use]
 pub fn garment((rest, triangles): Flat) -> Garment {
     let edge_length_m = triangles.first().map_or(0.0, |t| (rest[t[1]] - rest[t[0]]).norm());
@@ -105,7 +105,7 @@ pub fn garment((rest, triangles): Flat) -> Garment {
     }
 }
 
-/// A body far away from everything.
+/// Distance field of a body that is far from everything.
 ///
 /// # Panics
 /// Never: a sphere is closed.
@@ -118,7 +118,8 @@ pub fn nowhere() -> DistanceField {
     DistanceField::build(&mesh, 0.02).expect("a closed sphere")
 }
 
-/// A fabric that is the same along warp and weft: membrane `stiffness_n_m` without coupling, bending `rigidity_nm`.
+/// Makes a fabric with equal properties along warp and weft: membrane modulus `stiffness_n_m` without coupling, shear
+/// modulus half of it, bending rigidity `rigidity_nm`.
 #[must_use]
 pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fabric {
     Fabric {
@@ -138,7 +139,7 @@ pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fa
     }
 }
 
-/// Constants of the laboratory that decide results.
+/// Collects the constants of the laboratory that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [bench::CONSTANTS, drape::CONSTANTS].concat()
 }

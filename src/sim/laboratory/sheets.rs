@@ -2,18 +2,18 @@
 
 use geom::{V2, V3};
 
-/// Vertices in a plane and counter-clockwise triangles.
+/// Vertices in a plane, m, and counter-clockwise triangles.
 pub type Flat = (Vec<V2>, Vec<[usize; 3]>);
 
-/// A flat sheet of `columns` x `rows` squares of side `step`, each cut into two triangles, alternately.
+/// Flat sheet of `columns` x `rows` squares of side `step`, cut along either diagonal alternately.
 #[must_use]
 pub fn sheet(columns: usize, rows: usize, step: f64) -> Flat {
-    let at = |i: usize, j: usize| j * (columns + 1) + i;
+    let vertex = |i: usize, j: usize| j * (columns + 1) + i;
     let rest = (0..=rows).flat_map(|j| (0..=columns).map(move |i| V2::new(i as f64 * step, j as f64 * step))).collect();
     let mut triangles = Vec::new();
     for j in 0..rows {
         for i in 0..columns {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
             if (i + j) % 2 == 0 {
                 triangles.extend([[a, b, c], [a, c, d]]);
             } else {
@@ -24,8 +24,8 @@ pub fn sheet(columns: usize, rows: usize, step: f64) -> Flat {
     (rest, triangles)
 }
 
-/// A flat sheet of near-equilateral triangles, as a mesher makes them: `rows` strips of height `step sqrt(3)/2`, every
-/// other row of vertices shifted by half a step, both sides straight.
+/// Flat sheet of nearly equilateral triangles, as from a mesher: `rows` strips of height `step sqrt(3)/2`, with every
+/// other row of vertices shifted by half a step, and both sides straight.
 #[must_use]
 pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> Flat {
     let width = columns as f64 * step;
@@ -61,16 +61,16 @@ pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> Flat {
     (rest, triangles)
 }
 
-/// A disc of `rings` rings of radius `radius / rings`, `6 k` vertices on ring `k`.
+/// Disc of `rings` rings, `radius / rings` wide each, with `6 k` vertices on ring `k`.
 #[must_use]
 pub fn disc(rings: usize, radius: f64) -> Flat {
     let on_ring = |k: usize| 6 * k.max(1);
     let first = |k: usize| if k == 0 { 0 } else { 1 + 3 * k * (k - 1) };
     let mut rest = vec![V2::zeros()];
     for k in 1..=rings {
-        let at = |i: usize| std::f64::consts::TAU * i as f64 / on_ring(k) as f64;
+        let angle = |i: usize| std::f64::consts::TAU * i as f64 / on_ring(k) as f64;
         let r = radius * k as f64 / rings as f64;
-        rest.extend((0..on_ring(k)).map(|i| V2::new(at(i).cos(), at(i).sin()) * r));
+        rest.extend((0..on_ring(k)).map(|i| V2::new(angle(i).cos(), angle(i).sin()) * r));
     }
     let mut triangles: Vec<[usize; 3]> = (0..6).map(|i| [0, 1 + i, 1 + (i + 1) % 6]).collect();
     for k in 1..rings {
@@ -78,7 +78,8 @@ pub fn disc(rings: usize, radius: f64) -> Flat {
         let (mut i, mut o) = (0, 0);
         while i < inner || o < outer {
             let (a, b) = (first(k) + i % inner, first(k + 1) + o % outer);
-            // Advance on the ring whose next vertex comes first; cross-multiplied, so that ties are exact.
+            // Advance on the ring whose next vertex comes first. The angles are compared by cross-multiplication, so
+            // that ties are exact.
             if o < outer && (i >= inner || (o + 1) * inner <= (i + 1) * outer) {
                 triangles.push([a, b, first(k + 1) + (o + 1) % outer]);
                 o += 1;
@@ -91,8 +92,8 @@ pub fn disc(rings: usize, radius: f64) -> Flat {
     (rest, triangles)
 }
 
-/// Moves the vertices about, in the plane: inner ones by up to `size` each way, those on a side along it, those for which
-/// `is_fixed` says so not at all. Triangles become irregular.
+/// Displaces the vertices at random in the plane, so that triangles become irregular. Inner vertices move by up to
+/// `size` along each axis, those on a side only along it, and those that `is_fixed` selects not at all.
 #[must_use]
 pub fn jittered((mut rest, triangles): Flat, size: f64, is_fixed: impl Fn(&V2) -> bool) -> Flat {
     let (low, high) = rest.iter().fold((rest[0], rest[0]), |(low, high), p| (low.inf(p), high.sup(p)));
@@ -109,7 +110,7 @@ pub fn jittered((mut rest, triangles): Flat, size: f64, is_fixed: impl Fn(&V2) -
     (rest, triangles)
 }
 
-/// A repeatable sequence of numbers in -1..1.
+/// Reproducible sequence of numbers in -1..1 (a linear congruential generator).
 #[must_use]
 pub fn noise(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed;
@@ -121,7 +122,7 @@ pub fn noise(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Positions with noise of amplitude `size` added.
+/// Positions with added noise of amplitude `size`.
 #[must_use]
 pub fn shaken(positions: &[V3], size: f64, seed: u64) -> Vec<V3> {
     let noise = noise(3 * positions.len(), seed);

@@ -1,4 +1,4 @@
-//! Stretching in the plane: a patch, a biaxial sheet, a strip that hangs.
+//! Membrane experiments: the patch test, a biaxial sheet, a strip that hangs.
 
 use super::Specimen;
 use super::sheets::{hexagonal_sheet, jittered, shaken};
@@ -6,9 +6,9 @@ use crate::{Fabric, SimError};
 use geom::units::GRAVITY;
 use geom::{V2, V3};
 
-/// A sheet whose sides are held where the deformation gradient `gradient` (columns: images of weft and warp) puts them.
-/// Returns the greatest distance of an inner vertex from where the same deformation would put it, and the tension
-/// across a line normal to the weft and to the warp (N/m of rest width).
+/// Brings a sheet to rest whose sides are held at the places of a homogeneous deformation `gradient` (columns: images
+/// of weft and warp). Returns the greatest distance of an inner vertex from that deformation, and the tension across a
+/// line normal to the weft and to the warp (N/m of rest width).
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -30,7 +30,7 @@ pub fn held_sheet(fabric: &Fabric, gradient: [V3; 2]) -> Result<(f64, [f64; 2]),
     let off = sheet.positions.iter().zip(&exact).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
     let mut forces = vec![V3::zeros(); exact.len()];
     sheet.cloth.membrane.add_forces(&sheet.positions, &mut forces);
-    // Virtual work of the held sides' reactions in a stretch along one axis, corners included.
+    // Virtual work of the reactions at the held sides in a stretch along one axis, corners included.
     let tension = |axis: usize| {
         let direction = gradient[axis].normalize();
         let work: f64 = sheet.garment.rest.iter().zip(&forces).map(|(p, f)| -f.dot(&direction) * p[axis]).sum();
@@ -39,7 +39,7 @@ pub fn held_sheet(fabric: &Fabric, gradient: [V3; 2]) -> Result<(f64, [f64; 2]),
     Ok((off, [tension(0), tension(1)]))
 }
 
-/// Length by which a strip of rest length `length` grows when it hangs by its own weight, warp downwards, in `rows` rows.
+/// Elongation of a strip of rest length `length` that hangs by its own weight, m, its warp vertical, in `rows` rows.
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -53,7 +53,8 @@ pub fn hanging_strip(fabric: &Fabric, length: f64, rows: usize) -> Result<f64, S
     Ok(lowest.iter().sum::<f64>() / lowest.len() as f64)
 }
 
-/// What that growth is for a thread: tension `w g s` at height `s`, stretch from `T = S(E) lambda`, added up over the length.
+/// Elongation of a hanging thread, m: the tension is `w g s` at the height `s`, and the stretch follows from `T = S(E)
+/// lambda`, integrated over the length.
 #[must_use]
 pub fn hanging_thread(fabric: &Fabric, length: f64) -> f64 {
     let steps = 2000;

@@ -1,4 +1,4 @@
-//! What touches a body: a sheet on an incline, a tube drawn over a cylinder.
+//! Contact experiments: a sheet on an incline, a tube over a cylinder.
 
 use nalgebra::Rotation3;
 
@@ -13,11 +13,20 @@ use crate::{Fabric, SimError};
 use geom::{DistanceField, TriMesh, V2, V3, shapes};
 use pattern::SeamMesh;
 
-/// What became of a sheet laid on an incline: the residual after so many steps, and how far a point of it has moved, m.
+/// A sheet laid on an incline, after a number of steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Laid {
+    /// Final residual.
+    pub residual: f64,
+    /// Greatest displacement of a vertex, m.
+    pub moved_m: f64,
+}
+
+/// Lays a sheet on an incline.
 ///
 /// # Errors
 /// When the mesh is degenerate.
-pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64, f64), SimError> {
+pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<Laid, SimError> {
     let (edge, columns) = (0.02, 4);
     let sheet = garment(hexagonal_sheet(columns, columns, edge));
     let cloth = Cloth::new(&sheet, fabric, unsewn(&sheet))?;
@@ -30,24 +39,23 @@ pub fn on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64
     let start: Vec<V3> = sheet.rest.iter().map(laid).collect();
     let mut x = start.clone();
     let residual = settle(&mut system, &mut x, 1e-3, 60);
-    let moved = x.iter().zip(&start).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
-    Ok((residual, moved))
+    let moved_m = x.iter().zip(&start).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+    Ok(Laid { residual, moved_m })
 }
 
-/// What became of a sheet laid on another, larger one, which an incline holds fast: the residual after so many steps, and how far a point
-/// of the upper sheet has moved, m.
+/// Lays a sheet on another, larger one, which is held fast on an incline. The displacement is that of the upper sheet.
 ///
 /// # Errors
 /// When the mesh is degenerate.
-pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<(f64, f64), SimError> {
+pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Result<Laid, SimError> {
     let (edge, contact, between) = (0.02, ContactParams::default(), ClothContactParams::default());
     let ((mut rest, mut triangles), (upper, others)) = (hexagonal_sheet(8, 8, edge), hexagonal_sheet(4, 4, edge));
     let lower = rest.len();
     triangles.extend(others.iter().map(|t| t.map(|v| v + lower)));
-    // Apart in the pattern; worn, no vertex lies above another.
+    // Apart in the pattern. Laid on each other, no vertex lies above another.
     rest.extend(upper.iter().map(|p| p + V2::new(0.5, 0.0)));
     let sheets = garment((rest, triangles));
-    // The slope holds the lower sheet however steep it is.
+    // The friction on the slope holds the lower sheet at any angle.
     let rough = Fabric { friction_body: 5.0, friction_self: friction, ..fabric.clone() };
     let cloth = Cloth::new(&sheets, &rough, unsewn(&sheets))?;
     let field = incline(angle_rad);
@@ -65,11 +73,11 @@ pub fn layer_on_incline(fabric: &Fabric, friction: f64, angle_rad: f64) -> Resul
     let mut x: Vec<V3> = sheets.rest.iter().enumerate().map(laid).collect();
     let start = x.clone();
     let residual = settle(&mut system, &mut x, 1e-3, 60);
-    let moved = x.iter().zip(&start).skip(lower).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
-    Ok((residual, moved))
+    let moved_m = x.iter().zip(&start).skip(lower).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+    Ok(Laid { residual, moved_m })
 }
 
-/// The upper face of a slab, turned about the x axis.
+/// Distance field of a slab whose upper face is inclined about the x axis.
 fn incline(angle_rad: f64) -> DistanceField {
     let (half, depth) = (0.15, 0.1);
     let turn = Rotation3::from_axis_angle(&V3::x_axis(), angle_rad);
@@ -83,18 +91,18 @@ fn incline(angle_rad: f64) -> DistanceField {
     DistanceField::build(&mesh, 0.01).expect("a closed slab")
 }
 
-/// A tube that a cylinder holds stretched.
+/// A tube stretched over a cylinder.
 pub struct Pressed {
-    /// What it presses with on average away from its ends, Pa.
+    /// Mean pressure away from its ends, Pa.
     pub pressure_pa: f64,
-    /// Tension of its law at its girth there over its radius, Pa: the pressure by Laplace's law.
+    /// Hoop tension at its girth there over its radius, Pa: the pressure by Laplace's law.
     pub tension_over_radius_pa: f64,
-    /// Its radius there, m.
+    /// Radius there, m.
     pub radius_m: f64,
 }
 
-/// Draws a tube of triangles with a given edge, its warp along the axis and its girth a share of the cylinder's, over a cylinder of
-/// 20 cm in height.
+/// Stretches a tube over a cylinder of 20 cm in height. Its mesh has the edge length `edge_m`, its warp is along the
+/// axis, and its rest girth is a share of the girth of the cylinder.
 ///
 /// # Errors
 /// When the mesh is degenerate.
@@ -121,9 +129,9 @@ pub fn pressed_tube(fabric: &Fabric, radius_m: f64, share: f64, edge_m: f64) -> 
     system.weights.fill(0.0);
     settle(&mut system, &mut x, 1e-3, 200);
     let forces = system.assemble(&x, None).contact_forces;
-    // A third of the tube, its middle: free ends shrink along the girth less than a strip would.
+    // The middle third of the tube, since free ends contract less along the girth than a strip would.
     let middle: Vec<usize> = (0..x.len()).filter(|v| x[*v].z.abs() < height_m / 6.0).collect();
-    let mean = |of: &dyn Fn(usize) -> f64| middle.iter().map(|v| of(*v)).sum::<f64>() / middle.len() as f64;
+    let mean = |value: &dyn Fn(usize) -> f64| middle.iter().map(|v| value(*v)).sum::<f64>() / middle.len() as f64;
     let radius = mean(&|v| x[v].xy().norm());
     let strains = cloth.membrane.strains(&x);
     let is_middle = |t: &[usize; 3]| t.iter().all(|v| x[*v].z.abs() < height_m / 6.0);
@@ -132,7 +140,7 @@ pub fn pressed_tube(fabric: &Fabric, radius_m: f64, share: f64, edge_m: f64) -> 
         (along, count) = (along + strain[(1, 1)], count + 1.0);
     }
     let along = along / f64::max(count, 1.0);
-    // The law at the girth that the tube has, and at the length that it is left with along its axis.
+    // The strain at the girth of the tube, and at the length that it has contracted to along its axis.
     let girth = std::f64::consts::TAU * radius / girth_m;
     let strain = Tensor { weft: 0.5 * (girth * girth - 1.0), warp: along, shear: 0.0 };
     let tension = cloth.membrane.laws()[0].stress(strain).weft * girth / (1.0 + 2.0 * along).sqrt();
@@ -150,10 +158,10 @@ mod tests {
     fn friction_holds_to_a_degree_below_its_angle_and_lets_go_a_degree_above() {
         let laid =
             |degrees: f64| on_incline(&fabric(), 0.3, 0.3_f64.atan() + degrees.to_radians()).expect("a sound mesh");
-        let (residual, moved) = laid(-1.0);
-        assert!(residual <= 1e-3 && moved < 1e-3, "below: residual {residual}, moved {moved}");
-        // A degree above, 0.018 of the weight stays unbalanced: the solver may creep, but must not call that equilibrium.
-        let (residual, _) = laid(1.0);
+        let Laid { residual, moved_m } = laid(-1.0);
+        assert!(residual <= 1e-3 && moved_m < 1e-3, "below: residual {residual}, moved {moved_m}");
+        // A degree above, 0.018 of the weight is unbalanced: the solver may creep, but must not report equilibrium.
+        let residual = laid(1.0).residual;
         assert!(residual > 1e-2, "above: residual {residual}");
     }
 
@@ -164,11 +172,11 @@ mod tests {
                 layer_on_incline(&fabric(), friction, friction.atan() + degrees.to_radians()).expect("a sound mesh")
             };
             // It slides a little until it is pressed on, and then holds.
-            let (residual, _) = laid(-1.0);
+            let residual = laid(-1.0).residual;
             assert!(residual <= 1e-3, "{friction}, below: residual {residual}");
-            // A degree above, 0.018 of the upper sheet's weight stays unbalanced, at a quarter of the vertices: the solver may creep, but must
-            // not call that equilibrium.
-            let (residual, _) = laid(1.0);
+            // A degree above, 0.018 of the weight of the upper sheet is unbalanced, at a quarter of the vertices: the
+            // solver may creep, but must not report equilibrium.
+            let residual = laid(1.0).residual;
             assert!(residual > 5e-3, "{friction}, above: residual {residual}");
         };
         check(0.2);

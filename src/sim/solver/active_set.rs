@@ -1,10 +1,10 @@
-//! Steps of that part of a cloth which still moves.
+//! Active set: steps of only that part of a cloth which still moves.
 //!
-//! Late in a drape folds snap one after another, while ninety-nine vertices in a hundred move by less than a tenth of a
-//! millimetre. Where a step has moved a small part only, that part takes some steps by itself, held by what lies around it, at the cost
-//! of its own size; the whole cloth then answers to what has come of it.
+//! Late in a drape folds snap one after another, while 99 vertices in 100 move by less than a tenth of a millimetre.
+//! After a step that has moved a small part only, that part takes some steps by itself, held by the vertices around it.
+//! Their cost is that of its size. The next step of the whole cloth takes up the change.
 
-use super::proximal::{StepParams, Stepper};
+use super::proximal::{StepInfo, StepParams, Stepper};
 use super::system::System;
 use crate::cloth::Cloth;
 use crate::cloth::law::Tensor;
@@ -13,25 +13,42 @@ use geom::V3;
 
 geom::constants! {
     "solver.active_set",
-    /// Share of the farthest movement from which on a vertex counts as moving.
+    /// Displacement from which a vertex counts as moving, as a share of the greatest one.
     const MOVING_SHARE: f64 = 0.1;
-    /// Edges that a part reaches beyond what moves.
+    /// Margin of a part around the moving vertices, in edges.
     const MARGIN_EDGES: usize = 4;
-    /// Greatest part that is stepped by itself.
+    /// Greatest part that is stepped by itself, as a share of the vertices.
     const MOST_SHARE: f64 = 0.25;
-    /// Least cloth that is worth taking apart.
+    /// Least number of vertices of a cloth that is divided.
     const LEAST_VERTICES: usize = 1000;
-    /// Most steps of a part before the whole cloth steps again.
+    /// Greatest number of steps of a part before the whole cloth steps again.
     const MOST_STEPS: usize = 6;
-    /// Free path below which a part stops, m: near pairs have to be sought in the whole cloth.
+    /// Free path below which a part stops, m. Near pairs can then be missing, and have to be searched in the whole
+    /// cloth.
     const LEAST_PATH_M: f64 = 1e-3;
-    /// Residual that ends the steps of a part, over that which ends the drape.
+    /// Residual that ends the steps of a part, as a share of that which ends the drape.
     const TOLERANCE_SHARE: f64 = 0.5;
 }
 
-/// The vertices that `moved` in a step, and some about them, if they are few and can be stepped by themselves.
+impl Stepper {
+    /// Takes one step from `x`, unless the residual is already at most `tolerance`. If it has moved only a small part
+    /// of the cloth, that part then takes some more steps. Returns the residual before the step and its length.
+    pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
+        let info = self.step_whole(system, x, tolerance);
+        let has_settled = info.residual > tolerance && self.h_s >= self.params.h_max_s;
+        let moving = self.last.as_ref().filter(|_| has_settled).and_then(|moved| moving(system, moved));
+        if let (Some(moving), Some(predicted)) = (moving, &mut self.predicted) {
+            relax(system, x, &moving, predicted, self.params, tolerance);
+            self.last = None;
+        }
+        info
+    }
+}
+
+/// Marks the vertices that `moved` in a step, with a margin; `None` unless they are few and can be stepped by
+/// themselves.
 #[must_use]
-pub fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
+fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     let is_whole = moved.len() < LEAST_VERTICES
         || system.springs.is_some()
         || system.walls.is_some()
@@ -56,9 +73,9 @@ pub fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     (0 < count && (count as f64) < MOST_SHARE * moved.len() as f64).then_some(is_moving)
 }
 
-/// Steps the `free` vertices of a cloth at `x`, until what is out of balance among them would do for the whole cloth, or a few
-/// times; `predicted` are the stresses foreseen in its membrane, before and after.
-pub fn relax(
+/// Steps the `free` vertices of a cloth at `x` until their residual would be low enough for the whole cloth, or for a
+/// few steps. `predicted` are the predicted stresses of its membrane, which are updated.
+fn relax(
     system: &mut System,
     x: &mut [V3],
     free: &[bool],
@@ -75,7 +92,7 @@ pub fn relax(
     let mut own = part.of(x);
     let mut alone = alone(system, &part, &cloth, &own);
     let mut stepper = Stepper::going_on(params, elements.iter().map(|&t| predicted[t]).collect());
-    // The same force is a greater residual among fewer vertices.
+    // A force gives a greater root mean square among fewer vertices.
     let of_all = (x.len() as f64 / cloth.len() as f64).sqrt() * system.mean_weight() / alone.mean_weight();
     let enough = TOLERANCE_SHARE * tolerance * of_all;
     for _ in 0..MOST_STEPS {
@@ -95,7 +112,7 @@ pub fn relax(
     system.take_anchors(&part, &alone);
 }
 
-/// A part of a system as one of its own: `cloth` is the part's, and lies at `own`.
+/// Makes a system of a part of another: `cloth` is the cloth of the part, at `own`.
 fn alone<'c>(system: &System<'c>, part: &Part, cloth: &'c Cloth, own: &[V3]) -> System<'c> {
     let mut alone = System::new(cloth, system.contact.part(part), None);
     alone.weights = part.of(&system.weights);
@@ -116,7 +133,8 @@ mod tests {
 
     const EDGE_M: f64 = 0.01;
 
-    /// A square of 40 x 40 whose upper half is folded over, one layer 1 mm above the other, and where its vertices are.
+    /// A square of 40 x 40 whose upper half is folded over, with one layer 1 mm above the other, and the positions of
+    /// its vertices.
     fn folded() -> (Cloth, Vec<V3>) {
         let mut garment = laboratory::garment(sheets::sheet(40, 40, EDGE_M));
         let band =
@@ -189,7 +207,7 @@ mod tests {
         let after = system.energy(&x) - rest;
         assert!(after < 0.1 * before, "{after} after {before}");
         assert!((0..x.len()).all(|v| free[v] || x[v] == start[v]));
-        // All of it moves, or something holds it: then it is no part.
+        // Where all of the cloth moves, or vertices are held, no part is stepped by itself.
         assert!(moving(&system, &vec![V3::x(); x.len()]).is_none());
         system.held.push(0);
         assert!(moving(&system, &moved).is_none());

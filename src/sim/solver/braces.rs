@@ -1,4 +1,5 @@
-//! Braces: what would slide off hangs from its top edge, whose vertices keep their height and move freely to every side.
+//! Braces: vertical springs that hold a garment by its top edge, where it would slide off by itself. The vertices of
+//! the edge keep their height and move freely sideways.
 
 use nalgebra::Matrix3;
 
@@ -9,24 +10,25 @@ use geom::units::GRAVITY;
 
 geom::constants! {
     "solver.braces",
-    /// Share of the cloth's height below its highest edge in which edges are held: a waist is lower in front, and the front of a coat
-    /// that is open all the way down is not held below.
+    /// Range below the highest point of a free edge in which the vertices of free edges are held, as a share of the
+    /// height of the cloth. A waist is lower in front. The front of a coat that is open all the way down is not held
+    /// below.
     const TOP_SHARE: f64 = 0.1;
-    /// How far the whole weight draws them down, m.
+    /// Deflection of the springs under the whole weight, m.
     const YIELD_M: f64 = 1e-4;
 }
 
-/// Vertices that are held at their height.
+/// Vertical springs on vertices. Energy `k/2 (z - z0)^2` each, J.
 #[derive(Clone, Debug)]
 pub struct Braces {
-    /// Vertex and height, m.
+    /// Vertex and its height `z0`, m.
     held: Vec<(usize, f64)>,
-    /// Of each, N/m.
+    /// Stiffness `k` of each spring, N/m.
     stiffness_n_m: f64,
 }
 
 impl Braces {
-    /// Those of cloth whose vertices are at `x`.
+    /// Sets up the braces of cloth whose vertices are at `x`, m.
     #[must_use]
     pub fn new(cloth: &Cloth, x: &[V3]) -> Self {
         let mut edge: Vec<usize> = free_edges(&cloth.triangles).into_iter().flatten().collect();
@@ -40,27 +42,27 @@ impl Braces {
         Self { stiffness_n_m: weight / (YIELD_M * held.len().max(1) as f64), held }
     }
 
-    /// Their energy, J.
+    /// Energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         self.held.iter().map(|(v, z)| 0.5 * self.stiffness_n_m * (x[*v].z - z).powi(2)).sum()
     }
 
-    /// Adds their forces, N.
+    /// Adds the forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for (v, z) in &self.held {
             forces[*v].z -= self.stiffness_n_m * (x[*v].z - z);
         }
     }
 
-    /// Adds their stiffness, N/m.
+    /// Adds the stiffness, N/m.
     pub fn add_stiffness(&self, diagonal: &mut [Matrix3<f64>]) {
         for (v, _) in &self.held {
             diagonal[*v][(2, 2)] += self.stiffness_n_m;
         }
     }
 
-    /// What they carry at `x`, N.
+    /// Vertical force that they carry at `x`, N.
     #[must_use]
     pub fn carry_n(&self, x: &[V3]) -> f64 {
         self.held.iter().map(|(v, z)| self.stiffness_n_m * (z - x[*v].z)).sum()

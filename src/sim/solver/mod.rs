@@ -1,4 +1,4 @@
-//! The solver: one proximal Newton step at a time towards static equilibrium.
+//! The solver: proximal Newton steps towards static equilibrium.
 
 pub mod active_set;
 pub mod braces;
@@ -9,7 +9,7 @@ pub mod system;
 pub use proximal::{StepInfo, StepParams, Stepper};
 pub use system::System;
 
-/// Constants of the solver that decide results.
+/// Collects the constants of the solver that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
     [active_set::CONSTANTS, braces::CONSTANTS, line_search::CONSTANTS, proximal::CONSTANTS, system::CONSTANTS].concat()
 }

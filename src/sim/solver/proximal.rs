@@ -1,24 +1,25 @@
-//! Proximal Newton: each step minimises `E(x) + |x - x_n|^2_M / (2 h^2)` by one Newton step with a line search.
+//! Proximal Newton method: each step reduces `E(x) + |x - x_n|^2_M / (2 h^2)` by one Newton step with a line search.
 //!
-//! There is no inertia: `h` only keeps a step from going further than its linearisation is good for. It grows while
-//! steps succeed, and the limit is static equilibrium.
+//! There is no dynamics. The proximal term, with the step size `h` and the lumped masses `M`, keeps a step within the
+//! range of its linearisation; the code calls it inertia. `h` grows while steps succeed, and the limit is static
+//! equilibrium.
 //!
-//! Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
-//! second order, stretches them; on its own it could go only a fraction of a millimetre. Each step is therefore
-//! corrected. At its end the stretch that the linear solve did not foresee is taken out again by the least movement
-//! that does it, as inextensible cloth is projected onto its constraints [Goldenthal 2007]. The step runs along `x +
+//! Cloth is a million times softer in bending than in its plane. A step along a soft mode rotates triangles and so
+//! stretches them, to second order. On its own it could go only a fraction of a millimetre. Each step is therefore
+//! corrected: the stretch at its end that the linear solve did not predict is removed by the least displacement that
+//! does so, as inextensible cloth is projected onto its constraints [Goldenthal 2007]. The step follows the curve `x +
 //! alpha d + alpha^2 c`.
 //!
-//! Its stiffness leaves compression out, which would make it indefinite: folds move by a part of the way, in the same direction for
-//! many steps. So a step runs on with a part of what compression would have added to the last (`Stepper::rhs`).
+//! The stiffness leaves out compressive stresses, which would make it indefinite. Buckling folds therefore move by a
+//! part of the way only, in the same direction for many steps. So each step adds a part of the force that compression
+//! would have had along the last one (`Stepper::rhs`).
 
 use nalgebra::Matrix3;
 
-use super::active_set;
-use super::line_search::Line;
+use super::line_search::{Line, Reached};
 use super::system::{Assembled, Excess, System, rms};
+use crate::cloth::element::Foreseen;
 use crate::cloth::law::Tensor;
-use crate::cloth::membrane::Foreseen;
 use crate::contact::ClothContact;
 use geom::V3;
 use linalg::linear;
@@ -35,19 +36,20 @@ pub struct StepParams {
     pub h_max_s: f64,
     /// Growth of the step size after a full step.
     pub growth: f64,
-    /// Greatest displacement of a vertex in a step, m. A longer step is shortened for all vertices alike: shortened for
-    /// some alone it would shear the cloth, and no longer descend.
+    /// Greatest displacement of a vertex in a step, m. A longer step is shortened for all vertices alike. Shortened for
+    /// some alone it would shear the cloth, and no longer be a descent direction.
     pub clamp_m: f64,
     /// Relative tolerance of the linear solve.
     pub linear_tolerance: f64,
-    /// Most iterations of the linear solve.
+    /// Greatest number of iterations of the linear solve.
     pub linear_iterations: usize,
-    /// Step size of the second-order correction, s: small enough that a vertex's weight moves it by less than a fifth of a
-    /// millimetre, so that of all ways to take the stretch out the shortest is found.
+    /// Step size `h` in the proximal term of the second-order correction, s. It is so small that the weight of a vertex
+    /// moves it by less than 0.2 mm, so that the correction is the shortest one.
     pub correction_h_s: f64,
     /// Relative tolerance of the correction's linear solve.
     pub correction_tolerance: f64,
-    /// Most iterations of the correction's linear solve: mostly it takes three; near rest it would take fifty, and save no step.
+    /// Greatest number of iterations of the linear solve of the correction. Mostly it takes three. Near rest it would
+    /// take fifty, and save no step.
     pub correction_iterations: usize,
 }
 
@@ -68,83 +70,75 @@ impl Default for StepParams {
     }
 }
 
-/// What a step did.
+/// Outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInfo {
-    /// Rms force over mean vertex weight *before* the step.
+    /// Root mean square of the forces over the mean weight of a vertex, *before* the step.
     pub residual: f64,
-    /// Share of the full step that was taken; more than 1 where it was lengthened, 0 where no share was good.
+    /// Step length `alpha`: 1 for the full step, more where it was lengthened, 0 where no length reduced the energy.
     pub alpha: f64,
 }
 
-/// The state that outlives a step.
+/// State of the method between steps.
 pub struct Stepper {
-    params: StepParams,
-    h_s: f64,
-    /// Displacement of the last step: soft modes go on in their direction for many steps.
-    last: Option<Vec<V3>>,
-    /// Stress of each membrane element that the last linear solve foresaw, N/m.
-    predicted: Option<Vec<Tensor>>,
-    /// Steps up to the last one that moved nothing at the least step size.
+    pub(super) params: StepParams,
+    /// Step size `h`, s.
+    pub(super) h_s: f64,
+    /// Displacement of the last step, with which the linear solve starts: soft modes continue in their direction for
+    /// many steps.
+    pub(super) last: Option<Vec<V3>>,
+    /// Stress of each membrane element that the last linear solve predicted, N/m.
+    pub(super) predicted: Option<Vec<Tensor>>,
+    /// Number of successive steps that moved nothing at the least step size.
     idle: u32,
 }
 
 geom::constants! {
     "solver.proximal",
-    /// Share of the compression along the last step that the next one makes up for.
+    /// Share of the compressive force along the last step that the next one adds.
     const RUNS_ON: f64 = 0.5;
-    /// Step size from which on that is done, s: the first steps of a finer mesh take out what prolongation left, and say nothing of
-    /// the next.
+    /// Step size `h` from which that is done, s. The first steps on a finer mesh remove errors of the prolongation, and
+    /// do not predict the next.
     const RUNS_ON_FROM_S: f64 = 0.5;
-    /// Forces left by a full step that is not lengthened, over those asked for at the end: what the linear solve leaves of them, the next
-    /// step takes.
+    /// Residual forces of a full step up to which it is not lengthened, as a multiple of the final tolerance. The next
+    /// step takes what the linear solve leaves of them.
     const ENOUGH: f64 = 2.0;
-    /// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
+    /// Step size `h` from which full steps may be lengthened, s. Lengthened steps throw cloth that has only begun to
+    /// settle off the body.
     const LENGTHENED_FROM_S: f64 = 0.2;
-    /// Steps at the least step size that may move nothing: the first also forgets the step before it, and the second lets anchors of
-    /// friction follow; what the third finds, every later one does.
+    /// Number of successive steps at the least step size that may move nothing. The first also discards the
+    /// displacement of the step before it, and the second lets the friction anchors follow. Every later step repeats
+    /// the third.
     const IDLE_STEPS: u32 = 3;
 }
 
 impl Stepper {
-    /// Starts at the smallest step.
+    /// Starts at the first step size.
     #[must_use]
     pub fn new(params: StepParams) -> Self {
         Self { params, h_s: params.h_start_s, last: None, predicted: None, idle: 0 }
     }
 
-    /// Goes on where another left off, at the greatest step, with the membrane stresses that it foresaw.
+    /// Continues another run at the greatest step size, with the membrane stresses that it predicted.
     #[must_use]
     pub fn going_on(params: StepParams, predicted: Vec<Tensor>) -> Self {
         Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted), idle: 0 }
     }
 
-    /// Whether no share of a step lowers the energy any more, however small the step: further ones would do the same.
+    /// True if no step length reduces the energy any more at the least step size: further steps would do the same.
     #[must_use]
     pub fn is_stuck(&self) -> bool {
         self.idle >= IDLE_STEPS
     }
 
-    /// Membrane stresses foreseen by the last step, N/m; none before the first.
+    /// Membrane stresses that the last step predicted, N/m; empty before the first.
     #[must_use]
     pub fn predicted(&self) -> &[Tensor] {
         self.predicted.as_deref().unwrap_or_default()
     }
 
-    /// Takes one step from `x`, unless the residual is already below `tolerance`, and where it has moved a small part of the cloth
-    /// only, some more of that part; says what the step did.
-    pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
-        let info = self.step_whole(system, x, tolerance);
-        let has_settled = info.residual > tolerance && self.h_s >= self.params.h_max_s;
-        let moving = self.last.as_ref().filter(|_| has_settled).and_then(|moved| active_set::moving(system, moved));
-        if let (Some(moving), Some(predicted)) = (moving, &mut self.predicted) {
-            active_set::relax(system, x, &moving, predicted, self.params, tolerance);
-            self.last = None;
-        }
-        info
-    }
-
-    /// Takes one step of the whole cloth from `x`, unless the residual is already below `tolerance`; says what it did.
+    /// Takes one step of the whole cloth from `x`, unless the residual is already at most `tolerance`. Returns the
+    /// residual before the step and its length.
     pub fn step_whole(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
         let mut start = system.assemble(x, self.predicted.as_deref());
         let mut residual = rms(&start.forces) / system.mean_weight();
@@ -170,7 +164,7 @@ impl Stepper {
         let (correction, foreseen) = self.correction(system, &start, x, &direction);
         let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
         let line = Line { system, x, start: &start, direction: &direction, correction: &correction, inertia: &inertia };
-        let (alpha, next) = line.search(enough_n);
+        let Reached { alpha, positions: next } = line.search(enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
@@ -186,10 +180,12 @@ impl Stepper {
         StepInfo { residual, alpha }
     }
 
-    /// What the linear solve is to balance where `forces` act: those, and a part of what compression would add to them along the step.
+    /// Right-hand side of the linear solve where `forces` act: these, plus a share of the compressive force along the
+    /// last step.
     ///
-    /// The stiffness `K` leaves compression `C` out (`K - C` is the true one), and is so the more too stiff the softer a fold is: of
-    /// `K d = f + C d` it solves `K d = f`. The step before was much like this one, so half of the `C d` of that one is put there.
+    /// The assembled stiffness `K` leaves out the compressive part `C`; the true one is `K - C`. The relative error is
+    /// the greater, the softer a fold is. `K d = f` is solved instead of `K d = f + C d`. The last step resembles this
+    /// one, so half of its `C d` is added.
     fn rhs(&self, system: &System, forces: &[V3]) -> Vec<V3> {
         let mut rhs = forces.to_vec();
         if let (Some(last), Some(stresses)) = (&self.last, &self.predicted)
@@ -200,7 +196,8 @@ impl Stepper {
         rhs
     }
 
-    /// Second-order correction of a step from `x`, where `start` acts, without inertia; and the stresses foreseen at its end.
+    /// Second-order correction of a step from `x`, where `start` acts without inertia, and the stresses predicted at
+    /// the end of the step.
     fn correction(&self, system: &System, start: &Assembled, x: &[V3], direction: &[V3]) -> (Vec<V3>, Vec<Foreseen>) {
         let Excess { forces, mut operator, foreseen } = system.excess(start, x, direction);
         let h2 = self.params.correction_h_s * self.params.correction_h_s;
@@ -217,7 +214,7 @@ impl Stepper {
     }
 }
 
-/// Shortens a direction so that no vertex moves further than allowed.
+/// Shortens a direction so that no vertex moves farther than `farthest_m`.
 fn shorten(direction: &mut [V3], farthest_m: f64) {
     let longest = direction.iter().map(V3::norm).fold(0.0, f64::max);
     if longest > farthest_m {
@@ -225,6 +222,7 @@ fn shorten(direction: &mut [V3], farthest_m: f64) {
     }
 }
 
+/// Adds the proximal term `M / h^2` to the diagonal blocks.
 fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
     for (block, m) in diagonal.iter_mut().zip(inertia) {
         *block += Matrix3::identity() * *m;

@@ -1,4 +1,4 @@
-//! The forces on a cloth, their energy and their stiffness, gathered from every source.
+//! Energy, forces and stiffness of a cloth with all its loads and contacts.
 
 use nalgebra::Matrix3;
 use wide::f32x4;
@@ -6,8 +6,9 @@ use wide::f32x4;
 use super::braces::Braces;
 use crate::cloth::Cloth;
 use crate::cloth::bending::Bending;
+use crate::cloth::element::Foreseen;
 use crate::cloth::law::Tensor;
-use crate::cloth::membrane::{Bowed, Foreseen, Membrane};
+use crate::cloth::membrane::{Bowed, Membrane};
 use crate::cloth::part::Part;
 use crate::contact::{BodyContact, ClothContact};
 use crate::cover::Cover;
@@ -21,35 +22,36 @@ use linalg::quad::Block;
 
 geom::constants! {
     "solver.system",
-    /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
+    /// Stiffness that holds a vertex, N/m. It exceeds that of any fabric by six orders of magnitude.
     const HELD_STIFFNESS: f64 = 1e10;
-    /// Penalty of walls, N/m3.
+    /// Penalty stiffness `k` of walls and covers, N/m3. The energy of a vertex with the area `A` at the depth `d` is `k
+    /// A d^2 / 2`, J.
     const WALL_STIFFNESS: f64 = 1e5;
 }
 
-/// What acts on a cloth somewhere.
+/// Energy, forces and stiffness of a cloth at some positions.
 pub struct Assembled<'a> {
     /// Potential energy, J.
     pub energy: f64,
     /// Force on each vertex, N.
     pub forces: Vec<V3>,
-    /// What contacts and walls have of them, N.
+    /// Part of the forces that comes from contacts, walls and braces, N.
     pub contact_forces: Vec<V3>,
     /// Stiffness, N/m.
     pub operator: Operator<'a>,
 }
 
-/// What a linear solve did not foresee of the end of a step.
+/// Forces at the end of a step that its linear solve did not predict, with the stiffness there.
 pub struct Excess<'a> {
-    /// Forces there that it did not foresee, N.
+    /// Forces at the end in excess of the predicted ones, N.
     pub forces: Vec<V3>,
-    /// Stiffness there, N/m.
+    /// Stiffness at the end, N/m.
     pub operator: Operator<'a>,
-    /// The stresses of the membrane that it foresaw.
+    /// Predicted stresses of the membrane.
     pub foreseen: Vec<Foreseen>,
 }
 
-/// A cloth with everything that acts on it.
+/// A cloth with its loads, contacts and constraints.
 pub struct System<'a> {
     /// Masses, areas and elastic energies of the cloth.
     pub cloth: &'a Cloth,
@@ -63,19 +65,40 @@ pub struct System<'a> {
     pub springs: Option<Springs>,
     /// Walls between the cloth of limbs, until the seams are welded.
     pub walls: Option<Walls>,
-    /// What is worn over the cloth, which keeps within it.
+    /// Garment worn over the cloth, which keeps within it.
     pub cover: Option<&'a Cover>,
-    /// What holds the cloth up by its top edge.
+    /// Springs that hold the cloth by its top edge.
     pub braces: Option<Braces>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
-    /// Solver of the linear systems; remembers factors from step to step.
+    /// Solver of the linear systems; it keeps factors from step to step.
     pub linear: LinearSolver,
 }
 
+/// Energies of a cloth that have been computed already.
+struct KnownEnergies {
+    /// Strain energy of the membrane, J.
+    membrane_j: f64,
+    /// Bending energy, J.
+    bending_j: f64,
+    /// Energy of the contact with the body, J.
+    contact_j: f64,
+    /// Energy of the contact of the cloth with itself, J.
+    self_contact_j: f64,
+}
+
+/// A vertex that violates a wall or a cover.
+struct Trespass {
+    vertex: usize,
+    /// Depth of the violation, m.
+    depth_m: f64,
+    /// Unit direction back.
+    back: V3,
+}
+
 impl<'a> System<'a> {
-    /// A cloth under gravity and body contact. While seams are open it weighs nothing: a dress would fall off the shoulders
-    /// before they are closed, or not, as the springs happen to pull.
+    /// Sets up a cloth under gravity and body contact. Cloth with open seams is weightless: a dress could fall off the
+    /// shoulders before they are closed, depending on the pull of the springs.
     #[must_use]
     pub fn new(cloth: &'a Cloth, contact: BodyContact<'a>, springs: Option<Springs>) -> Self {
         let gravity = if springs.is_some() { 0.0 } else { GRAVITY };
@@ -94,7 +117,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Switches friction on with the coefficients of the cloth. Anchors are set where it now lies.
+    /// Switches friction on, with the coefficients of the cloth. Anchors are set at its present position.
     pub fn set_friction(&mut self) {
         let frictions = &self.cloth.frictions;
         self.contact.set_friction(frictions.iter().map(|friction| friction.body));
@@ -103,20 +126,20 @@ impl<'a> System<'a> {
         }
     }
 
-    /// From now on friction holds everything, whatever that takes. What has slid lies just at its limit: a small move the one way would be
-    /// held there, and the other way not.
+    /// Makes friction hold all contacts from now on, whatever the force. Contacts that have slid are just at their
+    /// Coulomb limit: a small motion in one direction would be held, and in the other not.
     pub fn hold_fast(&mut self) {
         self.contact.hold_fast();
         self.self_contact.iter_mut().for_each(ClothContact::hold_fast);
     }
 
-    /// Sets where friction holds the cloth after a step has been taken to `x`: what has slid is held from there.
+    /// Updates the friction anchors after a step to `x`: the anchor of a contact that has slid is dragged along.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         self.contact.drag_anchors(x);
         self.self_contact.iter_mut().for_each(|contact| contact.drag_anchors(x));
     }
 
-    /// Takes over where friction has come to hold a part of the cloth.
+    /// Takes over the friction anchors of a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, alone: &System) {
         self.contact.take_anchors(part, &alone.contact);
         if let (Some(contact), Some(of_part)) = (&mut self.self_contact, &alone.self_contact) {
@@ -124,7 +147,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Mean weight of a vertex, N: the yardstick of the residual.
+    /// Mean weight of a vertex, N: the unit of the residual.
     #[must_use]
     pub fn mean_weight(&self) -> f64 {
         self.cloth.masses.iter().sum::<f64>() * GRAVITY / self.cloth.len() as f64
@@ -133,30 +156,32 @@ impl<'a> System<'a> {
     /// Potential energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        let (stretched_j, bent_j) = (self.cloth.membrane.energy(x), self.cloth.bending.energy(x));
-        let pressed_j = self.self_contact.as_ref().map_or(0.0, |c| c.energy(x));
-        self.energy_but(x, [stretched_j, bent_j, self.contact.energy(x), pressed_j])
+        let (membrane_j, bending_j) = (self.cloth.membrane.energy(x), self.cloth.bending.energy(x));
+        let self_contact_j = self.self_contact.as_ref().map_or(0.0, |c| c.energy(x));
+        self.total_energy(x, KnownEnergies { membrane_j, bending_j, contact_j: self.contact.energy(x), self_contact_j })
     }
 
-    /// Potential energy of which those of membrane, bending, body contact and self-contact are known, J.
-    fn energy_but(&self, x: &[V3], [stretched_j, bent_j, touching_j, pressed_j]: [f64; 4]) -> f64 {
+    /// Potential energy, J, given those of its parts that are known.
+    fn total_energy(&self, x: &[V3], known: KnownEnergies) -> f64 {
+        let KnownEnergies { membrane_j, bending_j, contact_j, self_contact_j } = known;
         let height: f64 = self.weights.iter().zip(x).map(|(w, p)| w * p.z).sum();
-        let trespass = |(v, depth, _): (usize, f64, V3)| 0.5 * WALL_STIFFNESS * self.cloth.areas[v] * depth * depth;
+        let trespass =
+            |Trespass { vertex, depth_m, .. }| 0.5 * WALL_STIFFNESS * self.cloth.areas[vertex] * depth_m * depth_m;
         let sewn_j = self.springs.as_ref().map_or(0.0, |s| s.energy(x));
         let walls_j: f64 = self.trespasses(x).map(trespass).sum();
         let braced_j = self.braces.as_ref().map_or(0.0, |b| b.energy(x));
         height
-            + stretched_j
-            + bent_j
+            + membrane_j
+            + bending_j
             + self.cloth.bands.energy(x)
-            + touching_j
-            + pressed_j
+            + contact_j
+            + self_contact_j
             + sewn_j
             + walls_j
             + braced_j
     }
 
-    /// Forces at `x`, N, with the contacts found at the last [`System::assemble`].
+    /// Forces at `x`, N, with the friction contacts and near pairs of the last [`System::assemble`].
     #[must_use]
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
         let mut forces = vec![V3::zeros(); x.len()];
@@ -170,7 +195,8 @@ impl<'a> System<'a> {
         forces
     }
 
-    /// Adds the forces of contacts, walls and braces at `x`, N, with the contacts found at the last [`System::assemble`].
+    /// Adds the forces of contacts, walls and braces at `x`, N, with the friction contacts and near pairs of the last
+    /// [`System::assemble`].
     pub fn add_outer_forces(&self, x: &[V3], forces: &mut [V3]) {
         self.contact.add_forces(x, forces);
         if let Some(contact) = &self.self_contact {
@@ -180,8 +206,8 @@ impl<'a> System<'a> {
         self.braces.iter().for_each(|b| b.add_forces(x, forces));
     }
 
-    /// What acts on the cloth at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically, where they are not
-    /// those at `x` ([`Membrane::assemble`](crate::cloth::membrane::Membrane::assemble)).
+    /// Assembles energy, forces and stiffness at `x`. `predicted` are the membrane stresses of the geometric stiffness,
+    /// if they are not those at `x` ([`Membrane::assemble`](crate::cloth::membrane::Membrane::assemble)).
     pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Tensor]>) -> Assembled<'a> {
         let cloth = self.cloth;
         if let Some(c) = &mut self.self_contact {
@@ -189,13 +215,13 @@ impl<'a> System<'a> {
         }
         let mut contact_forces = vec![V3::zeros(); x.len()];
         let mut diagonal = vec![Matrix3::zeros(); cloth.len()];
-        let (touching_j, mut contacts) = self.contact.assemble(x, &mut contact_forces, &mut diagonal);
+        let (contact_j, mut contacts) = self.contact.assemble(x, &mut contact_forces, &mut diagonal);
         contacts.extend(self.self_contact.iter().flat_map(|c| c.assemble(x, &mut contact_forces)));
-        let pressed_j = self.self_contact.as_ref().map_or(0.0, |c| c.pressed_energy(x));
-        for (v, depth, back) in self.trespasses(x) {
-            let stiffness = WALL_STIFFNESS * cloth.areas[v];
-            contact_forces[v] += back * (stiffness * depth);
-            diagonal[v] += back * back.transpose() * stiffness;
+        let self_contact_j = self.self_contact.as_ref().map_or(0.0, |c| c.pressed_energy(x));
+        for Trespass { vertex, depth_m, back } in self.trespasses(x) {
+            let stiffness = WALL_STIFFNESS * cloth.areas[vertex];
+            contact_forces[vertex] += back * (stiffness * depth_m);
+            diagonal[vertex] += back * back.transpose() * stiffness;
         }
         if let Some(braces) = &self.braces {
             braces.add_forces(x, &mut contact_forces);
@@ -204,8 +230,8 @@ impl<'a> System<'a> {
         let mut forces = contact_forces.clone();
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         let mut membrane = cloth.membrane.blocks();
-        let (stretched_j, bowed) = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
-        let bent_j = cloth.bending.assemble(x, &mut forces);
+        let (membrane_j, bowed) = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
+        let bending_j = cloth.bending.assemble(x, &mut forces);
         let (bending_pairs, bending) = self.bending(&mut membrane);
         cloth.bands.add_forces(x, &mut forces);
         cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
@@ -214,7 +240,7 @@ impl<'a> System<'a> {
             forces[v] = V3::zeros();
             diagonal[v] += Matrix3::identity() * HELD_STIFFNESS;
         }
-        let energy = self.energy_but(x, [stretched_j, bent_j, touching_j, pressed_j]);
+        let energy = self.total_energy(x, KnownEnergies { membrane_j, bending_j, contact_j, self_contact_j });
         let operator = Operator {
             diagonal,
             membrane_pairs: &cloth.membrane.pairs,
@@ -228,10 +254,13 @@ impl<'a> System<'a> {
         Assembled { energy, forces, contact_forces, operator }
     }
 
-    /// What a linear solve at `x` did not foresee of stretching and contact at the end of a step `d`. The stiffness there is
-    /// without the geometric part of stretching and with contacts at either end of the step: those that it makes would throw their
-    /// vertices out by centimetres if they had a force there and no stiffness. Bending is left as foreseen: it is linear, and hinges one by one are near enough to it.
-    /// `start` is what acts at `x`, without inertia.
+    /// Forces of stretching and contact at the end of a step `d` from `x`, in excess of those that the linear solve at
+    /// `x` predicted. `start` is the system at `x`, without inertia.
+    ///
+    /// The stiffness there is without the geometric part of stretching, and has the contacts at both ends of the step.
+    /// Contacts that the step makes need their stiffness: with a force alone they would throw their vertices out by
+    /// centimetres. Bending is left as predicted: it is linear, and the independent hinges of the linear solve are
+    /// close enough to it.
     pub fn excess(&self, start: &Assembled<'a>, x: &[V3], d: &[V3]) -> Excess<'a> {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
         let operator = &start.operator;
@@ -255,8 +284,8 @@ impl<'a> System<'a> {
         Excess { forces, operator, foreseen }
     }
 
-    /// Bending as linear solves take it: adds what it has in the membrane's blocks, and returns the pairs that it couples besides, with
-    /// their entries, N/m. An exact solver takes it whole.
+    /// Bending as linear solves take it. It adds the entries along sides to the blocks of the membrane, and returns the
+    /// pairs coupled besides, with their entries, N/m. An exact solver takes the true stiffness of bending.
     fn bending(&self, membrane: &mut [Block<f32x4>]) -> (&'a PairList, &'a [f64]) {
         let Bending { pairs, entries, tangent } = &self.cloth.bending;
         if self.linear.is_exact() {
@@ -266,32 +295,32 @@ impl<'a> System<'a> {
         (&tangent.pairs, &tangent.across)
     }
 
-    /// Share of these displacements that may be gone in the step that was assembled last.
+    /// Greatest share of these displacements that the step assembled last may take before unknown pairs can meet.
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         self.self_contact.as_ref().map_or(f64::INFINITY, |contact| contact.free_share(displacements))
     }
 
-    /// Adds the forces of walls, N.
+    /// Adds the forces of walls and covers, N.
     fn add_walls(&self, x: &[V3], forces: &mut [V3]) {
-        for (v, depth, back) in self.trespasses(x) {
-            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
+        for Trespass { vertex, depth_m, back } in self.trespasses(x) {
+            forces[vertex] += back * (WALL_STIFFNESS * self.cloth.areas[vertex] * depth_m);
         }
     }
 
-    /// Vertices on the wrong side of a wall or of what covers them, how far, m, and the way back.
-    fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = (usize, f64, V3)> {
+    /// Finds the vertices that are beyond a wall or outside the cover.
+    fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = Trespass> {
         let beyond = move |(v, p): (usize, &V3)| {
             let walls = self.walls.iter().filter_map(move |walls| walls.trespass(v, p));
             let covers = self.cover.iter().filter_map(move |cover| cover.trespass(v, p));
-            walls.chain(covers).map(move |(depth, back)| (v, depth, back)).collect::<Vec<_>>()
+            walls.chain(covers).map(move |(depth_m, back)| Trespass { vertex: v, depth_m, back }).collect::<Vec<_>>()
         };
         let is_free = self.walls.is_none() && self.cover.is_none();
         x.iter().enumerate().filter(move |_| !is_free).flat_map(beyond)
     }
 }
 
-/// Stiffness of arcs at `x`.
+/// Stiffness of the arcs at `x`; `None` where sides are chords.
 fn stiffness<'a>(cloth: &'a Cloth, x: &[V3], bowed: Bowed) -> Option<ArcStiffness<'a>> {
     let Membrane { arcs, pairs, sides, .. } = &cloth.membrane;
     let Bowed { bent, tensions, couplings } = bowed;

@@ -1,4 +1,4 @@
-//! Mechanics with known answers: what the solver settles at, whatever way it took.
+//! Equilibria with known answers, whatever the path of the solver.
 
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ContactParams};
@@ -15,7 +15,7 @@ use linalg::pcg::PcgParams;
 use nalgebra::Matrix3;
 use pattern::Garment;
 
-/// A rectangular piece, grain along v, as a garment without seams.
+/// A rectangular piece as a garment without seams, its grain along v.
 fn rectangle(columns: usize, rows: usize, step: f64) -> Garment {
     laboratory::garment(sheet(columns, rows, step))
 }
@@ -31,7 +31,7 @@ fn all_forces_together_are_the_energys() {
     system.assemble(&flat, None);
     let x = shaken(&flat, 3e-4, 7);
     assert!(system.contact.count() > 0);
-    // As the step sees them: with the anchors set where the cloth lay flat.
+    // With the anchors of friction where the cloth lay flat, as in a step.
     check_forces(|x| system.energy(x), &system.forces(&x), &x, 1e-7, 1e-6);
 }
 
