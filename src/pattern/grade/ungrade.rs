@@ -11,7 +11,7 @@ use super::{GradeError, GradeTable};
 use crate::dxf::{PatternFile, Unit};
 use crate::piece::{GradePoint, Piece};
 use crate::style::corners::corner_vertices;
-use crate::style::follow::in_sizes;
+use crate::style::nest_corners::in_sizes;
 use geom::V2;
 use geom::polyline::Polyline;
 

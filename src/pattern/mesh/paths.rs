@@ -1,4 +1,4 @@
-//! Laying measurement paths on the mesh.
+//! Tracing of measurement paths on the mesh.
 
 use super::MeshError;
 use super::sampling::EdgeSamples;
@@ -7,12 +7,12 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::segment_meeting;
 
-/// Points of a straight path closer than this share of its length are one.
+/// Distance below which points of a straight path coincide, as a share of its length.
 const SAME_SHARE: f64 = 1e-6;
-/// Farthest that a drawn curve lies from the sides of the mesh along it, m, where no vertex was asked for.
+/// Greatest distance of a drawn curve from the mesh boundary along it, m, at points without a vertex.
 const OFF_CURVE_M: f64 = 3e-3;
 
-/// Lays paths on the mesh of a style.
+/// Tracer of paths on the mesh of a style.
 pub struct Layer<'a> {
     style: &'a Style,
     samples: &'a [Vec<EdgeSamples>],
@@ -23,7 +23,7 @@ pub struct Layer<'a> {
 }
 
 impl<'a> Layer<'a> {
-    /// `samples` and `boundary` hold arc lengths and garment vertices of every edge of every piece.
+    /// Makes a tracer. `samples` and `boundary` hold the arc lengths and garment vertices of every edge of every piece.
     pub fn new(
         style: &'a Style,
         samples: &'a [Vec<EdgeSamples>],
@@ -39,10 +39,10 @@ impl<'a> Layer<'a> {
         Self { style, samples, boundary, garment, triangle_of }
     }
 
-    /// The runs of a path; `place` names it in messages.
+    /// Lines of a path on the mesh. `place` names it in messages.
     ///
     /// # Errors
-    /// [`MeshError::LineLeavesPiece`].
+    /// [`MeshError::LineLeavesPiece`] if a straight part leaves its piece.
     pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {
@@ -52,7 +52,7 @@ impl<'a> Layer<'a> {
             .collect()
     }
 
-    /// Along an edge, from vertex to vertex, with the arcs of the drawn curve.
+    /// Line along an edge, from vertex to vertex, with the arc lengths of the drawn curve.
     fn edge_run(&self, edge: EdgeRef) -> MaterialLine {
         let arcs = &self.samples[edge.piece][edge.edge].arcs;
         let vertices = &self.boundary[edge.piece][edge.edge];
@@ -67,8 +67,8 @@ impl<'a> Layer<'a> {
         MaterialPoint { vertices, weights: vertices.map(|v| if v == vertex { 1.0 } else { 0.0 }) }
     }
 
-    /// The runs of a path for whose ends no vertex was asked, so that they lie a little off the mesh: on it as far as it goes, with
-    /// the lengths of the pattern. `None` where a line leaves the cloth between its ends.
+    /// Lines of a path without vertices at its ends, which therefore lie a little off the mesh. The lines end at the
+    /// boundary of the mesh and have the lengths of the pattern. `None` if a line leaves the cloth between its ends.
     pub fn near_runs(&self, path: &[PathPart]) -> Option<Vec<MaterialLine>> {
         let run = |part: &PathPart| match *part {
             PathPart::Edge(edge) => Some(self.edge_run(edge)),
@@ -96,7 +96,7 @@ impl<'a> Layer<'a> {
         })
     }
 
-    /// Where a segment crosses the sides of some triangles, by share of its length.
+    /// Intersections of a segment with the sides of some triangles, each with its parameter along the segment.
     fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<(f64, MaterialPoint)> {
         let mut crossings: Vec<(f64, MaterialPoint)> = Vec::new();
         for &triangle in &self.garment.triangles[triangles] {
@@ -115,12 +115,12 @@ impl<'a> Layer<'a> {
         crossings
     }
 
-    /// Straight across a piece, from mesh edge to mesh edge.
+    /// Line straight across a piece, from mesh edge to mesh edge.
     fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
         let piece = &self.garment.pieces[ends[0].edge.piece];
         let [from, to] = ends.map(|end| self.style.place(end));
         let length = (to - from).norm();
-        // A little longer than it is, so that its own end points are found in spite of rounding.
+        // The segment is extended a little, so that its own end points are found in spite of rounding.
         let reach = (to - from) * (0.5 * SAME_SHARE);
         let crossings = self.crossings(piece.triangles.clone(), (from - reach, to + reach));
         let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();

@@ -1,4 +1,4 @@
-//! Points of measure of skirts, and of what hangs from a bodice.
+//! Points of measure of skirts, also of those sewn to a bodice.
 
 use super::anatomy::{Anatomy, Chain, Part};
 use super::ways::Heading;
@@ -9,10 +9,11 @@ use crate::style::{EdgeRef, PathPart};
 
 /// Distance below the waist at which the hip is measured, m: that of a person of 1.7 m.
 const HIP_BELOW_WAIST_M: f64 = 0.200;
-/// Least ratio of the chord of a waist to its length: rounder ones are those of circle skirts, whose hip is no straight line.
+/// Least ratio of the chord of a waist edge to its length. A rounder one is that of a circle skirt, whose hip is no
+/// straight line.
 const STRAIGHT: f64 = 0.9;
 
-/// Points of measure of a style's skirt; none without a side seam.
+/// Points of measure of the skirt of a style. There are none without a side seam.
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
@@ -23,7 +24,7 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     };
     let waist = &openings[waist];
     let mut found = Vec::new();
-    // A dress has its waist and its lengths from the bodice.
+    // The waist and lengths of a dress are those of its bodice.
     if !anatomy.parts.iter().any(|part| matches!(part, Part::Trunk(_))) {
         let edge = anatomy.beyond(waist, is_skirt);
         found.extend(edge.map(|edges| anatomy.along_edges(Point::HalfWaist, &edges, 0.5)));
@@ -41,15 +42,15 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     found
 }
 
-/// Both sides of each side seam of a skirt, front and back, from above.
+/// Both sides of each side seam of a skirt, front and back, from the top.
 pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
-    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
+    let is_of = |face: Face| move |part: Part| part == Part::Skirt(face);
     let seams = 0..anatomy.style().seams.len();
-    let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let joins = seams.filter_map(|seam| anatomy.between(seam, is_of(Face::Front), is_of(Face::Back)));
     joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect()
 }
 
-/// The way down the front from its upper edge, half-way between its middle and its side.
+/// Path down the front from its upper edge, half-way between its middle and its side.
 pub fn way_down(anatomy: &Anatomy<'_>) -> Option<Vec<PathPart>> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let is_front = |edge: &EdgeRef| anatomy.parts[edge.piece] == Part::Skirt(Face::Front);
@@ -58,7 +59,7 @@ pub fn way_down(anatomy: &Anatomy<'_>) -> Option<Vec<PathPart>> {
         let ends = opening.iter().filter(|edge| is_front(edge)).map(|edge| anatomy.place((*edge, false)).y);
         ends.fold(f64::MIN, f64::max)
     };
-    let waist = openings.iter().max_by(|one, other| height(one).total_cmp(&height(other)))?;
+    let waist = openings.iter().max_by(|opening, other| height(opening).total_cmp(&height(other)))?;
     let piece = waist.iter().find(|edge| is_front(edge))?.piece;
     let own: Vec<EdgeRef> = waist.iter().copied().filter(|edge| edge.piece == piece).collect();
     let ends = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).x));
