@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use super::trunk::SHOULDER_SLOPE_DEG;
 use super::*;
 use crate::curve::CURVE_SEGMENTS;
-use crate::{MeshQuality, Style};
+use crate::{MeshQuality, Style, dxf};
 use geom::polyline::self_crossing;
 use geom::units::{from_mm, mm};
 

@@ -1,4 +1,4 @@
-//! Lookup of pieces by their names in seam files.
+//! Names of pieces in seam files: lookup of a piece by its name, and a unique name of a piece.
 
 use crate::dxf::r12_name;
 use crate::piece::Piece;
@@ -29,6 +29,23 @@ pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec
     });
     let found = plain.chain(by_number).chain(by_written).chain(by_bare).find(|found| !found.is_empty());
     found.unwrap_or_default()
+}
+
+/// Unique name of a piece for a seam file: its piece name if no other has it, then that of its block, then with an ordinal
+/// number. Blocks of a nest contain the size in their names. There the ordinal among equal piece names comes first.
+pub(crate) fn reference(pieces: &[Piece], index: usize) -> String {
+    let piece = &pieces[index];
+    let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
+    let number = |is: fn(&Piece) -> &str| pieces[..=index].iter().filter(|p| is(p) == is(piece)).count();
+    if is_only(&piece.name) {
+        piece.name.clone()
+    } else if piece.size.is_some() && piece.name != piece.block {
+        format!("{}#{}", piece.name, number(|piece| &piece.name))
+    } else if is_only(&piece.block) {
+        piece.block.clone()
+    } else {
+        format!("{}#{}", piece.block, number(|piece| &piece.block))
+    }
 }
 
 /// Words of a name without those of the size.
