@@ -198,13 +198,13 @@ mod tests {
     /// Bounding box of a placed piece, by its identifier.
     fn boxes(style: &Style) -> Vec<(String, V2, V2)> {
         let placed = arrange(style);
-        let of = |(piece, placed): (&StylePiece, &Placed)| {
+        let box_of = |(piece, placed): (&StylePiece, &Placed)| {
             let points: Vec<V2> = piece.outline().iter().map(|&p| placed.at(p)).collect();
             let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
             let high = points.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
             (piece.id.clone(), low, high)
         };
-        style.pieces.iter().zip(&placed).map(of).collect()
+        style.pieces.iter().zip(&placed).map(box_of).collect()
     }
 
     fn style(model: Model, turn: f64) -> Style {

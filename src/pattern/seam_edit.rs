@@ -574,8 +574,8 @@ mod tests {
         let sewn = edited(&text(), "a.toml", &sizes, &eased).expect("it is meant");
         let entries = SeamFile::parse(sewn.as_bytes(), "a.toml").expect("it reads");
         let ease = entries.seam.last().map(|seam| seam.ease_mm.clone()).expect("a seam");
-        let of = |size: &str| ease.of_size(size).expect("both sizes");
-        assert!(of("L") > of("S") + 1.0, "{ease}");
+        let ease_of = |size: &str| ease.of_size(size).expect("both sizes");
+        assert!(ease_of("L") > ease_of("S") + 1.0, "{ease}");
         for (size, pieces) in [("S", &small), ("L", &others[0].1)] {
             let entries = SeamFile { size: Some(size.to_owned()), ..entries.clone() };
             Style::of(pieces, &entries, "a.toml").unwrap_or_else(|error| panic!("{size}: {error}"));

@@ -16,7 +16,7 @@ fn style(model: Model, (name, bytes): &(String, Vec<u8>)) -> Style {
 
 /// Every size of every style, with its published lengths.
 fn styles() -> Vec<(Model, Style, Vec<f64>)> {
-    let of = |model: Model| {
+    let sizes_of = |model: Model| {
         let sizes = model.published_mm();
         let files = model.files();
         assert_eq!(files.len(), sizes.len() + 1, "a file a size and the seams");
@@ -26,7 +26,7 @@ fn styles() -> Vec<(Model, Style, Vec<f64>)> {
             (model, style, lengths)
         })
     };
-    Model::ALL.into_iter().flat_map(of).collect()
+    Model::ALL.into_iter().flat_map(sizes_of).collect()
 }
 
 #[test]

@@ -272,8 +272,8 @@ fn loops_of_a_cut_line_matter_where_it_is_sewn_alone() {
         let corner = front.outline[0];
         // Alone it is large enough to be cut by mistake.
         let size = if has_sew_line { 1e-3 } else { 2e-3 };
-        let at = |x: f64, y: f64| corner + V2::new(x, y) * size;
-        front.outline.splice(1..1, [at(10.0, 0.0), at(18.0, -4.0), at(10.0, -4.0), at(18.0, 0.0)]);
+        let point = |x: f64, y: f64| corner + V2::new(x, y) * size;
+        front.outline.splice(1..1, [point(10.0, 0.0), point(18.0, -4.0), point(10.0, -4.0), point(18.0, 0.0)]);
         read(&write(&draft), "a.dxf", None).expect("it reads")
     };
     let alone = looped(false);
@@ -314,8 +314,8 @@ fn pieces_are_joined_over_sizes_by_their_names_whatever_sizes_are_called() {
     let check = |names: [[&str; 2]; 3], expect: [[&str; 3]; 2]| {
         let piece =
             |size: &str, name: &str| Piece { name: name.to_owned(), size: Some(size.to_owned()), ..Piece::default() };
-        let of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
-        let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(of).collect();
+        let pieces_of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
+        let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(pieces_of).collect();
         for mut pieces in sizes.clone() {
             join_sizes(&mut pieces, &sizes);
             for (piece, expect) in pieces.iter().zip(expect) {

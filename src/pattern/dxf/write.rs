@@ -221,7 +221,7 @@ mod tests {
     use crate::draft::Model;
     use crate::{Style, dxf};
 
-    /// What stands in a file, tag by tag: the texts of every block by its name, and the names that are inserted.
+    /// Content of a file, tag by tag: the texts of every block by its name, and the names that are inserted.
     fn blocks_and_inserts(bytes: &[u8]) -> (Vec<(String, Vec<String>)>, Vec<String>) {
         let text = String::from_utf8(bytes.to_vec()).expect("UTF-8");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();

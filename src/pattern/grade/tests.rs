@@ -77,16 +77,16 @@ fn points_move_by_their_rules_and_between_them_by_arc_length() {
     assert_eq!(graded.sizes(), ["S", "M", "L"]);
     let [small, sample, large] = &graded.pieces[..] else { panic!("{:?}", graded.pieces.len()) };
     assert_eq!(Piece { size: None, ..sample.clone() }, Piece { size: None, ..square().pieces[0].clone() });
-    let at = |piece: &Piece, k: usize| [piece.outline[k].x * 1e3, piece.outline[k].y * 1e3];
+    let vertex_mm = |piece: &Piece, k: usize| [piece.outline[k].x * 1e3, piece.outline[k].y * 1e3];
     let close = |found: [f64; 2], expect: [f64; 2]| {
         assert!(found.iter().zip(expect).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} for {expect:?}");
     };
     for (piece, sign) in [(small, -1.0), (large, 1.0)] {
-        close(at(piece, 0), [0.0, 0.0]);
-        close(at(piece, 2), [100.0 + sign * 5.0, 50.0 + sign * 2.5]);
-        close(at(piece, 3), [100.0 + sign * 10.0, 100.0 + sign * 5.0]);
-        close(at(piece, 4), [0.0, 100.0 + sign * 5.0]);
-        close(at(piece, 5), [0.0, 50.0 + sign * 2.5]);
+        close(vertex_mm(piece, 0), [0.0, 0.0]);
+        close(vertex_mm(piece, 2), [100.0 + sign * 5.0, 50.0 + sign * 2.5]);
+        close(vertex_mm(piece, 3), [100.0 + sign * 10.0, 100.0 + sign * 5.0]);
+        close(vertex_mm(piece, 4), [0.0, 100.0 + sign * 5.0]);
+        close(vertex_mm(piece, 5), [0.0, 50.0 + sign * 2.5]);
         let notch = piece.notches[0].at * 1e3;
         close([notch.x, notch.y], [100.0 + sign * 7.5, 75.0 + sign * 3.75]);
         // Nearest to the middle of the upper side.

@@ -60,12 +60,12 @@ mod tests {
     fn a_field_is_exact_for_what_is_linear_and_on_the_outline() {
         let outline: Vec<V2> =
             [(0.0, 0.0), (0.4, 0.1), (0.5, 0.6), (0.2, 0.3), (-0.1, 0.5)].map(|(u, v)| V2::new(u, v)).to_vec();
-        let at = |p: V2| V2::new(1.1 * p.x + 0.2 * p.y, 0.9 * p.y - 0.1 * p.x + 0.01);
-        let moved: Vec<V2> = outline.iter().copied().map(at).collect();
+        let image = |p: V2| V2::new(1.1 * p.x + 0.2 * p.y, 0.9 * p.y - 0.1 * p.x + 0.01);
+        let moved: Vec<V2> = outline.iter().copied().map(image).collect();
         let field = Field::new(outline, &moved);
         for (u, v) in [(0.2, 0.1), (0.0, 0.0), (0.2, 0.05), (0.2, 0.6), (-0.3, 0.1), (0.45, 0.35)] {
             let p = V2::new(u, v);
-            assert!((field.carried(p) - at(p)).norm() < 1e-9, "{p:?}");
+            assert!((field.carried(p) - image(p)).norm() < 1e-9, "{p:?}");
         }
     }
 }

@@ -24,7 +24,7 @@ fn styles() -> Vec<(String, Style)> {
 }
 
 fn points_mm(style: &Style) -> Vec<(Point, f64)> {
-    style.points_of_measure().iter().map(|one| (one.point, mm(one.length_m))).collect()
+    style.points_of_measure().iter().map(|measure| (measure.point, mm(measure.length_m))).collect()
 }
 
 /// Length of each seam's first side less that of its second, mm.
@@ -41,7 +41,7 @@ fn farthest_m(one: &[V2], other: &[V2]) -> f64 {
 
 fn styles_apart_mm(one: &Style, other: &Style) -> f64 {
     let pairs = one.pieces.iter().zip(&other.pieces);
-    mm(pairs.map(|(one, other)| farthest_m(&one.outline(), &other.outline())).fold(0.0, f64::max))
+    mm(pairs.map(|(piece, other)| farthest_m(&piece.outline(), &other.outline())).fold(0.0, f64::max))
 }
 
 /// Greatest turn within each edge of a piece that is no corner, degrees, and the number of corners within it.
@@ -49,11 +49,11 @@ fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     const CORNER_DEG: f64 = 20.0;
     let turns =
         |line: &[V2]| line.windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees()).collect::<Vec<_>>();
-    let of = |turns: Vec<f64>| {
+    let parted = |turns: Vec<f64>| {
         let (smooth, corners): (Vec<f64>, Vec<f64>) = turns.into_iter().partition(|turn| *turn < CORNER_DEG);
         (smooth.into_iter().fold(0.0, f64::max), corners.len())
     };
-    piece.edges.iter().map(|edge| of(turns(edge.line.points()))).collect()
+    piece.edges.iter().map(|edge| parted(turns(edge.line.points()))).collect()
 }
 
 /// Angles at the ends of a piece's edges, degrees.
@@ -70,7 +70,7 @@ fn mirrored(outline: &[V2], about: f64) -> Vec<V2> {
     outline.iter().map(|p| V2::new(2.0 * about - p.x, p.y)).collect()
 }
 
-/// What holds of every changed style: seams are paired, outlines free of crossings and new kinks, and it meshes.
+/// Checks that hold for every changed style: seams are paired, outlines have no crossings and new kinks, and it meshes.
 fn sound(what: &str, before: &Style, after: &Style) {
     for (gap, (was, seam)) in gaps_mm(after).iter().zip(gaps_mm(before).iter().zip(&before.seams)) {
         assert!((gap - was).abs() < 0.1, "{what}: seam {} is {gap} apart, was {was}", seam.name);
@@ -186,8 +186,8 @@ fn corners_go_as_far_as_the_handle_says() {
         let style = drafted(model, 0);
         let moved = style.moved(&[(handle, 0.010)]).expect("it has it");
         let place = |style: &Style| {
-            let piece = style.pieces.iter().find(|one| one.id == piece).expect("it is drafted");
-            let line = &piece.edges.iter().find(|one| one.name.as_deref() == Some(edge)).expect("it is named").line;
+            let piece = style.pieces.iter().find(|worn| worn.id == piece).expect("it is drafted");
+            let line = &piece.edges.iter().find(|named| named.name.as_deref() == Some(edge)).expect("it is named").line;
             if is_end { line.at(line.length()) } else { line.at(0.0) }
         };
         let by = place(&moved) - place(&style);
@@ -275,14 +275,14 @@ fn nothing_is_nothing_and_back_is_back() {
 fn styles_change_smoothly_with_the_amount() {
     for (model, style) in Model::ALL.map(|model| (model, drafted(model, 0))) {
         for handle in style.handles() {
-            let at = |amount_mm: f64| {
+            let outline_at = |amount_mm: f64| {
                 let moved = style.moved(&[(handle, from_mm(amount_mm))]).expect("it has it");
                 moved.pieces.iter().flat_map(StylePiece::outline).collect::<Vec<V2>>()
             };
-            let [one, two, three] = [0.5, 1.0, 1.5].map(at);
-            assert!(one.len() == two.len() && two.len() == three.len(), "{model:?} {handle:?}");
-            for k in 0..one.len() {
-                let bend_mm = mm((one[k] - two[k] * 2.0 + three[k]).norm());
+            let [low, middle, high] = [0.5, 1.0, 1.5].map(outline_at);
+            assert!(low.len() == middle.len() && middle.len() == high.len(), "{model:?} {handle:?}");
+            for k in 0..low.len() {
+                let bend_mm = mm((low[k] - middle[k] * 2.0 + high[k]).norm());
                 assert!(bend_mm < 0.03, "{model:?} {handle:?}: vertex {k} bends by {bend_mm}");
             }
         }
@@ -382,8 +382,9 @@ fn a_mesh_goes_along_with_its_style() {
             assert!((is.l2d_m - expect.l2d_m).abs() < 1e-3, "{handle:?} {}: {} {}", is.name, is.l2d_m, expect.l2d_m);
         }
         let flat: Vec<geom::V3> = along.rest.iter().map(|p| p.push(0.0)).collect();
-        for one in &along.measurements {
-            assert!((one.length_m(&along.rest, &flat) - one.l2d_m).abs() < 1e-9, "{handle:?} {}", one.name);
+        for measured in &along.measurements {
+            let off_m = measured.length_m(&along.rest, &flat) - measured.l2d_m;
+            assert!(off_m.abs() < 1e-9, "{handle:?} {}", measured.name);
         }
     }
 }
@@ -442,8 +443,11 @@ fn foreign_patterns_change_by_their_handles() {
                         || (file.contains("paco") && handle == Handle::LegLength);
                     let (before, after) = (points_mm(&style), points_mm(&moved));
                     for (point, of_one) in promised(handle).0.into_iter().filter(|_| !is_odd) {
-                        let of = |points: &[(Point, f64)]| points.iter().find(|one| one.0 == point).map(|one| one.1);
-                        let change = of(&after).zip(of(&before)).map(|(is, was)| is - was - of_one * amount_mm);
+                        let length_mm = |points: &[(Point, f64)]| {
+                            points.iter().find(|measure| measure.0 == point).map(|measure| measure.1)
+                        };
+                        let change =
+                            length_mm(&after).zip(length_mm(&before)).map(|(is, was)| is - was - of_one * amount_mm);
                         assert!(
                             change.is_none_or(|off| off.abs() < 0.2),
                             "{what}: {} is off by {change:?}",

@@ -39,15 +39,15 @@ const WORDS: [&str; 216] = [
     "房屋", "河流", "夏天", "窗户", "花园", "面包", "石头", "海洋", "山", "冬天", "苹果", "蜡烛", "市场", "银",
 ];
 
-/// An edge as drawn: of which piece, whether of its mirror image, and between which corners.
+/// An edge as drawn: its piece, true for the mirror image, and its corners.
 type Drawn = (usize, bool, [usize; 2]);
-/// What is sewn to what, whatever it is called.
+/// Seams by their drawn edges, independent of all names.
 type Sewn = BTreeSet<BTreeSet<Drawn>>;
 
 fn sewn_edges(proposal: &Proposal) -> Sewn {
     let drawn = |edge: &String| {
         let (id, edge) = edge.split_once('.').expect("PIECE.EDGE");
-        let worn = proposal.worn.iter().find(|one| one.id == id).expect("a piece");
+        let worn = proposal.worn.iter().find(|worn| worn.id == id).expect("a piece");
         (worn.piece, worn.entry.mirror, worn.entry.edges[edge])
     };
     proposal.seams.iter().map(|seam| seam.entry.a.iter().chain(&seam.entry.b).map(drawn).collect()).collect()

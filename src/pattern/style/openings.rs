@@ -91,10 +91,10 @@ impl Style {
         // The labels settle after as many rounds as seams meet in one point, which are few.
         loop {
             let before = corners.least.clone();
-            for (one, other) in &partners {
-                let [one, other] = [corners.at(*one), corners.at(*other)];
-                let both = corners.least[one].min(corners.least[other]);
-                (corners.least[one], corners.least[other]) = (both, both);
+            for (end, partner) in &partners {
+                let [corner, other] = [corners.at(*end), corners.at(*partner)];
+                let both = corners.least[corner].min(corners.least[other]);
+                (corners.least[corner], corners.least[other]) = (both, both);
             }
             if before == corners.least {
                 return corners;
@@ -215,7 +215,10 @@ mod tests {
             assert_eq!(girths.map(|m| m.name.as_str()).collect::<Vec<_>>(), expect, "{model:?}");
             let garment = style.mesh(30e-3).expect("it meshes");
             let found = crate::check::of_garment(&style, &garment);
-            assert!(found.iter().all(|one| one.kind != crate::check::FindingKind::Loop), "{model:?}: {found:?}");
+            assert!(
+                found.iter().all(|finding| finding.kind != crate::check::FindingKind::Loop),
+                "{model:?}: {found:?}"
+            );
         };
         check(Model::Tshirt, &["seam armhole_right", "seam armhole_left"]);
         check(Model::Trousers, &[]);

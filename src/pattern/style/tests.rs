@@ -142,13 +142,13 @@ fn reinforced_edges_reach_the_mesh() {
 /// A piece as a program may draw it: turned about the origin.
 fn turned(piece: &Piece, degrees: f64) -> Piece {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let at = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
-    let all = |points: &[V2]| points.iter().map(at).collect();
+    let turned = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+    let all = |points: &[V2]| points.iter().map(turned).collect();
     Piece {
         outline: all(&piece.outline),
         turn_points: all(&piece.turn_points),
-        notches: piece.notches.iter().map(|notch| Notch { at: at(&notch.at), ..*notch }).collect(),
-        grain: piece.grain.map(|ends| ends.map(|end| at(&end))),
+        notches: piece.notches.iter().map(|notch| Notch { at: turned(&notch.at), ..*notch }).collect(),
+        grain: piece.grain.map(|ends| ends.map(|end| turned(&end))),
         ..piece.clone()
     }
 }
