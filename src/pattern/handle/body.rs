@@ -144,7 +144,7 @@ impl<'a> Body<'a> {
 /// Distance along a chain, m, of the end of a path that lies on it.
 pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
     let mut before_m = 0.0;
-    for &(edge, is_forwards) in chain {
+    for &EdgeEnd { edge, is_last: is_forwards } in chain {
         let length_m = anatomy.length_m(&[edge]);
         let ends = path.iter().filter_map(|part| match part {
             PathPart::Line(ends) => Some(ends),
@@ -160,7 +160,7 @@ pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f6
 
 /// Horizontal unit vector out of the piece of a chain.
 fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
-    let outline = anatomy.style().pieces[chain[0].0.piece].outline();
+    let outline = anatomy.style().pieces[chain[0].edge.piece].outline();
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
     let middle = 0.5 * (anatomy.place(start(chain)).x + anatomy.place(end(chain)).x);
     V2::x() * (middle - 0.5 * (low + high)).signum()
@@ -173,7 +173,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
     };
     let side =
         |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
-            let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let length_m: f64 = chain.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
             let mut levels: Vec<Level> = within
                 .iter()
                 .filter_map(|(point, handle)| {
@@ -226,7 +226,7 @@ fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
 }
 
 fn hand_of(anatomy: &Anatomy<'_>, leg: &Legs<'_>) -> Option<Hand> {
-    match anatomy.parts[leg.inner[0].seam[0].0.piece] {
+    match anatomy.parts[leg.inner[0].seam[0].edge.piece] {
         Part::Leg(hand, _) => Some(hand),
         _ => None,
     }
@@ -258,7 +258,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     let style = anatomy.style();
     // The partner is looked up a little inside the armhole, because another piece may be sewn on beyond its ends.
     let inside = |corner: EdgeEnd, in_m: f64| {
-        let (edge, is_last) = style.over_corner(corner);
+        let EdgeEnd { edge, is_last } = style.over_corner(corner);
         let arc_m = if is_last { anatomy.length_m(&[edge]) - in_m } else { in_m };
         armhole.contains(&edge).then(|| anatomy.ways.across(EdgePoint { edge, arc_m })).flatten()
     };
@@ -269,7 +269,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
         return None;
     }
     let corner_near = |at: EdgePoint| {
-        let ends = [false, true].map(|is_last| (at.edge, is_last));
+        let ends = [false, true].map(|is_last| EdgeEnd::new(at.edge, is_last));
         ends.into_iter().find(|end| (anatomy.point(*end).arc_m - at.arc_m).abs() < NEAR_M)
     };
     let corner = corner_near(low)?;
@@ -295,13 +295,13 @@ fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     let is_cap = |edge: EdgeRef| {
         anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
     };
-    let mut at = (corner.0, !corner.1);
-    for _ in 0..anatomy.style().pieces[corner.0.piece].edges.len() {
+    let mut at = corner.other();
+    for _ in 0..anatomy.style().pieces[corner.edge.piece].edges.len() {
         let next = anatomy.style().over_corner(at);
-        if !is_cap(next.0) {
+        if !is_cap(next.edge) {
             return Some(at);
         }
-        at = (next.0, !next.1);
+        at = next.other();
     }
     None
 }
@@ -309,7 +309,7 @@ fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
 /// Parts of the outline from an end of an edge to a point.
 fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span>> {
     let mut found = Vec::new();
-    let (mut edge, mut is_last) = from;
+    let EdgeEnd { mut edge, mut is_last } = from;
     for _ in 0..anatomy.style().pieces[edge.piece].edges.len() {
         let length_m = anatomy.length_m(&[edge]);
         if edge == to.edge {
@@ -317,31 +317,31 @@ fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span
             return Some(found);
         }
         found.push(Span { edge, arcs_m: [0.0, length_m] });
-        (edge, is_last) = anatomy.style().over_corner((edge, !is_last));
+        EdgeEnd { edge, is_last } = anatomy.style().over_corner(EdgeEnd::new(edge, !is_last));
     }
     None
 }
 
 /// Chain of edges from an end of an edge that are sewn within the same sleeve.
-fn own_seam(anatomy: &Anatomy<'_>, (first, is_last): EdgeEnd) -> Option<Chain> {
-    let part = anatomy.parts[first.piece];
+fn own_seam(anatomy: &Anatomy<'_>, from: EdgeEnd) -> Option<Chain> {
+    let part = anatomy.parts[from.edge.piece];
     let is_own = |edge: EdgeRef| {
         let partners = anatomy.ways.partners(edge);
         !partners.is_empty() && partners.iter().all(|other| anatomy.parts[other.piece] == part)
     };
     let mut chain: Chain = Vec::new();
-    let mut at = (first, !is_last);
-    while is_own(at.0) && !chain.iter().any(|(edge, _)| *edge == at.0) {
+    let mut at = from.other();
+    while is_own(at.edge) && !chain.iter().any(|step| step.edge == at.edge) {
         chain.push(at);
         let next = anatomy.style().over_corner(at);
-        at = (next.0, !next.1);
+        at = next.other();
     }
     (!chain.is_empty()).then_some(chain)
 }
 
 impl HalfCap {
     fn seam_m(&self, anatomy: &Anatomy<'_>) -> f64 {
-        self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum()
+        self.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum()
     }
 
     /// Point of the underarm seam at the bicep level. `None` for a short sleeve, whose seam stays straight.

@@ -23,9 +23,9 @@ pub fn darts(body: &Body<'_>, plan: &mut Plan) {
             let moves: Vec<V2> = plan.moves.iter().filter(is_there).map(|m| m.by).collect();
             (!moves.is_empty()).then(|| moves.iter().sum())
         };
-        let mouth = [anatomy.place((leg, false)), anatomy.place((other, true))].map(moved);
-        let tip = anatomy.point((leg, true));
-        let is_told = moved(anatomy.place((leg, true))).is_some();
+        let mouth = [anatomy.place(EdgeEnd::new(leg, false)), anatomy.place(EdgeEnd::new(other, true))].map(moved);
+        let tip = anatomy.point(EdgeEnd::new(leg, true));
+        let is_told = moved(anatomy.place(EdgeEnd::new(leg, true))).is_some();
         let mean = 0.5 * mouth.iter().map(|by| by.unwrap_or_else(V2::zeros)).sum::<V2>();
         if !is_told && mean != V2::zeros() {
             plan.drive(tip, mean);
@@ -70,7 +70,7 @@ pub fn bands(body: &Body<'_>, plan: &mut Plan) {
 /// its own, half to either side of the middle.
 fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let anatomy = body.anatomy;
-    let chord = anatomy.place((edge, true)) - anatomy.place((edge, false));
+    let chord = anatomy.place(EdgeEnd::new(edge, true)) - anatomy.place(EdgeEnd::new(edge, false));
     let Some(along) = chord.try_normalize(0.0) else { return Vec::new() };
     let corners = corners(anatomy, piece);
     let place = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);

@@ -66,7 +66,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
     }
     let mut before_m = 0.0;
     for pair in side.chain.windows(2) {
-        before_m += body.anatomy.length_m(&[pair[0].0]);
+        before_m += body.anatomy.length_m(&[pair[0].edge]);
         let Some([from, to]) =
             side.levels.windows(2).find(|l| (l[0].at_m..=l[1].at_m).contains(&before_m)).map(|l| [l[0], l[1]])
         else {
@@ -86,7 +86,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
 
 /// Point of a side at a distance from its beginning. At its ends it is their corner.
 fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
-    let length_m: f64 = side.chain.iter().map(|(edge, _)| body.anatomy.length_m(&[*edge])).sum();
+    let length_m: f64 = side.chain.iter().map(|step| body.anatomy.length_m(&[step.edge])).sum();
     if at_m <= 0.0 {
         Some(body.point(start(&side.chain)))
     } else if at_m >= length_m - NEAR_M {

@@ -52,21 +52,21 @@ fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> O
     let mut plan = Plan::default();
     let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
     let pieces: Vec<usize> =
-        body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].0.piece).collect();
+        body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].edge.piece).collect();
     let limbs: Vec<Part> = pieces.iter().map(|piece| anatomy.parts[*piece]).collect();
     let openings = anatomy.style().openings(&|piece| limbs.contains(&anatomy.parts[piece]));
     for side in body.sides.iter().filter(|side| is_meant(side)) {
         let down = -V2::y();
         let [top, low] = [start(&side.chain), end(&side.chain)];
         let reach = |at: EdgeEnd| anatomy.place(at).dot(&down);
-        for ((edge, _), is_top) in [(top, true), (low, false)] {
+        for (EdgeEnd { edge, .. }, is_top) in [(top, true), (low, false)] {
             let slash = slashes.entry(edge.piece).or_insert(Slash { down, from_m: f64::MIN, to_m: f64::MAX });
             if is_top {
                 slash.from_m = slash.from_m.max(reach(top) + below_m);
             } else {
-                let opening = openings.iter().find(|opening| opening.contains(&anatomy.style().over_corner(low).0));
+                let opening = openings.iter().find(|opening| opening.contains(&anatomy.style().over_corner(low).edge));
                 let own = opening.into_iter().flatten().filter(|own| own.piece == edge.piece);
-                let ends = own.flat_map(|edge| [false, true].map(|is_last| reach((*edge, is_last))));
+                let ends = own.flat_map(|edge| [false, true].map(|is_last| reach(EdgeEnd::new(*edge, is_last))));
                 slash.to_m = ends.fold(slash.to_m.min(reach(low)), f64::min);
             }
         }
@@ -124,9 +124,9 @@ pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
         let hem = openings.iter().find(|opening| opening.contains(&below.edge))?;
         plan.moves.push(Move::new(*below, -V2::y()));
         let own = hem.iter().filter(|edge| edge.piece == below.edge.piece);
-        for corner in own.flat_map(|edge| [false, true].map(|is_last| (*edge, is_last))) {
+        for corner in own.flat_map(|edge| [false, true].map(|is_last| EdgeEnd::new(*edge, is_last))) {
             let place = anatomy.place(corner);
-            let is_at = |at: &EdgePoint| at.edge.piece == corner.0.piece && anatomy.style().place(*at) == place;
+            let is_at = |at: &EdgePoint| at.edge.piece == corner.edge.piece && anatomy.style().place(*at) == place;
             if !sides.iter().chain(&moved).any(is_at) {
                 moved.push(anatomy.point(corner));
             }

@@ -65,7 +65,7 @@ pub struct Condition {
 impl Condition {
     /// Condition that the length of a chain changes by `change` per metre of amount.
     pub fn chain(chain: &Chain, change: f64) -> Self {
-        Self::edges(&chain.iter().map(|(edge, _)| *edge).collect::<Vec<_>>(), change)
+        Self::edges(&chain.iter().map(|step| step.edge).collect::<Vec<_>>(), change)
     }
 
     /// Condition that the total length of some edges changes by `change` per metre of amount.
@@ -115,7 +115,7 @@ impl Plan {
 
 /// Start of a chain.
 pub fn start(chain: &Chain) -> EdgeEnd {
-    (chain[0].0, !chain[0].1)
+    chain[0].other()
 }
 
 /// End of a chain.
@@ -131,7 +131,7 @@ pub fn along(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
 
 /// Corner between two edges of a chain. If a dart lies between, it has two ends.
 pub fn ends_between(anatomy: &Anatomy<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
-    let below = (pair[1].0, !pair[1].1);
+    let below = pair[1].other();
     let is_one = anatomy.style().over_corner(pair[0]) == below;
     [Some(pair[0]), Some(below).filter(|_| !is_one)].into_iter().flatten().map(|end| anatomy.point(end)).collect()
 }

@@ -50,7 +50,7 @@ struct Outline {
 }
 
 /// True if the outline has a corner at the end of an edge.
-pub fn is_sharp(style: &Style, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> bool {
+pub fn is_sharp(style: &Style, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> bool {
     let vertex = edge + usize::from(is_last);
     Outline::new(&style.pieces[piece].edges).is_some_and(|outline| outline.is_sharp(outline.firsts[vertex]))
 }

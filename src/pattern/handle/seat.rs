@@ -19,7 +19,7 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
         plan.give(top, V2::y());
         plan.give(top, V2::x());
         plan.conditions.push(Condition::chain(crotch, 1.0));
-        let piece = crotch[0].0.piece;
+        let piece = crotch[0].edge.piece;
         let waist: Vec<EdgeRef> = leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
         plan.conditions.push(Condition::edges(&waist, 0.0));
     }

@@ -34,13 +34,13 @@ fn gaps_mm(style: &Style) -> Vec<f64> {
 }
 
 /// Greatest distance of a vertex of one outline from the other, m.
-fn farthest_m(one: &[V2], other: &[V2]) -> f64 {
+fn farthest_m(outline: &[V2], other: &[V2]) -> f64 {
     let off = |from: &[V2], to: &[V2]| from.iter().map(|p| boundary_distance(to, p)).fold(0.0, f64::max);
-    off(one, other).max(off(other, one))
+    off(outline, other).max(off(other, outline))
 }
 
-fn styles_apart_mm(one: &Style, other: &Style) -> f64 {
-    let pairs = one.pieces.iter().zip(&other.pieces);
+fn styles_apart_mm(style: &Style, other: &Style) -> f64 {
+    let pairs = style.pieces.iter().zip(&other.pieces);
     mm(pairs.map(|(piece, other)| farthest_m(&piece.outline(), &other.outline())).fold(0.0, f64::max))
 }
 

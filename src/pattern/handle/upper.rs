@@ -5,6 +5,7 @@ use super::plan::{Condition, Move, Plan, Term, along, end, start};
 use crate::pom::anatomy::Chain;
 use crate::pom::top::Centre;
 use crate::propose::Face;
+use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
@@ -63,7 +64,7 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
 fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
-        let ends = [false, true].map(|is_last| anatomy.point((at.edge, is_last)));
+        let ends = [false, true].map(|is_last| anatomy.point(EdgeEnd::new(at.edge, is_last)));
         let corner = ends.into_iter().find(|end| (end.arc_m - at.arc_m).abs() < NEAR_M);
         return Some(vec![corner.unwrap_or(at)]);
     }
@@ -126,7 +127,7 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
             plan.hold(body.anatomy, &face.side);
             slide_joints(body, plan, face);
             let low = end(&face.side);
-            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).0) {
+            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).edge) {
                 plan.give(body.point(low), down(face));
             }
         }
@@ -137,9 +138,9 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
 /// Lets joints within an armhole slide along it.
 fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
     for edge in &face.edges {
-        let corner = body.anatomy.style().over_corner((*edge, true));
-        if face.edges.contains(&corner.0) {
-            plan.give(body.point(corner), along(body.anatomy, &vec![(*edge, true)]));
+        let corner = body.anatomy.style().over_corner(EdgeEnd::new(*edge, true));
+        if face.edges.contains(&corner.edge) {
+            plan.give(body.point(corner), along(body.anatomy, &vec![EdgeEnd::new(*edge, true)]));
         }
     }
 }

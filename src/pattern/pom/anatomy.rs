@@ -49,8 +49,8 @@ impl Part {
     }
 }
 
-/// A chain of directed edges, each with the flag of the end that is walked to: `true` for its last point.
-pub type Chain = Vec<(EdgeRef, bool)>;
+/// A chain of edges, each given by the end that it is walked to.
+pub type Chain = Vec<EdgeEnd>;
 
 /// A style with the parts that its pieces belong to.
 pub struct Anatomy<'a> {
@@ -107,13 +107,13 @@ impl<'a> Anatomy<'a> {
     }
 
     /// Position of an end of an edge.
-    pub fn place(&self, (edge, is_last): EdgeEnd) -> V2 {
+    pub fn place(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> V2 {
         let points = self.style().edge(edge).line.points();
         if is_last { points[points.len() - 1] } else { points[0] }
     }
 
     /// End of an edge as an edge point.
-    pub fn point(&self, (edge, is_last): EdgeEnd) -> EdgePoint {
+    pub fn point(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> EdgePoint {
         EdgePoint { edge, arc_m: if is_last { self.length_m(&[edge]) } else { 0.0 } }
     }
 
@@ -131,9 +131,9 @@ impl<'a> Anatomy<'a> {
         is_second: impl Fn(Part) -> bool,
     ) -> Option<[Chain; 2]> {
         let seam = &self.style().seams[seam];
-        let a: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
-        let b: Chain = seam.b.iter().map(|edge| (*edge, seam.b_forwards)).collect();
-        let all = |chain: &Chain, is: &dyn Fn(Part) -> bool| chain.iter().all(|(edge, _)| is(self.parts[edge.piece]));
+        let a: Chain = seam.a.iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
+        let b: Chain = seam.b.iter().map(|edge| EdgeEnd::new(*edge, seam.b_forwards)).collect();
+        let all = |chain: &Chain, is: &dyn Fn(Part) -> bool| chain.iter().all(|step| is(self.parts[step.edge.piece]));
         if all(&a, &is_first) && all(&b, &is_second) {
             Some([a, b])
         } else {
@@ -143,9 +143,7 @@ impl<'a> Anatomy<'a> {
 
     /// True if the chords of a chain run more vertically than horizontally.
     pub fn is_upright(&self, chain: &Chain) -> bool {
-        let chord = |(edge, is_forwards): &(EdgeRef, bool)| {
-            self.place((*edge, *is_forwards)) - self.place((*edge, !is_forwards))
-        };
+        let chord = |step: &EdgeEnd| self.place(*step) - self.place(step.other());
         let way: V2 = chain.iter().map(chord).sum();
         way.y.abs() > way.x.abs()
     }
@@ -153,14 +151,10 @@ impl<'a> Anatomy<'a> {
     /// Both sides of a seam, directed so that the first one runs downwards.
     pub fn turned_down(&self, sides: [Chain; 2]) -> [Chain; 2] {
         let runs_down = match (sides[0].first(), sides[0].last()) {
-            (Some((first, ahead)), Some((last, on))) => self.place((*first, !ahead)).y >= self.place((*last, *on)).y,
+            (Some(first), Some(last)) => self.place(first.other()).y >= self.place(*last).y,
             _ => true,
         };
-        if runs_down {
-            sides
-        } else {
-            sides.map(|chain| chain.into_iter().rev().map(|(edge, on)| (edge, !on)).collect())
-        }
+        if runs_down { sides } else { sides.map(|chain| chain.into_iter().rev().map(|step| step.other()).collect()) }
     }
 
     /// Both sides of a seam that runs downwards, joined with those of `others` that continue it below darts.
@@ -169,12 +163,12 @@ impl<'a> Anatomy<'a> {
         while let Some(&last) = front.last() {
             let mut next = self.style().over_corner(last);
             let is_dart = |edge: EdgeRef| self.ways.partners(edge).iter().any(|other| other.piece == edge.piece);
-            while is_dart(next.0) && next.0 != last.0 {
-                next = self.style().over_corner((next.0, !next.1));
+            while is_dart(next.edge) && next.edge != last.edge {
+                next = self.style().over_corner(next.other());
             }
-            let goes_on = |other: &&[Chain; 2]| other[0].first().is_some_and(|first| *first == (next.0, !next.1));
+            let goes_on = |other: &&[Chain; 2]| other[0].first().is_some_and(|first| *first == next.other());
             let Some([below, behind]) =
-                others.iter().find(goes_on).filter(|_| !front.iter().any(|(edge, _)| *edge == next.0))
+                others.iter().find(goes_on).filter(|_| !front.iter().any(|step| step.edge == next.edge))
             else {
                 break;
             };
@@ -187,7 +181,7 @@ impl<'a> Anatomy<'a> {
     /// Point of a chain at a distance from its beginning, m. `None` beyond its end.
     pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
         let mut rest_m = distance_m;
-        for &(edge, is_forwards) in chain {
+        for &EdgeEnd { edge, is_last: is_forwards } in chain {
             let length_m = self.length_m(&[edge]);
             if rest_m <= length_m {
                 return Some(EdgePoint { edge, arc_m: if is_forwards { rest_m } else { length_m - rest_m } });
@@ -199,7 +193,7 @@ impl<'a> Anatomy<'a> {
 
     /// Index of the opening along which the outline of a piece continues at the end of an edge.
     pub fn opening_at(&self, openings: &[Vec<EdgeRef>], end: EdgeEnd) -> Option<usize> {
-        let next = self.style().over_corner(end).0;
+        let next = self.style().over_corner(end).edge;
         openings.iter().position(|opening| opening.contains(&next))
     }
 
@@ -271,17 +265,18 @@ impl<'a> Anatomy<'a> {
         loop {
             let before = path.len();
             let mut next = self.style().over_corner(at);
-            while self.is_centre(next.0) && !path.contains(&PathPart::Edge(next.0)) {
-                path.push(PathPart::Edge(next.0));
-                at = (next.0, !next.1);
+            while self.is_centre(next.edge) && !path.contains(&PathPart::Edge(next.edge)) {
+                path.push(PathPart::Edge(next.edge));
+                at = next.other();
                 next = self.style().over_corner(at);
             }
-            let length_m = self.length_m(&[next.0]);
-            let beside = EdgePoint { edge: next.0, arc_m: if next.1 { length_m - BESIDE_M } else { BESIDE_M } };
+            let length_m = self.length_m(&[next.edge]);
+            let beside =
+                EdgePoint { edge: next.edge, arc_m: if next.is_last { length_m - BESIDE_M } else { BESIDE_M } };
             let Some(below) = self.ways.across(beside).filter(|_| path.len() > before) else { return path };
-            let ends = [false, true].map(|is_last| (below.edge, is_last));
+            let ends = [false, true].map(|is_last| EdgeEnd::new(below.edge, is_last));
             let corner = ends.into_iter().find(|end| (self.point(*end).arc_m - below.arc_m).abs() < 2.0 * BESIDE_M);
-            match corner.filter(|corner| self.is_centre(self.style().over_corner(*corner).0)) {
+            match corner.filter(|corner| self.is_centre(self.style().over_corner(*corner).edge)) {
                 Some(corner) => at = corner,
                 None => {
                     let way = self.ways.walk(below, Heading::Down, |_| false);
@@ -295,7 +290,7 @@ impl<'a> Anatomy<'a> {
     /// True if an edge may be the centre of half a piece: it runs vertically, and is free or sewn to the other half.
     fn is_centre(&self, edge: EdgeRef) -> bool {
         let is_half = |other: &EdgeRef| other.piece != edge.piece && self.parts[other.piece] == self.parts[edge.piece];
-        self.is_upright(&vec![(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
+        self.is_upright(&vec![EdgeEnd::new(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
     }
 
     /// True if a skirt or legs hang from some edges, with or without a waistband between.
@@ -312,7 +307,7 @@ impl<'a> Anatomy<'a> {
 
 /// Path along the whole edges of a chain.
 pub fn path_along(chain: &Chain) -> Vec<PathPart> {
-    chain.iter().map(|(edge, _)| PathPart::Edge(*edge)).collect()
+    chain.iter().map(|step| PathPart::Edge(step.edge)).collect()
 }
 
 /// Point of measure that is a distance across no cloth.

@@ -96,7 +96,7 @@ impl<'a> Legs<'a> {
         if let Some([outer, _]) = &self.outer {
             found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
         }
-        let inseam_m: f64 = front.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let inseam_m: f64 = front.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
         let round = |below_m: f64| anatomy.along(&front.seam, below_m).and_then(|at| anatomy.ways.round(at));
         found.extend(round(THIGH_BELOW_FORK_M).map(|path| anatomy.along_path(Point::HalfThigh, path, 0.5)));
         if inseam_m >= LONG_M {
@@ -114,8 +114,8 @@ impl<'a> Legs<'a> {
 
     /// Piece and position of the fork of the front.
     fn fork(&self) -> (usize, V2) {
-        let (edge, is_forwards) = self.inner[0].seam[0];
-        (edge.piece, self.anatomy.place((edge, !is_forwards)))
+        let fork = self.inner[0].seam[0].other();
+        (fork.edge.piece, self.anatomy.place(fork))
     }
 
     /// Path down the front from its upper edge, half-way between fork and outseam, and the height of its beginning
@@ -135,10 +135,9 @@ impl<'a> Legs<'a> {
     pub fn top_above_fork_m(&self) -> f64 {
         let anatomy = self.anatomy;
         let crotch = &self.inner[0].crotch;
-        let on_leg_m: f64 = crotch.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let on_leg_m: f64 = crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
         let above_m = anatomy.style().path_length_m(&self.up_to_edge(crotch)) - on_leg_m;
-        let (edge, is_forwards) = crotch[0];
-        anatomy.place((edge, !is_forwards)).y - self.fork().1.y + above_m
+        anatomy.place(crotch[0].other()).y - self.fork().1.y + above_m
     }
 
     /// Path round a leg at a height above the fork, m, negative below it. `None` if the leg does not reach there.
@@ -152,10 +151,10 @@ impl<'a> Legs<'a> {
     fn hip(&self) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let [front, back] = &self.inner;
-        let crotch: Vec<EdgeRef> = front.crotch.iter().map(|(edge, _)| *edge).collect();
+        let crotch: Vec<EdgeRef> = front.crotch.iter().map(|step| step.edge).collect();
         let (_, fork) = self.fork();
         let from = anatomy.meeting(&crotch, |p| p.y - fork.y - HIP_ABOVE_FORK_M)?;
-        let is_back = |at: EdgePoint| back.crotch.iter().any(|(edge, _)| *edge == at.edge);
+        let is_back = |at: EdgePoint| back.crotch.iter().any(|step| step.edge == at.edge);
         let way = anatomy.ways.walk(from, Heading::Level, is_back)?;
         is_back(way.end).then(|| anatomy.along_path(Point::HalfHip, way.parts, 1.0))
     }
@@ -164,8 +163,8 @@ impl<'a> Legs<'a> {
     fn up_to_edge(&self, chain: &Chain) -> Vec<PathPart> {
         let anatomy = self.anatomy;
         let mut path = path_along(chain);
-        let Some(&(edge, is_forwards)) = chain.first() else { return path };
-        let (top, is_last) = anatomy.style().over_corner((edge, !is_forwards));
+        let Some(first) = chain.first() else { return path };
+        let EdgeEnd { edge: top, is_last } = anatomy.style().over_corner(first.other());
         let beside_m = if is_last { anatomy.length_m(&[top]) - BESIDE_M } else { BESIDE_M };
         let above = anatomy.ways.across(EdgePoint { edge: top, arc_m: beside_m });
         let above = above.filter(|above| !matches!(anatomy.parts[above.edge.piece], Part::Leg(..) | Part::Trunk(_)));
@@ -181,7 +180,7 @@ fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     let above = |edge: &EdgeRef| {
         let outline = anatomy.style().pieces[edge.piece].outline();
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.y), high.max(p.y)));
-        let [from, to] = [false, true].map(|is_last| anatomy.place((*edge, is_last)).y);
+        let [from, to] = [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).y);
         0.5 * (from + to) - 0.5 * (low + high)
     };
     opening.iter().map(above).sum::<f64>() > 0.0
@@ -193,13 +192,13 @@ fn runs(anatomy: &Anatomy<'_>, piece: usize, waist: &[EdgeRef], hem: &[EdgeRef])
     let n = anatomy.style().pieces[piece].edges.len();
     let edge = |k: usize| EdgeRef { piece, edge: k % n };
     // A fly is part of the opening, but not of the waist edge.
-    let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![(e, true)]);
+    let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![EdgeEnd::new(e, true)]);
     let first_hem = (0..n).find(|k| hem.contains(&edge(*k)) && !hem.contains(&edge(k + n - 1)))?;
     let all: Vec<EdgeRef> = (0..n).map(|k| edge(first_hem + k)).filter(|e| !hem.contains(e)).collect();
     let first = all.iter().position(|e| is_waist(*e))?;
     let last = all.iter().rposition(|e| is_waist(*e))?;
-    let up: Chain = all[..first].iter().rev().map(|e| (*e, false)).collect();
-    let down: Chain = all[last + 1..].iter().map(|e| (*e, true)).collect();
+    let up: Chain = all[..first].iter().rev().map(|edge| EdgeEnd::new(*edge, false)).collect();
+    let down: Chain = all[last + 1..].iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
     Some([up, down])
 }
 
@@ -212,7 +211,7 @@ fn is_crotch(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
 
 /// Sorts two sides into the inner and the outer one. `None` if neither or both are sewn to the other leg.
 fn inner_first(anatomy: &Anatomy<'_>, [first, second]: [Chain; 2]) -> Option<[Chain; 2]> {
-    let is_inner = |run: &Chain| run.iter().any(|(edge, _)| is_crotch(anatomy, *edge));
+    let is_inner = |run: &Chain| run.iter().any(|step| is_crotch(anatomy, step.edge));
     match (is_inner(&first), is_inner(&second)) {
         (true, false) => Some([first, second]),
         (false, true) => Some([second, first]),
@@ -222,7 +221,7 @@ fn inner_first(anatomy: &Anatomy<'_>, [first, second]: [Chain; 2]) -> Option<[Ch
 
 /// Splits an inner side at the fork, which follows the last edge that is sewn to the other leg.
 fn split(anatomy: &Anatomy<'_>, run: Chain) -> Run {
-    let fork = run.iter().rposition(|(edge, _)| is_crotch(anatomy, *edge)).map_or(0, |last| last + 1);
+    let fork = run.iter().rposition(|step| is_crotch(anatomy, step.edge)).map_or(0, |last| last + 1);
     let (crotch, seam) = run.split_at(fork);
     Run { crotch: crotch.to_vec(), seam: seam.to_vec() }
 }

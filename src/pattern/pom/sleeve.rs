@@ -4,6 +4,7 @@ use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part};
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
 use crate::propose::Hand;
+use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 
 /// A sleeve: the right one if there are two.
@@ -71,13 +72,13 @@ impl<'a> Sleeve<'a> {
             if !seam.a.iter().chain(&seam.b).all(|edge| self.holds(edge.piece)) {
                 continue;
             }
-            let chain: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
-            let back: Chain = chain.iter().rev().map(|(edge, on)| (*edge, !on)).collect();
+            let chain: Chain = seam.a.iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
+            let back: Chain = chain.iter().rev().map(|step| step.other()).collect();
             for chain in [chain, back] {
-                let top = (chain[0].0, !chain[0].1);
-                if cap.contains(&anatomy.style().over_corner(top).0) {
+                let top = chain[0].other();
+                if cap.contains(&anatomy.style().over_corner(top).edge) {
                     // The key is the distance of the beginning along the arm.
-                    let down = anatomy.ways.down(top.0.piece)?;
+                    let down = anatomy.ways.down(top.edge.piece)?;
                     found.push((anatomy.place(top).dot(&down), chain));
                 }
             }

@@ -208,14 +208,15 @@ fn paths_have_the_lengths_that_are_told_and_lie_on_the_mesh() {
         let garment = style.mesh(0.02).expect("it meshes");
         let points: Vec<PointOfMeasure> = style.points_of_measure();
         let paths: Vec<_> = points.iter().map(|measure| measure.path.as_slice()).collect();
-        for (one, runs) in points.iter().zip(style.laid(&garment, &paths)) {
-            if one.path.is_empty() {
+        for (measure, runs) in points.iter().zip(style.laid(&garment, &paths)) {
+            if measure.path.is_empty() {
                 continue;
             }
-            let runs = runs.unwrap_or_else(|| panic!("{}: {} leaves the cloth", model.as_str(), one.point.as_str()));
+            let runs =
+                runs.unwrap_or_else(|| panic!("{}: {} leaves the cloth", model.as_str(), measure.point.as_str()));
             let flat: Vec<geom::V3> = garment.rest.iter().map(|p| p.push(0.0)).collect();
             let length_m: f64 = runs.iter().map(|run| run.length_m(&garment.rest, &flat)).sum();
-            assert!((length_m - style.path_length_m(&one.path)).abs() < 1e-9, "{}", one.point.as_str());
+            assert!((length_m - style.path_length_m(&measure.path)).abs() < 1e-9, "{}", measure.point.as_str());
         }
     }
 }

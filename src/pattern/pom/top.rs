@@ -48,7 +48,7 @@ impl<'a> Trunk<'a> {
         let seams = 0..anatomy.style().seams.len();
         let joins = seams.filter_map(|seam| anatomy.between(seam, is_face(Face::Front), is_face(Face::Back)));
         let (upright, across): (Vec<_>, Vec<_>) = joins.partition(|[front, _]| anatomy.is_upright(front));
-        let start = |chain: &Chain| -> EdgeEnd { (chain[0].0, !chain[0].1) };
+        let start = |chain: &Chain| -> EdgeEnd { chain[0].other() };
         let end = |chain: &Chain| -> EdgeEnd { chain[chain.len() - 1] };
         let all_sides: Vec<[Chain; 2]> = upright.into_iter().map(|sides| anatomy.turned_down(sides)).collect();
         let opening = |at: EdgeEnd| anatomy.opening_at(&openings, at);
@@ -66,7 +66,7 @@ impl<'a> Trunk<'a> {
             let is_outer = ends.map(|end| end.is_some_and(|end| armholes.contains(&end)));
             match is_outer {
                 [false, true] => Some(sides),
-                [true, false] => Some(sides.map(|chain| chain.into_iter().rev().map(|(e, on)| (e, !on)).collect())),
+                [true, false] => Some(sides.map(|chain| chain.into_iter().rev().map(|step| step.other()).collect())),
                 _ => None,
             }
         };
@@ -117,9 +117,9 @@ impl<'a> Trunk<'a> {
             .map(<[_]>::to_vec)
             .collect();
         let touches = |part: &Vec<EdgeRef>, ends: &[EdgeEnd]| {
-            ends.iter().any(|end| part.contains(&self.anatomy.style().over_corner(*end).0))
+            ends.iter().any(|end| part.contains(&self.anatomy.style().over_corner(*end).edge))
         };
-        let high: Vec<EdgeEnd> = self.shoulders.iter().map(|[front, _]| (front[0].0, !front[0].1)).collect();
+        let high: Vec<EdgeEnd> = self.shoulders.iter().map(|[front, _]| front[0].other()).collect();
         let neck = stretches.iter().find(|part| touches(part, &high)).cloned();
         let bottom = stretches.into_iter().filter(|part| Some(part) != neck.as_ref()).max_by_key(Vec::len);
         self.neck = neck.unwrap_or_default();
@@ -131,7 +131,7 @@ impl<'a> Trunk<'a> {
         if self.anatomy.parts[edge.piece] != Part::Trunk(Face::Front) {
             return false;
         }
-        let [from, to] = [false, true].map(|is_last| self.anatomy.place((edge, is_last)));
+        let [from, to] = [false, true].map(|is_last| self.anatomy.place(EdgeEnd::new(edge, is_last)));
         let outline = self.anatomy.style().pieces[edge.piece].outline();
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
         let middle = 0.5 * (from.x + to.x);
@@ -150,7 +150,7 @@ impl<'a> Trunk<'a> {
         if anatomy.has_below(&self.bottom) {
             found.push(anatomy.along_edges(Point::HalfWaist, &self.bottom, 0.5));
         } else {
-            let length_m: f64 = side.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let length_m: f64 = side.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
             let places =
                 (0..).map(|k| FROM_ENDS_M + STEP_M * f64::from(k)).take_while(|at| *at < length_m - FROM_ENDS_M);
             let girths = places.filter_map(|at| Some((at, anatomy.style().path_length_m(&round(at)?))));
@@ -165,7 +165,7 @@ impl<'a> Trunk<'a> {
 
     /// High points of the shoulder on a face.
     pub fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
-        self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|(e, on)| (e, !on)).collect()
+        self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|step| step.other()).collect()
     }
 
     /// Lengths of a face: from the high point of the shoulder, and along the centre.
@@ -202,12 +202,12 @@ impl<'a> Trunk<'a> {
     pub fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
-        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.0.piece).collect();
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.edge.piece).collect();
         // The path begins a little outwards along the shoulder, because a square neckline falls straight down from the
         // high point itself.
-        let outwards = (anatomy.place((high.0, !high.1)).x - top.x).signum();
+        let outwards = (anatomy.place(high.other()).x - top.x).signum();
         let beside = |p: V2| p.x - top.x - outwards * BESIDE_M;
-        let start = anatomy.meeting(&[high.0], beside).unwrap_or_else(|| anatomy.point(high));
+        let start = anatomy.meeting(&[high.edge], beside).unwrap_or_else(|| anatomy.point(high));
         let height = |at: EdgePoint| anatomy.style().place(at).y;
         let below = anatomy.lowest_meeting(&own, beside).filter(|at| height(start) - height(*at) > BESIDE_M);
         let from = below.unwrap_or(start);
@@ -222,10 +222,10 @@ impl<'a> Trunk<'a> {
 
     /// Height of the high point of the shoulder above the underarm, m, if one piece has both.
     fn underarm_below_neck_m(&self) -> Option<f64> {
-        let underarms = self.sides.iter().flatten().map(|chain| (chain[0].0, !chain[0].1));
+        let underarms = self.sides.iter().flatten().map(|chain| chain[0].other());
         let high = Face::BOTH.into_iter().flat_map(|face| self.high_points(face)).collect::<Vec<_>>();
         underarms.into_iter().find_map(|underarm| {
-            let high = high.iter().find(|high| high.0.piece == underarm.0.piece)?;
+            let high = high.iter().find(|high| high.edge.piece == underarm.edge.piece)?;
             Some(self.anatomy.place(*high).y - self.anatomy.place(underarm).y)
         })
     }
@@ -238,7 +238,7 @@ impl<'a> Trunk<'a> {
     /// Distance of the waist seam at the side below the high point of the shoulder, m. `None` if nothing hangs from the
     /// trunk.
     pub fn waist_below_neck_m(&self) -> Option<f64> {
-        let side_m: f64 = self.sides[0][0].iter().map(|(edge, _)| self.anatomy.length_m(&[*edge])).sum();
+        let side_m: f64 = self.sides[0][0].iter().map(|step| self.anatomy.length_m(&[step.edge])).sum();
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
     }
 
@@ -258,8 +258,8 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let high = self.high_points(face);
         let first = high.first()?;
-        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == first.0.piece).collect();
-        if let Some(other) = high.iter().skip(1).find(|end| end.0.piece == first.0.piece) {
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == first.edge.piece).collect();
+        if let Some(other) = high.iter().skip(1).find(|end| end.edge.piece == first.edge.piece) {
             let middle = 0.5 * (anatomy.place(*first).x + anatomy.place(*other).x);
             return anatomy.meeting(&own, |p| p.x - middle).map(Centre::Within);
         }
@@ -271,10 +271,10 @@ impl<'a> Trunk<'a> {
         let mut at = high;
         loop {
             let next = self.anatomy.style().over_corner(at);
-            if next.0.piece != high.0.piece || !self.neck.contains(&next.0) {
+            if next.edge.piece != high.edge.piece || !self.neck.contains(&next.edge) {
                 return (at != high).then_some(at);
             }
-            at = (next.0, !next.1);
+            at = next.other();
         }
     }
 
@@ -311,17 +311,17 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
         if let Some([front, _]) = self.shoulders.first() {
-            let edges: Vec<EdgeRef> = front.iter().map(|(edge, _)| *edge).collect();
+            let edges: Vec<EdgeRef> = front.iter().map(|step| step.edge).collect();
             found.push(anatomy.along_edges(Point::Shoulder, &edges, 1.0));
         }
         let outer: Vec<EdgeEnd> = self.shoulders.iter().map(|[_, back]| back[back.len() - 1]).collect();
         let halves = || {
             let Some(Centre::Corner(centre)) = self.neck_centre(Face::Back) else { return None };
-            let end = outer.first().filter(|end| end.0.piece == centre.0.piece)?;
+            let end = outer.first().filter(|end| end.edge.piece == centre.edge.piece)?;
             Some(2.0 * (anatomy.place(*end).x - anatomy.place(centre).x).abs())
         };
         let width_m = match outer.as_slice() {
-            [point, other, ..] if point.0.piece == other.0.piece => {
+            [point, other, ..] if point.edge.piece == other.edge.piece => {
                 Some((anatomy.place(*point) - anatomy.place(*other)).norm())
             }
             _ => halves(),
@@ -353,7 +353,7 @@ impl<'a> Trunk<'a> {
         // The width spans a low neckline.
         let other = starts.get(1).filter(|other| other.edge.piece == first.edge.piece);
         let halves = || match self.neck_centre(face) {
-            Some(Centre::Corner(end)) if end.0.piece == first.edge.piece => {
+            Some(Centre::Corner(end)) if end.edge.piece == first.edge.piece => {
                 Some(2.0 * (place(first).x - anatomy.place(end).x).abs())
             }
             _ => None,
@@ -371,7 +371,9 @@ impl<'a> Trunk<'a> {
         let first = *edges.first()?;
         if edges.iter().all(|edge| edge.piece == first.piece) {
             let points = || edges.iter().flat_map(|edge| anatomy.style().edge(*edge).line.points());
-            let ends = edges.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).y));
+            let ends = edges
+                .iter()
+                .flat_map(|edge| [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).y));
             let low = points().map(|p| p.y).fold(f64::MAX, f64::min);
             let high = ends.fold(f64::MIN, f64::max);
             return anatomy.meeting(&edges, |p| p.y - 0.5 * (low + high));

@@ -8,8 +8,26 @@ use crate::garment::MeasurementKind;
 /// Difference of the lengths of both sides from which one counts as eased into the other, m.
 const EASED_M: f64 = 1e-3;
 
-/// One end of an edge: `true` for its last point.
-pub(crate) type EdgeEnd = (EdgeRef, bool);
+/// One end of an edge. In a chain it stands for its edge, walked to this end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct EdgeEnd {
+    /// Edge that it belongs to.
+    pub edge: EdgeRef,
+    /// True for the last point of the edge, false for the first.
+    pub is_last: bool,
+}
+
+impl EdgeEnd {
+    /// Makes an end of an edge.
+    pub fn new(edge: EdgeRef, is_last: bool) -> Self {
+        Self { edge, is_last }
+    }
+
+    /// Opposite end of the same edge.
+    pub fn other(self) -> Self {
+        Self { is_last: !self.is_last, ..self }
+    }
+}
 
 impl Style {
     /// Replaces the measurements by one for each opening and one for each seam. An opening is a closed chain of free
@@ -49,7 +67,7 @@ impl Style {
             for edge in 0..self.pieces[piece].edges.len() {
                 let first = EdgeRef { piece, edge };
                 let is_new = !openings.iter().any(|opening| opening.contains(&first));
-                if is_new && !partners.contains_key(&(first, true)) {
+                if is_new && !partners.contains_key(&EdgeEnd::new(first, true)) {
                     openings.extend(self.opening_from(first, &partners));
                 }
             }
@@ -61,16 +79,16 @@ impl Style {
     fn opening_from(&self, first: EdgeRef, partners: &BTreeMap<EdgeEnd, EdgeEnd>) -> Option<Vec<EdgeRef>> {
         let mut opening = vec![first];
         // The walk goes from the end just reached, over the corner to the next edge, and across seams to a free edge.
-        let mut at = (first, true);
+        let mut at = EdgeEnd::new(first, true);
         // Every end is passed at most once, otherwise the chain does not close.
         for _ in 0..2 * self.pieces.iter().map(|piece| piece.edges.len()).sum::<usize>() {
             let next = self.over_corner(at);
             match partners.get(&next) {
                 Some(&across) => at = across,
-                None if next.0 == first => return Some(opening),
+                None if next.edge == first => return Some(opening),
                 None => {
-                    opening.push(next.0);
-                    at = (next.0, !next.1);
+                    opening.push(next.edge);
+                    at = next.other();
                 }
             }
         }
@@ -103,10 +121,10 @@ impl Style {
     }
 
     /// End of the neighbouring edge of the same piece at the same corner.
-    pub(crate) fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
+    pub(crate) fn over_corner(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> EdgeEnd {
         let n = self.pieces[piece].edges.len();
         let edge = if is_last { (edge + 1) % n } else { (edge + n - 1) % n };
-        (EdgeRef { piece, edge }, !is_last)
+        EdgeEnd::new(EdgeRef { piece, edge }, !is_last)
     }
 
     /// Ends of every edge sewn among some pieces, each with the end that it meets. This is the one across the seam, or
@@ -116,7 +134,7 @@ impl Style {
         for seam in self.seams.iter().filter(|seam| seam.a.iter().chain(&seam.b).all(|edge| is_there(edge.piece))) {
             // Ends in the order of sewing.
             let ends = |chain: &[EdgeRef], is_forwards: bool| -> Vec<[EdgeEnd; 2]> {
-                chain.iter().map(|&edge| [(edge, !is_forwards), (edge, is_forwards)]).collect()
+                chain.iter().map(|&edge| [EdgeEnd::new(edge, !is_forwards), EdgeEnd::new(edge, is_forwards)]).collect()
             };
             let (a, b) = (ends(&seam.a, true), ends(&seam.b, seam.b_forwards));
             for side in [&a, &b] {
@@ -145,7 +163,7 @@ struct Corners {
 
 impl Corners {
     /// Corner at an end of an edge.
-    fn at(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> usize {
+    fn at(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> usize {
         let (offset, n) = self.offsets[piece];
         offset + if is_last { (edge + 1) % n } else { edge }
     }
@@ -153,7 +171,7 @@ impl Corners {
     /// True if edges form a closed chain: every end meets another.
     fn close(&self, edges: &[EdgeRef]) -> bool {
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
-        for end in edges.iter().flat_map(|edge| [(*edge, false), (*edge, true)]) {
+        for end in edges.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]) {
             *ends.entry(self.least[self.at(end)]).or_default() += 1;
         }
         ends.values().all(|count| count % 2 == 0)
