@@ -32,7 +32,7 @@ pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     Some(format!("the longest piece is {} m long in {}{instead}", rounded(longest_m), unit.as_str()))
 }
 
-/// Formats a length, m, with about two significant digits.
+/// Formats a length, m, for messages.
 fn rounded(length_m: f64) -> String {
     if length_m >= 10.0 { format!("{length_m:.0}") } else { format!("{length_m:.2}") }
 }

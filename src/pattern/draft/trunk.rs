@@ -40,8 +40,8 @@ pub struct TrunkPlan {
     pub shoulder: f64,
     /// Length of the armhole, front and back together.
     pub armhole: f64,
-    /// Straight beginnings of the front and back armhole, square to the shoulder, as shares of their depth. A smaller
-    /// share makes the underarm rounder.
+    /// Lengths of the Bezier handles of the front and back armhole at the shoulder, square to it, as shares of their
+    /// depth. A shorter handle makes the underarm rounder.
     pub armhole_reach: [f64; 2],
     /// True if a sleeve is sewn in. The armhole is then notched, otherwise the side.
     pub has_sleeve: bool,

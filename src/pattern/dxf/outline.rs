@@ -19,7 +19,7 @@ pub const MOST_LINES: usize = 5_000;
 pub const LOOPS_SHARE: f64 = 0.01;
 /// Greatest area of the loops of an outline that is sewn itself, m2: a knot from grading that no scissors could follow.
 pub const TRIFLE_M2: f64 = 1e-5;
-/// Greatest number of loops of a cut line. There are at most some at each inner corner.
+/// Greatest number of loops of a cut line. It has a few at each inner corner at most.
 const MOST_LOOPS: usize = 200;
 
 /// Greatest width of a spike, m. The coarsest grid that programs write on is a thousandth of an inch. Either side may

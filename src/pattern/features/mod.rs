@@ -17,7 +17,7 @@ use geom::units::{from_mm, mm};
 const FORMAT: &str = "toile pattern features";
 /// Version of the format that is written and read.
 const VERSION: u32 = 1;
-/// Resolution of written lengths, in parts of a millimetre: a billionth of a metre.
+/// Steps per millimetre to which written lengths are rounded: a nanometre each.
 const PER_MM: f64 = 1e6;
 /// Greatest coordinate, mm.
 const GREATEST_MM: f64 = 100_000.0;

@@ -119,7 +119,7 @@ pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     let mut moved: Vec<EdgePoint> = Vec::new();
     for high in trunk.high_points(face) {
-        let (path, _) = trunk.down_from(high)?;
+        let path = trunk.down_from(high)?.path;
         let Some(PathPart::Line([_, below])) = path.last() else { return None };
         let hem = openings.iter().find(|opening| opening.contains(&below.edge))?;
         plan.moves.push(Move::new(*below, -V2::y()));

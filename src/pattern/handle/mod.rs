@@ -521,11 +521,11 @@ impl Style {
             within_mm: mm(PAIRED_M),
         };
         let not_held = |off_m: f64| off_m.is_nan() || off_m.abs() > PAIRED_M;
-        let worst = solved.seams_m.iter().max_by(|seam, other| seam.1.abs().total_cmp(&other.1.abs()));
-        if let Some((number, off_m)) = worst.filter(|(_, off_m)| not_held(*off_m)) {
+        let worst = solved.seams.iter().max_by(|seam, other| seam.off_m.abs().total_cmp(&other.off_m.abs()));
+        if let Some(worst) = worst.filter(|seam| not_held(seam.off_m)) {
             return Err(off(
-                self.seam_words(*number),
-                *off_m,
+                self.seam_words(worst.seam),
+                worst.off_m,
                 "what is sewn on does not follow: its sides come apart by",
             ));
         }

@@ -138,5 +138,5 @@ pub fn ends_between(anatomy: &Anatomy<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
 
 /// Corners of a piece, each as the start of an edge.
 pub fn corners(anatomy: &Anatomy<'_>, piece: usize) -> Vec<EdgeEnd> {
-    (0..anatomy.style().pieces[piece].edges.len()).map(|edge| (EdgeRef { piece, edge }, false)).collect()
+    (0..anatomy.style().pieces[piece].edges.len()).map(|edge| EdgeEnd::new(EdgeRef { piece, edge }, false)).collect()
 }

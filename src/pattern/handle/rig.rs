@@ -1,9 +1,9 @@
 //! Displacement of outlines by knots: points whose displacement is given. Every sharp corner is a knot, which stays
 //! unless it is moved.
 //!
-//! Between two knots the displacement is interpolated: linearly along the edge, by a cubic Hermite spline across it. An
-//! edge so keeps its direction at every knot, and with it its right angles and smooth joints. Only a straight edge from
-//! corner to corner stays straight.
+//! Between two knots the displacement is interpolated: linearly along the edge, and by the smooth cubic step across it.
+//! An edge so keeps its direction at every knot, and with it its right angles and smooth joints. Only a straight edge
+//! from corner to corner stays straight.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;

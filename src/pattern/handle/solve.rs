@@ -17,12 +17,20 @@ const MOST_STEPS: usize = 12;
 /// Regularisation of the normal matrix, for conditions that are linearly dependent.
 const REGULAR: f64 = 1e-9;
 
+/// Residual of a seam.
+pub struct SeamResidual {
+    /// Index of the seam.
+    pub seam: usize,
+    /// Change of the difference of the lengths of its sides, m.
+    pub off_m: f64,
+}
+
 /// Solution: displaced outlines, and the residuals.
 pub struct Solved {
     /// Lines of all edges of the affected pieces.
     pub lines: BTreeMap<usize, Vec<Polyline>>,
-    /// Change of the difference of both sides of each seam, m, by the index of the seam.
-    pub seams_m: Vec<(usize, f64)>,
+    /// Residuals of the seams.
+    pub seams: Vec<SeamResidual>,
     /// Residual of each condition of the plan, m.
     pub conditions_m: Vec<f64>,
 }
@@ -65,7 +73,11 @@ pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
     let (conditions_m, of_seams) = missed.split_at(plan.conditions.len());
     Solved {
         lines: system.lines(&given),
-        seams_m: seams.iter().map(|(seam, _)| *seam).zip(of_seams.iter().copied()).collect(),
+        seams: seams
+            .iter()
+            .zip(of_seams)
+            .map(|((seam, _), off_m)| SeamResidual { seam: *seam, off_m: *off_m })
+            .collect(),
         conditions_m: conditions_m.to_vec(),
     }
 }

@@ -133,14 +133,14 @@ struct Hangs {
 impl Hangs {
     fn of(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: Option<&Legs<'_>>, stand: &Stand) -> Option<Self> {
         if let Some(trunk) = trunk {
-            let (path, below_neck_m) = trunk.way_down()?;
-            let top_m = stand.side_neck_m - below_neck_m;
-            return Some(Self { path, top_m, round_m: stand.side_neck_m - trunk.chest_below_neck_m()? });
+            let down = trunk.way_down()?;
+            let top_m = stand.side_neck_m - down.below_neck_m;
+            return Some(Self { path: down.path, top_m, round_m: stand.side_neck_m - trunk.chest_below_neck_m()? });
         }
         if let Some(legs) = legs {
-            let (path, above_fork_m) = legs.way_down()?;
-            let top_m = stand.crotch_m + above_fork_m;
-            return Some(Self { path, top_m, round_m: top_m });
+            let down = legs.way_down()?;
+            let top_m = stand.crotch_m + down.above_fork_m;
+            return Some(Self { path: down.path, top_m, round_m: top_m });
         }
         let path = super::skirt::way_down(anatomy)?;
         Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
@@ -148,8 +148,7 @@ impl Hangs {
 
     /// Path round the cloth at a height above the floor, m. `None` if it does not go round there.
     fn round(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<Vec<PathPart>> {
-        let (piece, place) =
-            anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
-        anatomy.ways.round_through(piece, place)
+        let point = anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
+        anatomy.ways.round_through(point)
     }
 }

@@ -1,12 +1,11 @@
 //! Points of measure of legs.
 
 use super::anatomy::{Anatomy, BESIDE_M, Chain, Part, path_along};
-use super::ways::Heading;
+use super::ways::{Heading, PiecePoint};
 use super::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
-use geom::V2;
 
 /// Distance below the fork at which the thigh is measured, m.
 const THIGH_BELOW_FORK_M: f64 = 0.025;
@@ -23,6 +22,14 @@ pub struct Run {
     pub crotch: Chain,
     /// Inseam, from the fork to the hem.
     pub seam: Chain,
+}
+
+/// Path down the front of a leg.
+pub struct LegFront {
+    /// Straight parts of the path.
+    pub path: Vec<PathPart>,
+    /// Height of its beginning above the fork, m.
+    pub above_fork_m: f64,
 }
 
 /// One of two legs that are sewn to each other.
@@ -113,22 +120,21 @@ impl<'a> Legs<'a> {
     }
 
     /// Piece and position of the fork of the front.
-    fn fork(&self) -> (usize, V2) {
+    fn fork(&self) -> PiecePoint {
         let fork = self.inner[0].seam[0].other();
-        (fork.edge.piece, self.anatomy.place(fork))
+        PiecePoint { piece: fork.edge.piece, at: self.anatomy.place(fork) }
     }
 
-    /// Path down the front from its upper edge, half-way between fork and outseam, and the height of its beginning
-    /// above the fork, m.
-    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+    /// Path down the front from its upper edge, half-way between fork and outseam.
+    pub fn way_down(&self) -> Option<LegFront> {
         let anatomy = self.anatomy;
-        let (piece, fork) = self.fork();
+        let PiecePoint { piece, at: fork } = self.fork();
         let outline = anatomy.style().pieces[piece].outline();
         let farthest = outline.iter().map(|p| p.x).max_by(|a, b| (a - fork.x).abs().total_cmp(&(b - fork.x).abs()))?;
         let waist: Vec<EdgeRef> = self.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
         let top = anatomy.meeting(&waist, |p| p.x - 0.5 * (fork.x + farthest))?;
         let way = anatomy.ways.walk(top, Heading::Down, |_| false)?;
-        Some((way.parts, anatomy.style().place(top).y - fork.y))
+        Some(LegFront { path: way.parts, above_fork_m: anatomy.style().place(top).y - fork.y })
     }
 
     /// Height of the upper edge above the fork in front, m, including yoke and waistband.
@@ -137,14 +143,14 @@ impl<'a> Legs<'a> {
         let crotch = &self.inner[0].crotch;
         let on_leg_m: f64 = crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
         let above_m = anatomy.style().path_length_m(&self.up_to_edge(crotch)) - on_leg_m;
-        anatomy.place(crotch[0].other()).y - self.fork().1.y + above_m
+        anatomy.place(crotch[0].other()).y - self.fork().at.y + above_m
     }
 
     /// Path round a leg at a height above the fork, m, negative below it. `None` if the leg does not reach there.
     pub fn round(&self, above_fork_m: f64) -> Option<Vec<PathPart>> {
-        let (path, top_m) = self.way_down()?;
-        let (piece, place) = self.anatomy.ways.along(&path, top_m - above_fork_m)?;
-        self.anatomy.ways.round_through(piece, place)
+        let down = self.way_down()?;
+        let ways = &self.anatomy.ways;
+        ways.round_through(ways.along(&down.path, down.above_fork_m - above_fork_m)?)
     }
 
     /// Half of the hip girth: the share of one leg.
@@ -152,7 +158,7 @@ impl<'a> Legs<'a> {
         let anatomy = self.anatomy;
         let [front, back] = &self.inner;
         let crotch: Vec<EdgeRef> = front.crotch.iter().map(|step| step.edge).collect();
-        let (_, fork) = self.fork();
+        let fork = self.fork().at;
         let from = anatomy.meeting(&crotch, |p| p.y - fork.y - HIP_ABOVE_FORK_M)?;
         let is_back = |at: EdgePoint| back.crotch.iter().any(|step| step.edge == at.edge);
         let way = anatomy.ways.walk(from, Heading::Level, is_back)?;

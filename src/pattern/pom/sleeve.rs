@@ -60,8 +60,7 @@ impl<'a> Sleeve<'a> {
 
     /// Path round the sleeve at a distance from the shoulder point along the arm, m. `None` beyond its end.
     pub fn round(&self, along_m: f64) -> Option<Vec<PathPart>> {
-        let (piece, place) = self.anatomy.ways.along(self.way.as_ref()?, along_m)?;
-        self.anatomy.ways.round_through(piece, place)
+        self.anatomy.ways.round_through(self.anatomy.ways.along(self.way.as_ref()?, along_m)?)
     }
 
     /// Underarm seam: the one that begins lowest on the cap, directed downwards.

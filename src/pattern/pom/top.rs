@@ -193,13 +193,13 @@ impl<'a> Trunk<'a> {
     /// Length from a high point of the shoulder straight down. If the neckline runs below the shoulder there, the tape
     /// first spans the neck. The path then begins at the neckline, and the distance above it is added.
     fn length_from_neck(&self, point: Point, high: EdgeEnd) -> Option<PointOfMeasure> {
-        let (path, higher_m) = self.down_from(high)?;
-        let along = self.anatomy.along_path(point, path, 1.0);
-        Some(PointOfMeasure { length_m: along.length_m + higher_m, ..along })
+        let down = self.down_from(high)?;
+        let along = self.anatomy.along_path(point, down.path, 1.0);
+        Some(PointOfMeasure { length_m: along.length_m + down.below_neck_m, ..along })
     }
 
-    /// Path straight down from a high point of the shoulder, and the distance of its beginning below that point, m.
-    pub fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
+    /// Path straight down from a high point of the shoulder.
+    pub fn down_from(&self, high: EdgeEnd) -> Option<PathFromNeck> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
         let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.edge.piece).collect();
@@ -212,11 +212,11 @@ impl<'a> Trunk<'a> {
         let below = anatomy.lowest_meeting(&own, beside).filter(|at| height(start) - height(*at) > BESIDE_M);
         let from = below.unwrap_or(start);
         let way = anatomy.ways.walk(from, Heading::Down, |_| false)?;
-        Some((way.parts, top.y - height(from)))
+        Some(PathFromNeck { path: way.parts, below_neck_m: top.y - height(from) })
     }
 
-    /// Path down the front from the high point of the shoulder, and the distance of its beginning below that point, m.
-    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+    /// Path down the front from the high point of the shoulder.
+    pub fn way_down(&self) -> Option<PathFromNeck> {
         self.down_from(*self.high_points(Face::Front).first()?)
     }
 
@@ -388,6 +388,14 @@ impl<'a> Trunk<'a> {
         }
         None
     }
+}
+
+/// Path down from a high point of the shoulder.
+pub struct PathFromNeck {
+    /// Straight parts of the path.
+    pub path: Vec<PathPart>,
+    /// Distance of its beginning below the high point, m.
+    pub below_neck_m: f64,
 }
 
 /// Intersection of the neckline with the centre of a front or back.

@@ -37,6 +37,15 @@ pub struct Way {
     pub end: EdgePoint,
 }
 
+/// A point within a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PiecePoint {
+    /// Index of the piece.
+    pub piece: usize,
+    /// Position in the plane of the piece.
+    pub at: V2,
+}
+
 /// Position of an edge in a seam.
 #[derive(Clone, Copy)]
 struct Sewn {
@@ -169,7 +178,7 @@ impl<'a> Ways<'a> {
         contains(&self.style.pieces[piece].outline(), &middle).then_some(end)
     }
 
-    /// Path from a point of an edge to the first seam or edge point that satisfies `is_end`, or to a free edge. `None`
+    /// Path from a point of an edge to the first point of an outline that satisfies `is_end`, or to a free edge. `None`
     /// if no cloth lies that way.
     pub fn walk(&self, from: EdgePoint, heading: Heading, is_end: impl Fn(EdgePoint) -> bool) -> Option<Way> {
         let (mut at, mut came, mut parts) = (from, None, Vec::new());
@@ -192,15 +201,15 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Piece and point at a distance along a path of straight parts, m. `None` beyond its ends.
-    pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<(usize, V2)> {
+    /// Point at a distance along a path of straight parts, m. `None` beyond its ends.
+    pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<PiecePoint> {
         let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
         for part in path {
             let PathPart::Line([from, to]) = part else { return None };
             let (start, end) = (self.style.place(*from), self.style.place(*to));
             let length_m = (end - start).norm();
             if rest_m <= length_m {
-                return Some((from.edge.piece, start.lerp(&end, rest_m / length_m)));
+                return Some(PiecePoint { piece: from.edge.piece, at: start.lerp(&end, rest_m / length_m) });
             }
             rest_m -= length_m;
         }
@@ -223,7 +232,7 @@ impl<'a> Ways<'a> {
     }
 
     /// Path round the body or a limb through a point within a piece, as [`Ways::round`].
-    pub fn round_through(&self, piece: usize, at: V2) -> Option<Vec<PathPart>> {
+    pub fn round_through(&self, PiecePoint { piece, at }: PiecePoint) -> Option<Vec<PathPart>> {
         let down = self.down[piece]?;
         let level = V2::new(-down.y, down.x);
         let [ahead, behind] = [self.leaves(piece, at, level)?, self.leaves(piece, at, -level)?];

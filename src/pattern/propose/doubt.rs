@@ -60,7 +60,7 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     let mut aside = aside(pieces, &all, &claims, &as_called, asker);
     for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
         let piece = claim.pieces[0];
-        let (text, choices) = question(&pieces[piece].name, all[piece], claim.says);
+        let ClaimQuestion { text, choices } = question(&pieces[piece].name, all[piece], claim.says);
         *is_aside = asker.ask(text, choices, Some(1)) == Some(1);
     }
     let named = without(&all, &claims, &aside);
@@ -68,20 +68,26 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     (named, reading)
 }
 
+/// A question about a claim.
+struct ClaimQuestion {
+    text: String,
+    choices: [String; 2],
+}
+
 /// Question about a claim that is set aside: the statement of the name, and the alternative.
-fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
+fn question(name: &str, named: Named, says: Says) -> ClaimQuestion {
     match says {
         Says::Class(looks) => {
             let says = named.class.map_or("part", Class::as_str);
             let looks = looks.as_str();
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
-            (text, [says, looks].map(|class| format!("a {class}")))
+            ClaimQuestion { text, choices: [says, looks].map(|class| format!("a {class}")) }
         }
         Says::Face => {
             let face = named.face.unwrap_or(Face::Front);
             let text =
                 format!("piece `{name}`: its name says a {face}, and what is sewn to it something else; which is it?");
-            (text, [format!("a {face}"), "what its outline says".to_owned()])
+            ClaimQuestion { text, choices: [format!("a {face}"), "what its outline says".to_owned()] }
         }
         Says::Hand => {
             let hand = named.hand.unwrap_or(Hand::Right);
@@ -89,7 +95,7 @@ fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
                 "piece `{name}`: its name says the {hand} side, and no piece is the {}; which is it?",
                 hand.other()
             );
-            (text, [format!("of the {hand} side alone"), "of both sides".to_owned()])
+            ClaimQuestion { text, choices: [format!("of the {hand} side alone"), "of both sides".to_owned()] }
         }
     }
 }
@@ -116,7 +122,7 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, as
         let is_otherwise = |&piece: &usize| {
             let class = sewn.worn.iter().find(|worn| worn.piece == piece).map(|worn| worn.class);
             let is_other = !matches!(claim.says, Says::Class(_)) || class != all[piece].class;
-            is_other && seams_of(sewn, piece).iter().any(|(_, joined)| joined.iter().any(|other| *other != piece))
+            is_other && seams_of(sewn, piece).iter().any(|own| own.pieces.iter().any(|other| *other != piece))
         };
         !claim.pieces.iter().any(is_otherwise)
     };
@@ -207,24 +213,32 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
 fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     let is_well_sewn = |piece: usize| {
         let own = seams_of(sewn, piece);
-        own.iter().all(|(seam, _)| seam.confidence >= WELL_SEWN)
-            && own.iter().any(|(_, joined)| joined.iter().any(|other| *other != piece))
+        own.iter().all(|joined| joined.seam.confidence >= WELL_SEWN)
+            && own.iter().any(|joined| joined.pieces.iter().any(|other| *other != piece))
     };
     (0..pieces.len()).map(is_well_sewn).collect()
 }
 
+/// Edges of both sides of a seam.
+fn edges_of(seam: &ProposedSeam) -> impl Iterator<Item = &String> {
+    seam.entry.a.iter().chain(&seam.entry.b)
+}
+
+/// A seam with the pieces that it joins.
+struct JoinedSeam<'s> {
+    seam: &'s ProposedSeam,
+    /// Indices of the pieces, once for each edge.
+    pieces: Vec<usize>,
+}
+
 /// Seams of a piece, each with the pieces that it joins.
-fn seams_of(sewn: &Sewn, piece: usize) -> Vec<(&ProposedSeam, Vec<usize>)> {
+fn seams_of(sewn: &Sewn, piece: usize) -> Vec<JoinedSeam<'_>> {
     let drawn = |edge: &String| {
         let id = edge.split_once('.').map(|(id, _)| id);
         sewn.worn.iter().find(|worn| Some(worn.id.as_str()) == id).map(|worn| worn.piece)
     };
-    let joined = |seam: &ProposedSeam| seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect();
-    sewn.seams
-        .iter()
-        .map(|seam| (seam, joined(seam)))
-        .filter(|(_, joined): &(_, Vec<usize>)| joined.contains(&piece))
-        .collect()
+    let joined = |seam| JoinedSeam { seam, pieces: edges_of(seam).filter_map(drawn).collect() };
+    sewn.seams.iter().map(joined).filter(|joined| joined.pieces.contains(&piece)).collect()
 }
 
 /// Kind of piece whose templates fit best, and its score.
