@@ -12,10 +12,18 @@ const GREATEST_M: f64 = 0.1;
 /// at corners as sharp as 20 degrees.
 const CARRIED_ON: f64 = 6.0;
 
+/// A closed line offset inwards.
+#[derive(Clone, Debug, PartialEq)]
+struct Inset {
+    /// Its points.
+    line: Vec<V2>,
+    /// Positions of the corners on it.
+    corners: Vec<V2>,
+}
+
 /// Offsets a closed counter-clockwise line inwards. Each edge between two neighbouring vertices of `corners` has its
-/// own distance, m. Returns the offset line and the corners on it, or `None` if it would cross itself or turn inside
-/// out.
-fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>, Vec<V2>)> {
+/// own distance, m. `None` if it would cross itself or turn inside out.
+fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<Inset> {
     let (n, count) = (ring.len(), corners.len());
     let carried_m = CARRIED_ON * distance_m.iter().map(|d| d.abs()).fold(0.0, f64::max);
     let moved = |edge: usize| {
@@ -40,7 +48,7 @@ fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>,
     }
     line.dedup_by(|a, b| (*a - *b).norm() < 1e-7);
     let corners = (0..count).map(|k| meets[(k + count - 1) % count].at).collect();
-    (line.len() >= 3 && signed_area(&line) > 0.0 && self_crossing(&line).is_none()).then_some((line, corners))
+    (line.len() >= 3 && signed_area(&line) > 0.0 && self_crossing(&line).is_none()).then_some(Inset { line, corners })
 }
 
 /// Offsets an open line to its left, and extends it straight at both ends.
@@ -152,14 +160,14 @@ impl Piece {
         if let Some(refused_m) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
             return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*refused_m), mm(GREATEST_M)));
         }
-        let Some((line, places)) = inset(&self.outline, corners, distances_m) else {
+        let Some(inset) = inset(&self.outline, corners, distances_m) else {
             let most_mm = mm(distances_m.iter().copied().fold(0.0, f64::max));
             let found = format!("found piece `{}` too narrow for an allowance of {most_mm} mm", self.name);
             return Err(format!("{found}; accepted: less"));
         };
-        self.notches.iter_mut().for_each(|notch| notch.at = nearest(&line, notch.at));
-        self.turn_points = places;
-        self.sew_line = Some(line);
+        self.notches.iter_mut().for_each(|notch| notch.at = nearest(&inset.line, notch.at));
+        self.turn_points = inset.corners;
+        self.sew_line = Some(inset.line);
         Ok(())
     }
 }
@@ -172,17 +180,17 @@ mod tests {
     #[test]
     fn a_square_and_a_ring_are_moved_inwards() {
         let square = [V2::zeros(), V2::new(1.0, 0.0), V2::new(1.0, 1.0), V2::new(0.0, 1.0)];
-        let (inner, corners) = inset(&square, &[0, 1, 2, 3], &[0.1, 0.2, 0.2, 0.2]).expect("room enough");
+        let Inset { line: inner, corners } = inset(&square, &[0, 1, 2, 3], &[0.1, 0.2, 0.2, 0.2]).expect("room enough");
         let expect = [V2::new(0.2, 0.1), V2::new(0.8, 0.1), V2::new(0.8, 0.8), V2::new(0.2, 0.8)];
         assert!(inner.iter().zip(expect).all(|(a, b)| (a - b).norm() < 1e-12), "{inner:?}");
         assert_eq!(inner, corners);
         assert_eq!(inset(&square, &[0, 1, 2, 3], &[0.6; 4]), None);
         // A corner with vertices near it: what the next edge cuts off goes.
         let near = [&square[..1], &[V2::new(0.02, 0.0), V2::new(0.95, 0.0)], &square[1..]].concat();
-        let (inner, _) = inset(&near, &[0, 3, 4, 5], &[0.1; 4]).expect("room enough");
+        let Inset { line: inner, .. } = inset(&near, &[0, 3, 4, 5], &[0.1; 4]).expect("room enough");
         assert_eq!(inner.len(), 4, "{inner:?}");
         let half: Vec<V2> = (0..=180).map(|k| f64::from(k).to_radians()).map(|a| V2::new(a.cos(), a.sin())).collect();
-        let (inner, _) = inset(&half, &[0, 180], &[0.25; 2]).expect("room enough");
+        let Inset { line: inner, .. } = inset(&half, &[0, 180], &[0.25; 2]).expect("room enough");
         let area = |r: f64, d: f64| r * r * (d / r).acos() - d * (r * r - d * d).sqrt();
         assert!((signed_area(&inner) - area(0.75, 0.25)).abs() < 1e-3, "{}", signed_area(&inner));
     }

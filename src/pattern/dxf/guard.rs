@@ -90,6 +90,15 @@ pub struct HeaderValue<'a> {
     pub line: usize,
 }
 
+/// A value as bytes of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located<'a> {
+    /// Its bytes.
+    pub bytes: &'a [u8],
+    /// Line number, from 1.
+    pub line: usize,
+}
+
 /// Inventory of a DXF file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inventory<'a> {
@@ -101,10 +110,10 @@ pub struct Inventory<'a> {
     pub entities: Counts,
     /// Entities of unsupported kinds outside blocks.
     pub foreign: Foreign<'a>,
-    /// Texts (group code 1 of TEXT) as bytes, with their line numbers.
-    pub texts: Vec<(&'a [u8], usize)>,
-    /// Names of inserted blocks, with the line numbers of their insertions.
-    inserted: Vec<(&'a [u8], usize)>,
+    /// Texts (group code 1 of TEXT).
+    pub texts: Vec<Located<'a>>,
+    /// Names of inserted blocks.
+    inserted: Vec<Located<'a>>,
     /// Tags for the crate: version, blocks and entities, without undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
@@ -139,14 +148,14 @@ pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>,
 impl Inventory<'_> {
     /// Names of blocks and texts, as bytes.
     pub fn words(&self) -> impl Iterator<Item = &[u8]> {
-        self.texts.iter().map(|(bytes, _)| *bytes).chain(self.blocks.iter().map(|block| block.name))
+        self.texts.iter().map(|text| text.bytes).chain(self.blocks.iter().map(|block| block.name))
     }
 
     /// Names of inserted blocks that the file does not hold, each once, with the line number of the insertion.
     pub fn missing_blocks(&self) -> Vec<(String, usize)> {
         let mut known: BTreeSet<Vec<u8>> = self.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
-        let missing = self.inserted.iter().filter(|(name, _)| known.insert(name.to_ascii_uppercase()));
-        missing.map(|(name, line)| (clipped(&String::from_utf8_lossy(name)), *line)).collect()
+        let missing = self.inserted.iter().filter(|name| known.insert(name.bytes.to_ascii_uppercase()));
+        missing.map(|name| (clipped(&String::from_utf8_lossy(name.bytes)), name.line)).collect()
     }
 }
 
@@ -280,11 +289,16 @@ impl<'a> Walk<'a, '_> {
             *counts.entry("VERTEX").or_default() += record.iter().filter(|tag| tag.code == 10).count();
         }
         if keyword == "INSERT" {
-            let names = record.iter().filter(|tag| tag.code == 2).map(|tag| (tag.value.trim_ascii(), tag.line));
+            let names = record
+                .iter()
+                .filter(|tag| tag.code == 2)
+                .map(|tag| Located { bytes: tag.value.trim_ascii(), line: tag.line });
             self.inventory.inserted.extend(names);
         }
         if keyword == "TEXT" {
-            self.inventory.texts.extend(record.iter().filter(|tag| tag.code == 1).map(|tag| (tag.value, tag.line)));
+            self.inventory.texts.extend(
+                record.iter().filter(|tag| tag.code == 1).map(|tag| Located { bytes: tag.value, line: tag.line }),
+            );
         }
     }
 

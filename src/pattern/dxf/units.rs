@@ -2,7 +2,7 @@
 
 use super::DxfError;
 use super::code_page::CodePage;
-use super::guard::Inventory;
+use super::guard::{Inventory, Located};
 use super::tags::clipped;
 
 /// Unit of length of a file.
@@ -75,7 +75,7 @@ pub struct Claim {
 /// [`DxfError`] for an unknown unit.
 pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfError> {
     let mut claims = Vec::new();
-    for &(bytes, line) in &inventory.texts {
+    for &Located { bytes, line } in &inventory.texts {
         let text = String::from_utf8_lossy(bytes);
         let Some((key, value)) = text.split_once(':') else { continue };
         if key.trim().eq_ignore_ascii_case("units") {

@@ -160,7 +160,7 @@ impl<'a> Side<'a> {
 fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
     let is_fine = |part: &Part| {
         let points = samples(style, *part);
-        part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).1 < TOLERANCE_M
+        part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).error_m < TOLERANCE_M
     };
     if together.iter().all(is_fine) {
         return vec![together.to_vec()];
@@ -188,9 +188,16 @@ fn samples(style: &Style, part: Part) -> Vec<V2> {
     (0..SAMPLES).map(|k| line.at(part.arcs[0] + (part.arcs[1] - part.arcs[0]) * share(k))).collect()
 }
 
-/// Least-squares cubic Bezier curve between the ends of a line: its inner control points, and its greatest distance
-/// from the points of the line.
-fn cubic(points: &[V2]) -> ([V2; 2], f64) {
+/// A cubic Bezier curve fitted to a line.
+struct CubicFit {
+    /// Inner control points.
+    inner: [V2; 2],
+    /// Greatest distance from the points of the line, m.
+    error_m: f64,
+}
+
+/// Least-squares cubic Bezier curve between the ends of a line.
+fn cubic(points: &[V2]) -> CubicFit {
     let (start, end) = (points[0], points[points.len() - 1]);
     let weights = |k: usize| {
         let t = k as f64 / (points.len() - 1) as f64;
@@ -210,7 +217,7 @@ fn cubic(points: &[V2]) -> ([V2; 2], f64) {
         let w = weights(k);
         (start * w[0] + inner[0] * w[1] + inner[1] * w[2] + end * w[3] - point).norm()
     };
-    (inner, points.iter().enumerate().map(off).fold(0.0, f64::max))
+    CubicFit { inner, error_m: points.iter().enumerate().map(off).fold(0.0, f64::max) }
 }
 
 /// Panel of the parts of a piece, in the order of the outline. `left` is the end of the row so far, m.
@@ -226,7 +233,7 @@ fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
         let chord = end - start;
         let relative = |p: V2| [(p - start).dot(&chord), chord.perp(&(p - start))].map(|x| x / chord.norm_squared());
         let is_straight = points.iter().all(|p| (relative(*p)[1] * chord.norm()).abs() < 1e-7);
-        let curvature = (!is_straight).then(|| Curvature::Typed(Curve::Cubic(cubic(&points).0.map(relative))));
+        let curvature = (!is_straight).then(|| Curvature::Typed(Curve::Cubic(cubic(&points).inner.map(relative))));
         PanelEdge { endpoints: [k, (k + 1) % parts.len()], curvature, label: None }
     };
     Panel {

@@ -105,12 +105,19 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     })
 }
 
+/// A grade point inside a piece.
+struct InnerPoint {
+    at: V2,
+    /// Displacement by its rule.
+    step: V2,
+}
+
 /// Displacement field of a piece: of each vertex of the outline, and of each point with a rule of its own.
 struct Field<'a> {
     outline: &'a [V2],
     steps: Vec<V2>,
-    /// Grade points inside the piece, with their displacements.
-    own: Vec<(V2, V2)>,
+    /// Grade points inside the piece.
+    own: Vec<InnerPoint>,
 }
 
 impl<'a> Field<'a> {
@@ -119,7 +126,7 @@ impl<'a> Field<'a> {
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
-        let mut own: Vec<(V2, V2)> = Vec::new();
+        let mut own: Vec<InnerPoint> = Vec::new();
         for point in &piece.grade_points {
             let Some(steps) = table.rules.get(&point.rule) else {
                 return Err(format!("rule {} at {}, which {} does not hold", point.rule, place(&point.at), table.file));
@@ -128,7 +135,7 @@ impl<'a> Field<'a> {
             let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let on_outline = nearest.filter(|vertex| !point.is_inner && distance(vertex) < ON_OUTLINE_M);
             let Some(vertex) = on_outline else {
-                own.push((point.at, steps[size]));
+                own.push(InnerPoint { at: point.at, step: steps[size] });
                 continue;
             };
             match graded[vertex] {
@@ -149,9 +156,9 @@ impl<'a> Field<'a> {
 
     /// Displacement of a point inside: by its own rule, otherwise that of the nearest point of the outline.
     fn at_inner(&self, point: &V2) -> V2 {
-        let near = self.own.iter().filter(|(at, _)| (at - point).norm() < ON_OUTLINE_M);
-        let own = near.min_by(|(a, _), (b, _)| (a - point).norm().total_cmp(&(b - point).norm()));
-        own.map_or_else(|| self.at(point), |(_, step)| *step)
+        let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
+        let own = near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm()));
+        own.map_or_else(|| self.at(point), |own| own.step)
     }
 
     /// Displacement of the nearest point of the outline.

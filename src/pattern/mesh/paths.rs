@@ -12,6 +12,13 @@ const SAME_SHARE: f64 = 1e-6;
 /// Greatest distance of a drawn curve from the mesh boundary along it, m, at points without a vertex.
 const OFF_CURVE_M: f64 = 3e-3;
 
+/// Intersection of a segment with the side of a triangle.
+struct Crossing {
+    /// Parameter along the segment, 0 to 1.
+    share: f64,
+    point: MaterialPoint,
+}
+
 /// Tracer of paths on the mesh of a style.
 pub struct Layer<'a> {
     style: &'a Style,
@@ -83,7 +90,7 @@ impl<'a> Layer<'a> {
         let reach = (to - from) * (OFF_CURVE_M / length);
         let triangles = self.garment.pieces[ends[0].edge.piece].triangles.clone();
         let crossings = self.crossings(triangles.clone(), (from - reach, to + reach));
-        let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
+        let places: Vec<V2> = crossings.iter().map(|crossing| crossing.point.at_rest(&self.garment.rest)).collect();
         let is_near = |place: Option<&V2>, end: V2| place.is_some_and(|p| (p - end).norm() <= OFF_CURVE_M);
         let is_whole = is_near(places.first(), from)
             && is_near(places.last(), to)
@@ -92,13 +99,13 @@ impl<'a> Layer<'a> {
         let found: f64 = chords.iter().sum();
         (is_whole && found > 0.0).then(|| MaterialLine {
             arc_m: chords.into_iter().map(|chord| chord * length / found).collect(),
-            points: crossings.into_iter().map(|(_, point)| point).collect(),
+            points: crossings.into_iter().map(|crossing| crossing.point).collect(),
         })
     }
 
-    /// Intersections of a segment with the sides of some triangles, each with its parameter along the segment.
-    fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<(f64, MaterialPoint)> {
-        let mut crossings: Vec<(f64, MaterialPoint)> = Vec::new();
+    /// Intersections of a segment with the sides of some triangles, in their order along it.
+    fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<Crossing> {
+        let mut crossings: Vec<Crossing> = Vec::new();
         for &triangle in &self.garment.triangles[triangles] {
             for k in 0..3 {
                 let side = (self.garment.rest[triangle[k]], self.garment.rest[triangle[(k + 1) % 3]]);
@@ -106,12 +113,12 @@ impl<'a> Layer<'a> {
                     let mut weights = [0.0; 3];
                     weights[k] = 1.0 - along;
                     weights[(k + 1) % 3] = along;
-                    crossings.push((share, MaterialPoint { vertices: triangle, weights }));
+                    crossings.push(Crossing { share, point: MaterialPoint { vertices: triangle, weights } });
                 }
             }
         }
-        crossings.sort_by(|p, q| p.0.total_cmp(&q.0));
-        crossings.dedup_by(|later, earlier| later.0 - earlier.0 < SAME_SHARE);
+        crossings.sort_by(|p, q| p.share.total_cmp(&q.share));
+        crossings.dedup_by(|later, earlier| later.share - earlier.share < SAME_SHARE);
         crossings
     }
 
@@ -123,7 +130,7 @@ impl<'a> Layer<'a> {
         // The segment is extended a little, so that its own end points are found in spite of rounding.
         let reach = (to - from) * (0.5 * SAME_SHARE);
         let crossings = self.crossings(piece.triangles.clone(), (from - reach, to + reach));
-        let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
+        let places: Vec<V2> = crossings.iter().map(|crossing| crossing.point.at_rest(&self.garment.rest)).collect();
         let is_whole = places.first().is_some_and(|p| (p - from).norm() < 10.0 * SAME_SHARE * length)
             && places.last().is_some_and(|p| (p - to).norm() < 10.0 * SAME_SHARE * length)
             && places.windows(2).all(|ends| self.is_on_cloth(piece.triangles.clone(), &ends[0].lerp(&ends[1], 0.5)));
@@ -138,7 +145,7 @@ impl<'a> Layer<'a> {
         }
         Ok(MaterialLine {
             arc_m: places.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect(),
-            points: crossings.into_iter().map(|(_, point)| point).collect(),
+            points: crossings.into_iter().map(|crossing| crossing.point).collect(),
         })
     }
 
