@@ -10,7 +10,7 @@ use geom::polyline::Polyline;
 
 /// Step of the finite differences of lengths, m.
 const DIFFERENCE_M: f64 = 1e-6;
-/// Residual at which the conditions hold, m: a thousandth of the tolerance of a seam.
+/// Residual at which the conditions hold, m: a thousandth of the accepted change of a seam or length.
 const HOLDS_M: f64 = 1e-7;
 /// Greatest number of Newton steps. Two or three are usual.
 const MOST_STEPS: usize = 12;

@@ -51,7 +51,7 @@ pub struct Section {
     pub chord: V2,
     /// Midpoint by length.
     pub middle: V2,
-    /// Length without darts.
+    /// Length, the legs of darts left out.
     pub length: f64,
     /// Signed area between it and its chord over the square of the chord, positive if it bulges outwards.
     pub bow: f64,
@@ -253,7 +253,7 @@ impl Shape {
             points = self.points(from % n);
         }
         let chord = points[points.len() - 1] - points[0];
-        // The mouth of a dart adds no length in reality, but here it is the step between two joined points.
+        // The mouth of a dart counts as the straight step between the two points that it parts.
         let mut arcs = vec![0.0];
         for ends in points.windows(2) {
             arcs.push(arcs[arcs.len() - 1] + (ends[1] - ends[0]).norm());

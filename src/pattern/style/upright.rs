@@ -8,8 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 use super::StylePiece;
 use crate::propose;
 
-/// Greatest angle between the grain and an axis at which a piece counts as drawn along the axes, radians. Grain lines
-/// are drawn by hand. Those of gores run down the middle, while the piece is drawn along a side.
+/// Greatest angle between the grain and an axis at which a piece counts as drawn along the axes, radians: 15 degrees.
+/// Grain lines are drawn by hand. Those of gores run down the middle, while the piece is drawn along a side.
 const ALONG_RAD: f64 = 0.26;
 /// Least advantage in score of the orientation as drawn over that set straight by the grain. A piece that is cut on the
 /// bias has it.
