@@ -27,7 +27,7 @@ fn points_mm(style: &Style) -> Vec<(Point, f64)> {
     style.points_of_measure().iter().map(|measure| (measure.point, mm(measure.length_m))).collect()
 }
 
-/// Length of each seam's first side less that of its second, mm.
+/// Length of the first side of each seam minus that of its second, mm.
 fn gaps_mm(style: &Style) -> Vec<f64> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum::<f64>();
     style.seams.iter().map(|seam| mm(length(&seam.a) - length(&seam.b))).collect()
@@ -44,7 +44,7 @@ fn styles_apart_mm(style: &Style, other: &Style) -> f64 {
     mm(pairs.map(|(piece, other)| farthest_m(&piece.outline(), &other.outline())).fold(0.0, f64::max))
 }
 
-/// Greatest turn within each edge of a piece that is no corner, degrees, and the number of corners within it.
+/// Greatest turning angle inside each edge of a piece that is no corner, degrees, and the number of corners inside it.
 fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     const CORNER_DEG: f64 = 20.0;
     let turns =
@@ -56,7 +56,7 @@ fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     piece.edges.iter().map(|edge| parted(turns(edge.line.points()))).collect()
 }
 
-/// Angles at the ends of a piece's edges, degrees.
+/// Angles at the corners between the edges of a piece, degrees.
 fn angles_deg(piece: &StylePiece) -> Vec<f64> {
     let n = piece.edges.len();
     let corner = |k: usize| {
@@ -93,7 +93,8 @@ fn sound(what: &str, before: &Style, after: &Style) {
     after.mesh(0.03).unwrap_or_else(|error| panic!("{what}: {error}"));
 }
 
-/// The points of measure that a handle is about, each with its change for one of the handle; and what geometry changes besides.
+/// Points of measure that a handle changes, each with its change per unit of the handle. The second list has those that
+/// change as a consequence.
 #[rustfmt::skip]
 fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
     use Point::*;
@@ -109,7 +110,7 @@ fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
         Handle::FrontRise => (vec![(FrontRise, 1.0)], &[]),
         Handle::BackRise => (vec![(BackRise, 1.0)], &[]),
         Handle::LegLength => (vec![(Inseam, 1.0), (Outseam, 1.0)], &[]),
-        // The widths are measured half-way up an armhole that sinks, and along a shoulder that turns.
+        // The widths are measured half-way up an armhole that sinks, and along a shoulder that rotates.
         Handle::ShoulderSlope => (vec![(Shoulder, 0.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder, HalfChest]),
         Handle::ShoulderLength => (vec![(Shoulder, 1.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder]),
         Handle::FrontNeckDepth => (vec![(FrontNeckDrop, 1.0), (CentreFrontLength, -1.0)], &[Neck]),
@@ -181,7 +182,8 @@ fn drafted_styles_have_the_handles_of_their_parts() {
 
 #[test]
 fn corners_go_as_far_as_the_handle_says() {
-    // Model, handle, piece, edge, whether its end, displacement for 10 mm; none of a direction that what gives way decides.
+    // Model, handle, piece, edge, true for its end, and displacement for 10 mm. `None` for a direction in which the
+    // point gives way.
     let check = |model: Model, handle: Handle, piece: &str, edge: &str, is_end: bool, expect_mm: [Option<f64>; 2]| {
         let style = drafted(model, 0);
         let moved = style.moved(&[(handle, 0.010)]).expect("it has it");
@@ -215,7 +217,7 @@ fn corners_go_as_far_as_the_handle_says() {
 
 #[test]
 fn right_and_left_stay_alike_and_square_corners_square() {
-    // The underarm seam of a short sleeve and the side of a straight skirt stay straight, and so turn.
+    // The underarm seam of a short sleeve and the side of a straight skirt stay straight, and so rotate.
     let turned = [Handle::ShoulderSlope, Handle::ShoulderLength, Handle::Fork, Handle::FrontRise, Handle::BackRise];
     for (name, style) in styles() {
         for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 10.0), (handle, -10.0)]) {
@@ -348,7 +350,7 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
 }
 
-/// Corners are told as shares of their piece, which a handle changes.
+/// The seam file has corners as shares of their piece, which a handle changes.
 #[test]
 fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
     let draft = Model::Tshirt.drafts().swap_remove(0);
@@ -401,7 +403,7 @@ fn what_lies_inside_goes_along() {
     let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
     let by: Vec<V2> =
         moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();
-    // Near the hem with the hem, half-way up by less.
+    // Points near the hem move with it, those half-way up by less.
     assert!((by[0].y + 0.02).abs() < 0.004 && by[0].x.abs() < 1e-9, "{by:?}");
     assert!((-0.017..-0.005).contains(&by[1].y), "{by:?}");
     let line = &moved.internal_lines[0];
@@ -413,7 +415,7 @@ fn shared(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// The style of a file of another program, sewn as proposed where it holds no seams.
+/// Style of a file of another program, sewn as proposed if it holds no seams.
 fn foreign(path: &Path) -> Style {
     let bytes = std::fs::read(path).expect("readable");
     let name = path.display().to_string();
@@ -427,7 +429,7 @@ fn foreign(path: &Path) -> Style {
 
 #[test]
 fn foreign_patterns_change_by_their_handles() {
-    // File, number of handles, those that are refused.
+    // File, number of handles, and the handles that are refused.
     let check = |file: &str, handles: usize, refused: &[Handle]| {
         let Some(path) = shared(file) else { return eprintln!("skipped: {file} is not there") };
         let style = foreign(&path);

@@ -165,7 +165,7 @@ fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
         || triangle.iter().any(|&vertex| has_short(vertex) || (is_on(vertex) && inner_angle(vertex) < 45.0))
 }
 
-/// Pieces drawn by other programs, with an arbitrary edge named: all mesh, and well wherever the outline allows.
+/// Pieces drawn by other programs, with an arbitrary edge named. All are meshed, and well if the outline allows it.
 #[test]
 fn pieces_of_other_programs_mesh() {
     let mut angles = Vec::new();

@@ -131,7 +131,7 @@ fn widths_are_those_of_the_outlines() {
 
 #[test]
 fn a_girth_taken_through_a_dart_leaves_the_dart_out() {
-    // A tube of two panels with a dart in the front: what the dart takes in at a height is not measured.
+    // A tube of two panels with a dart in the front. The cloth inside the dart is not measured.
     let seams = r#"
         name = "tube"
         piece.front = { block = "F", role = "front", edges = { hem = [0, 1], da = [1, 2], db = [2, 3], hem_2 = [3, 4], side_left = [4, 5], neck = [5, 6], side_right = [6, 0] } }
@@ -263,7 +263,7 @@ fn shared(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// The style of a file of another program, sewn as proposed where it holds no seams.
+/// Style of a file of another program, sewn as proposed if it holds no seams.
 fn foreign(path: &PathBuf, size: Option<&str>) -> Style {
     let bytes = std::fs::read(path).expect("readable");
     let name = path.display().to_string();
@@ -276,7 +276,7 @@ fn foreign(path: &PathBuf, size: Option<&str>) -> Style {
     Style::read(&pieces, proposal.toml("foreign").as_bytes(), "foreign").expect("it holds")
 }
 
-/// Lengths by hand: sums of the lengths of edges, and distances of vertices, of the outlines in the files.
+/// Lengths computed by hand: sums of the lengths of edges, and distances of vertices, of the outlines in the files.
 #[rustfmt::skip]
 #[test]
 fn foreign_patterns_have_the_lengths_of_their_outlines() {

@@ -4,7 +4,7 @@ use super::*;
 use crate::style::Style;
 use geom::V2;
 
-/// A piece in mm; the third number of a vertex says whether it is a corner.
+/// A piece in mm. The third number of a vertex is 1 for a corner.
 fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let place = |&(x, y, _): &(f64, f64, u8)| V2::new(x, y) * 1e-3;
     Piece {
@@ -40,7 +40,7 @@ fn shirt() -> Vec<Piece> {
     ]
 }
 
-/// A sleeve so many times as wide as the armholes need.
+/// A sleeve, wider than the armholes require by a factor.
 fn sleeve(wide: f64) -> Piece {
     let cap = [(380.0, 300.0, 1), (290.0, 340.0, 0), (230.0, 400.0, 0), (180.0, 420.0, 0)];
     let rest = [(130.0, 400.0, 0), (70.0, 340.0, 0), (-20.0, 300.0, 1)];
@@ -49,7 +49,7 @@ fn sleeve(wide: f64) -> Piece {
     piece("SLEEVE", &all)
 }
 
-/// Half front and half back of trousers, the back up to a waist at so many mm.
+/// Half front and half back of trousers, the back up to a waist at a given height, mm.
 fn legs(back_waist: f64) -> Vec<Piece> {
     let crotch = [(85.0, 850.0, 0), (60.0, 790.0, 0), (10.0, 770.0, 1)];
     let front = [&[(60.0, 0.0, 1), (280.0, 0.0, 1), (300.0, 1000.0, 1), (90.0, 1000.0, 1)][..], &crotch].concat();
@@ -135,7 +135,7 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
         let error = propose(&rest).to_drape().expect_err(gone).to_string();
         assert!(error.contains(expect), "{gone}: {error}");
     }
-    // Two garments are not one.
+    // Two garments are not sewn as one.
     let skirt = ["SKIRT FRONT", "SKIRT BACK"].map(|name| strip(name, 420.0, 500.0));
     let error = propose(&[&skirt[..], &legs(1000.0)].concat()).to_drape().expect_err("two garments").to_string();
     assert!(error.contains("no seam joins"), "{error}");
@@ -144,12 +144,12 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
 #[test]
 fn waistbands_go_round_however_they_are_cut() {
     let with = |bands: &[Piece]| [&legs(1000.0)[..], bands].concat();
-    // All round, from centre front.
+    // One band all round, from centre front.
     let round = draped(&with(&[strip("WAISTBAND", 880.0, 40.0)]), &["waistband"]);
     let waist = ["leg_front_left.waist", "leg_back_left.waist", "leg_back_right.waist", "leg_front_right.waist"];
     assert_eq!(seam(&round, "waist").entry.b, waist);
     assert!((seam(&round, "waistband").a_mm - 40.0).abs() < 1e-6);
-    // Right and left, by two pieces or by one cut twice.
+    // A right and a left band, by two pieces or by one cut twice.
     for bands in
         [&[strip("WAISTBAND1", 430.0, 40.0), strip("WAISTBAND2", 460.0, 40.0)][..], &[strip("WAISTBAND", 430.0, 40.0)]]
     {
@@ -159,7 +159,7 @@ fn waistbands_go_round_however_they_are_cut() {
         assert!(seam(&two, "waistband_front").entry.a[0].starts_with("waistband_right"));
         seam(&two, "waistband_back");
     }
-    // One that fits nothing is left out; of two all round one is taken.
+    // A band that fits nothing is left out. Of two that go all round, one is taken.
     let none = draped(&with(&[strip("WAISTBAND", 1500.0, 40.0)]), &[]);
     assert!(none.notes.iter().any(|note| note.contains("left out: `WAISTBAND`")), "{:?}", none.notes);
     let outer =
@@ -266,7 +266,7 @@ fn gores_are_sewn_all_round_and_to_their_band() {
     check(&banded, 8, &["waist_back_1", "waist_front_1", "waistband_left", "waistband_right"]);
 }
 
-/// Mirrored left to right, so that what is drawn for one side of the wearer is drawn for the other.
+/// Pieces mirrored left to right, so that those drawn for one side of the wearer are drawn for the other.
 fn mirrored(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let turned: Vec<(f64, f64, u8)> = vertices.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
     piece(name, &turned)
@@ -293,7 +293,8 @@ fn a_raglan_sleeve_is_sewn_to_front_and_back_up_to_the_neck() {
         }
         assert!(!proposal.seams.iter().any(|seam| seam.entry.name.contains("shoulder")));
     };
-    // As drawn the shorter side, the front's, is to the right: a right sleeve; and its mirror image.
+    // As drawn, the shorter side, which is the front's, is on the right: a right sleeve. Its mirror image is a left
+    // one.
     check(piece("RAGLAN SLEEVE", &sleeve));
     check(mirrored("SLEEVE", &sleeve));
 }

@@ -38,7 +38,7 @@ fn proposed(file: &str, size: Option<&str>) -> Option<(Proposal, Style)> {
     Some((proposal, style))
 }
 
-/// Names of the proposed seams without darts, in order, and how many darts.
+/// Names of the proposed seams without darts, in order, and the number of darts.
 fn check(file: &str, seams: &[&str], darts: usize) {
     let Some((proposal, _)) = proposed(file, None) else { return };
     let names: Vec<&str> = proposal.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
@@ -162,7 +162,8 @@ fn our_own_styles_are_sewn_by_shape_alone() {
             let proposal = propose(&pieces);
             let found = style(&pieces, &proposal);
             let said = || format!("{model:?} {}: {:?}", draft.size, proposal.questions);
-            // The seam file of the trousers cuts the outseam at the hip: there as much is sewn, with as little ease.
+            // The seam file of the trousers splits the outseam at the hip. The same length is sewn there, with as
+            // little ease.
             assert_eq!(total_mm(&found), total_mm(&truth), "{}", said());
             if model != crate::draft::Model::Trousers {
                 assert_eq!(sewn(&found), sewn(&truth), "{}", said());
@@ -171,7 +172,7 @@ fn our_own_styles_are_sewn_by_shape_alone() {
     }
 }
 
-/// Length of all seams, and what is eased in, mm.
+/// Total length of all seams, and total ease, mm.
 fn total_mm(style: &Style) -> [i64; 2] {
     let length = |chain: &[EdgeRef]| chain.iter().map(|&edge| style.edge(edge).line.length() * 1e3).sum::<f64>();
     let sides: Vec<[f64; 2]> = style.seams.iter().map(|seam| [length(&seam.a), length(&seam.b)]).collect();
@@ -281,7 +282,7 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
             })
         })
         .collect();
-    // Backs that may be turned over: their mirror image lies on them.
+    // Backs that may be turned over, because their mirror image coincides with them.
     let turned_over = |piece: usize, p: V2| {
         let outline = style.pieces[piece].outline();
         if !is_turned || !style.pieces[piece].id.contains("back") || !is_symmetric(&outline) {
@@ -290,7 +291,7 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
         V2::new(low + high - p.x, p.y)
     };
-    // Shares of a seam's side that a panel's edge takes, in the direction of sewing.
+    // Shares of the side of a seam that the edge of a panel takes, in the direction of sewing.
     let place = |chain: &[EdgeRef], is_forwards: bool, (panel, edge): &(String, usize)| {
         let total: f64 = chain.iter().map(|&edge| style.edge(edge).line.length()).sum();
         let mut before = 0.0;
@@ -335,7 +336,7 @@ fn the_stitches_of_garmentcode_are_proposed() {
     for (garment, expect) in [
         ("tshirt_mean_all", (16, 16)),
         ("tshirt_mean_female", (16, 16)),
-        // One half sleeve is not told apart: its armhole is asked for.
+        // One half sleeve is not identified, so its armhole is asked about.
         ("longsleeve_shirt_mean_all", (16, 13)),
         ("fitted_shirt_sleeves_mean_male", (32, 32)),
         ("fitted_bodice_darts_mean_female", (16, 16)),
