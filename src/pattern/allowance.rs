@@ -1,4 +1,4 @@
-//! Seam allowance: from the cut line of a piece to the line that is sewn.
+//! Seam allowance: offsets the cut line of a piece inwards, which gives its sew line.
 
 use crate::piece::Piece;
 use crate::style::corners::corner_vertices;
@@ -6,14 +6,24 @@ use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
 use geom::units::mm;
 
-/// Greatest allowance, m: more is a facing.
+/// Greatest allowance, m. A wider margin is a facing.
 const GREATEST_M: f64 = 0.1;
-/// How far the moved edges are carried on to meet each other, in allowances: a corner of 20 degrees.
+/// Extension of each offset edge beyond its ends, in allowances, so that neighbours meet. It reaches the intersection
+/// at corners as sharp as 20 degrees.
 const CARRIED_ON: f64 = 6.0;
 
-/// A closed counter-clockwise line moved inwards, each stretch between two of its vertices `corners` by its own distance, m,
-/// with the places of the corners on it. `None` where it would cross itself or turn inside out.
-fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>, Vec<V2>)> {
+/// A closed line offset inwards.
+#[derive(Clone, Debug, PartialEq)]
+struct Inset {
+    /// Its points.
+    line: Vec<V2>,
+    /// Positions of the corners on it.
+    corners: Vec<V2>,
+}
+
+/// Offsets a closed counter-clockwise line inwards. Each edge between two neighbouring vertices of `corners` has its
+/// own distance, m. `None` if it would cross itself or turn inside out.
+fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<Inset> {
     let (n, count) = (ring.len(), corners.len());
     let carried_m = CARRIED_ON * distance_m.iter().map(|d| d.abs()).fold(0.0, f64::max);
     let moved = |edge: usize| {
@@ -23,7 +33,7 @@ fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>,
         moved_edge(&points, distance_m[edge], carried_m)
     };
     let edges: Vec<Vec<V2>> = (0..count).map(moved).collect::<Option<_>>()?;
-    // Where each edge ends and the next begins: segment and share of both, and the place.
+    // Intersections of neighbouring offset edges: the segment of both, and the point.
     let meets: Vec<Meeting> =
         (0..count).map(|k| meeting(&edges[k], &edges[(k + 1) % count], carried_m)).collect::<Option<_>>()?;
     let mut line = Vec::new();
@@ -38,37 +48,39 @@ fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>,
     }
     line.dedup_by(|a, b| (*a - *b).norm() < 1e-7);
     let corners = (0..count).map(|k| meets[(k + count - 1) % count].at).collect();
-    (line.len() >= 3 && signed_area(&line) > 0.0 && self_crossing(&line).is_none()).then_some((line, corners))
+    (line.len() >= 3 && signed_area(&line) > 0.0 && self_crossing(&line).is_none()).then_some(Inset { line, corners })
 }
 
-/// An open line moved to its left, carried on straight at both ends.
+/// Offsets an open line to its left, and extends it straight at both ends.
 fn moved_edge(points: &[V2], distance_m: f64, carried_m: f64) -> Option<Vec<V2>> {
     let directions: Vec<V2> =
         points.windows(2).map(|ends| (ends[1] - ends[0]).try_normalize(0.0)).collect::<Option<_>>()?;
     let left = |d: V2| V2::new(-d.y, d.x);
     let last = directions.len() - 1;
-    let at = |vertex: usize| {
+    let offset = |vertex: usize| {
         let (u, v) = (directions[vertex.saturating_sub(1)], directions[vertex.min(last)]);
         let middle = (left(u) + left(v)).try_normalize(0.0).unwrap_or_else(|| left(v));
-        // Along a curve the sides turn little, and the point lies where both moved sides meet.
+        // Along a curve neighbouring segments turn little. The point is the miter: the intersection of both offset
+        // segments.
         points[vertex] + middle * (distance_m / middle.dot(&left(v)).max(0.5))
     };
-    let mut line = vec![at(0) - directions[0] * carried_m];
-    line.extend((0..points.len()).map(at));
-    line.push(at(points.len() - 1) + directions[last] * carried_m);
+    let mut line = vec![offset(0) - directions[0] * carried_m];
+    line.extend((0..points.len()).map(offset));
+    line.push(offset(points.len() - 1) + directions[last] * carried_m);
     Some(line)
 }
 
-/// Where one moved edge ends and the next begins.
+/// Intersection of an offset edge with the next one.
 struct Meeting {
-    /// Segment of the edge.
+    /// Index of the segment of the edge.
     edge: usize,
-    /// Segment of the next.
+    /// Index of the segment of the next edge.
     next: usize,
     at: V2,
 }
 
-/// The crossing of the end of one line with the beginning of the other that cuts least off them.
+/// Intersection of the end of one line with the beginning of the other. Of several it is the one that cuts least off
+/// both lines.
 fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
     let mut best: Option<(f64, Meeting)> = None;
     let mut behind = 0.0;
@@ -92,7 +104,7 @@ fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
             break;
         }
     }
-    // Edges that go on straight into each other do not cross: they meet where both end.
+    // Edges that continue each other straight do not cross. They meet at their ends.
     let straight = || {
         let (end, start) = (edge[edge.len() - 2], next[1]);
         Meeting { edge: edge.len() - 3, next: 1, at: end.lerp(&start, 0.5) }
@@ -101,7 +113,7 @@ fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
         .or_else(|| ((edge[edge.len() - 2] - next[1]).norm() < 0.5 * carried_m).then(straight))
 }
 
-/// Shares at which two segments cross.
+/// Parameters in 0..=1 at which two segments cross.
 fn crossing([a, b]: [V2; 2], [c, d]: [V2; 2]) -> Option<(f64, f64)> {
     let (u, v) = (b - a, d - c);
     let turn = u.perp(&v);
@@ -112,7 +124,7 @@ fn crossing([a, b]: [V2; 2], [c, d]: [V2; 2]) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&s)).then_some((t, s))
 }
 
-/// The place of a closed line that is nearest to a point.
+/// The point of a closed line that is nearest to a given point.
 fn nearest(ring: &[V2], point: V2) -> V2 {
     let on_side = |k: usize| {
         let (a, along) = (ring[k], ring[(k + 1) % ring.len()] - ring[k]);
@@ -123,11 +135,11 @@ fn nearest(ring: &[V2], point: V2) -> V2 {
 }
 
 impl Piece {
-    /// The piece with a sew line so far inside its cut line; as it is, where its file has one. Its turn points and notches
-    /// lie on the sew line then.
+    /// Returns the piece with a sew line at the distance `allowance_m` inside its cut line. A piece whose file has a
+    /// sew line stays as it is. The turn points and notches of the result lie on the sew line.
     ///
     /// # Errors
-    /// A sentence where the piece is too narrow for it, or the allowance is none.
+    /// A sentence for messages if the piece is too narrow for the allowance, or the allowance is out of range.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);
@@ -141,20 +153,21 @@ impl Piece {
         Ok(self)
     }
 
-    /// Gives a piece without one a sew line: so far inside its cut line, m, between each of its vertices `corners` and the next.
-    /// The corners on it are its turn points then, and its notches lie on it.
+    /// Adds the sew line to a piece that has none. Between each of its vertices `corners` and the next, the line lies
+    /// at the given distance, m, inside the cut line. The corners of the sew line become the turn points, and the
+    /// notches move onto it.
     pub(crate) fn cut_at(&mut self, corners: &[usize], distances_m: &[f64]) -> Result<(), String> {
-        if let Some(other) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
-            return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*other), mm(GREATEST_M)));
+        if let Some(refused_m) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
+            return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*refused_m), mm(GREATEST_M)));
         }
-        let Some((line, places)) = inset(&self.outline, corners, distances_m) else {
+        let Some(inset) = inset(&self.outline, corners, distances_m) else {
             let most_mm = mm(distances_m.iter().copied().fold(0.0, f64::max));
             let found = format!("found piece `{}` too narrow for an allowance of {most_mm} mm", self.name);
             return Err(format!("{found}; accepted: less"));
         };
-        self.notches.iter_mut().for_each(|notch| notch.at = nearest(&line, notch.at));
-        self.turn_points = places;
-        self.sew_line = Some(line);
+        self.notches.iter_mut().for_each(|notch| notch.at = nearest(&inset.line, notch.at));
+        self.turn_points = inset.corners;
+        self.sew_line = Some(inset.line);
         Ok(())
     }
 }
@@ -167,17 +180,17 @@ mod tests {
     #[test]
     fn a_square_and_a_ring_are_moved_inwards() {
         let square = [V2::zeros(), V2::new(1.0, 0.0), V2::new(1.0, 1.0), V2::new(0.0, 1.0)];
-        let (inner, corners) = inset(&square, &[0, 1, 2, 3], &[0.1, 0.2, 0.2, 0.2]).expect("room enough");
+        let Inset { line: inner, corners } = inset(&square, &[0, 1, 2, 3], &[0.1, 0.2, 0.2, 0.2]).expect("room enough");
         let expect = [V2::new(0.2, 0.1), V2::new(0.8, 0.1), V2::new(0.8, 0.8), V2::new(0.2, 0.8)];
         assert!(inner.iter().zip(expect).all(|(a, b)| (a - b).norm() < 1e-12), "{inner:?}");
         assert_eq!(inner, corners);
         assert_eq!(inset(&square, &[0, 1, 2, 3], &[0.6; 4]), None);
         // A corner with vertices near it: what the next edge cuts off goes.
         let near = [&square[..1], &[V2::new(0.02, 0.0), V2::new(0.95, 0.0)], &square[1..]].concat();
-        let (inner, _) = inset(&near, &[0, 3, 4, 5], &[0.1; 4]).expect("room enough");
+        let Inset { line: inner, .. } = inset(&near, &[0, 3, 4, 5], &[0.1; 4]).expect("room enough");
         assert_eq!(inner.len(), 4, "{inner:?}");
         let half: Vec<V2> = (0..=180).map(|k| f64::from(k).to_radians()).map(|a| V2::new(a.cos(), a.sin())).collect();
-        let (inner, _) = inset(&half, &[0, 180], &[0.25; 2]).expect("room enough");
+        let Inset { line: inner, .. } = inset(&half, &[0, 180], &[0.25; 2]).expect("room enough");
         let area = |r: f64, d: f64| r * r * (d / r).acos() - d * (r * r - d * d).sqrt();
         assert!((signed_area(&inner) - area(0.75, 0.25)).abs() < 1e-3, "{}", signed_area(&inner));
     }

@@ -1,31 +1,32 @@
-//! The pieces laid out about the head, as [T 3.3.3] arranges them before they are placed about the body.
+//! Flat layout of the pieces about the head, as [T 3.3.3] arranges them before they are placed about the body.
 //!
-//! The origin is the head, seen from above: `x` grows to the wearer's right, fronts lie at `y > 0` and backs at `y < 0`,
-//! each with its upper edge towards the origin, as if the garment were opened along its sides and laid flat. Sleeves
-//! lie beside, their caps towards the body. A piece is only turned and shifted, never mirrored: its features say which
-//! side is up, its grain line sets it straight.
+//! The origin is the head, seen from above. `x` grows to the wearer's right, fronts lie at `y > 0` and backs at `y <
+//! 0`. The upper edge of each piece faces the origin, as if the garment were opened along its sides and laid flat.
+//! Sleeves lie beside, their caps towards the body. A piece is only turned and shifted, never mirrored. Its outline
+//! says which side is up, and its grain line sets it straight.
 
 use super::garment::Role;
 use super::propose::{self, Face, Hand, Pose};
 use super::style::{Style, StylePiece};
 use geom::V2;
 
-/// Room between pieces, and round the head, m.
+/// Clearance between pieces, and round the head, m.
 const GAP_M: f64 = 0.06;
-/// Greatest angle by which a grain line turns a piece; a grain further off is cut on the bias.
+/// Greatest angle by which a piece is turned to set its grain line straight. A grain line further off is cut on the
+/// bias.
 const STRAIGHTEN_DEG: f64 = 30.0;
 
-/// Where a piece of a style lies.
+/// Rigid placement of a piece in the layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// Angle by which it is turned counter-clockwise, radians.
+    /// Rotation of the piece, counter-clockwise, radians.
     pub turn: f64,
-    /// Shift after the turn, m.
+    /// Translation after the rotation, m.
     pub shift: V2,
 }
 
 impl Placed {
-    /// A point of the piece's plane in the arrangement, m.
+    /// Maps a point of the piece's plane into the layout, m.
     #[must_use]
     pub fn at(&self, point: V2) -> V2 {
         turned(point, self.turn) + self.shift
@@ -37,9 +38,10 @@ fn turned(p: V2, angle: f64) -> V2 {
     V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y)
 }
 
-/// What decides where a piece goes.
+/// Facts of a piece that decide its placement.
 struct Piece {
-    /// How far down it is worn: trunk, waistband, skirt or leg; `None` for a whole sleeve and what has no known place.
+    /// Row from the head down: 0 trunk, 1 waistband, 2 skirt or leg. `None` for a whole sleeve and for a piece without
+    /// a known place.
     level: Option<usize>,
     face: Option<Face>,
     hand: Option<Hand>,
@@ -90,7 +92,7 @@ impl Piece {
     }
 }
 
-/// Front or back, and the side of the wearer, from the role, or else from the identifier and the outline.
+/// Front or back, and the side of the wearer. They follow from the role, or else from the identifier and the outline.
 fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Option<Hand>) {
     let (named_face, named_hand) = propose::named_face_and_hand(&piece.id);
     let face = match piece.role {
@@ -108,26 +110,26 @@ fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Opti
     (face, hand)
 }
 
-/// The small turn, radians, that sets a grain line along an axis.
+/// Smallest rotation, radians, that sets a grain line along an axis. It is 0 for a grain on the bias.
 fn straightening(grain: V2) -> f64 {
     let off = grain.y.atan2(grain.x).to_degrees().rem_euclid(90.0);
     let turn = if off > 45.0 { 90.0 - off } else { -off };
     if turn.abs() <= STRAIGHTEN_DEG { turn.to_radians() } else { 0.0 }
 }
 
-/// Where every piece of a style lies, in their order.
+/// Places every piece of a style. The result has the order of its pieces.
 #[must_use]
 pub fn arrange(style: &Style) -> Vec<Placed> {
     let pieces: Vec<Piece> = style.pieces.iter().map(Piece::of).collect();
     let mut placed: Vec<Placed> = pieces.iter().map(|piece| Placed { turn: piece.turn, shift: V2::zeros() }).collect();
     let mut reach = GAP_M;
-    // Half the width of everything that is laid out in levels.
+    // Half the width of the rows so far, m.
     let mut half_width = 0.0_f64;
     for level in 0..=2 {
         let of_level: Vec<usize> = (0..pieces.len()).filter(|&i| pieces[i].level == Some(level)).collect();
         for face in Face::BOTH {
             let row: Vec<usize> = of_level.iter().copied().filter(|&i| pieces[i].face == Some(face)).collect();
-            // Next free |x| on the wearer's right and left; what covers the middle comes first, sleeves last.
+            // Next free |x| on the wearer's right and left. Pieces over the middle are placed first, sleeves last.
             let mut next = [0.5 * GAP_M; 2];
             let mut order = row.clone();
             order.sort_by_key(|&i| (pieces[i].hand.is_some(), pieces[i].is_sleeve));
@@ -142,7 +144,7 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
                     }
                     None => {
                         let half = 0.5 * piece.size().x;
-                        // A second piece of both sides goes outside of the first.
+                        // A second piece over the middle goes outside of the first.
                         let is_first = next[0] <= GAP_M;
                         let middle = if is_first { 0.0 } else { next[0] + half };
                         next = next.map(|free| free.max(middle + half + GAP_M));
@@ -161,7 +163,7 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
     placed
 }
 
-/// A style with every piece moved to where it lies.
+/// Returns the style with every piece moved to its place in the layout.
 #[must_use]
 pub fn arranged(style: &Style) -> Style {
     let mut moved = style.clone();
@@ -172,7 +174,7 @@ pub fn arranged(style: &Style) -> Style {
     moved
 }
 
-/// Whole sleeves go to both sides of the trunk, what has no known place further out to the wearer's right.
+/// Places whole sleeves on both sides of the trunk. Pieces without a known place go further out, to the wearer's right.
 fn beside(pieces: &[Piece], half_width: f64, placed: &mut [Placed]) {
     let mut next = [half_width.max(GAP_M); 2];
     let of_kind = |is_sleeve: bool| {
@@ -196,13 +198,13 @@ mod tests {
     /// Bounding box of a placed piece, by its identifier.
     fn boxes(style: &Style) -> Vec<(String, V2, V2)> {
         let placed = arrange(style);
-        let of = |(piece, placed): (&StylePiece, &Placed)| {
+        let box_of = |(piece, placed): (&StylePiece, &Placed)| {
             let points: Vec<V2> = piece.outline().iter().map(|&p| placed.at(p)).collect();
             let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
             let high = points.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
             (piece.id.clone(), low, high)
         };
-        style.pieces.iter().zip(&placed).map(of).collect()
+        style.pieces.iter().zip(&placed).map(box_of).collect()
     }
 
     fn style(model: Model, turn: f64) -> Style {

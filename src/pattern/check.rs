@@ -1,5 +1,5 @@
-//! What a person should know of a pattern and its seam file that is no error: edges left free, pieces left out,
-//! gathers, directions that look turned round, girths that do not close, no girth for the fit.
+//! Findings on a pattern and its seam file that are no errors: free edges, pieces left out, gathers, reversed seams,
+//! girths that do not close, no girth for the fit, lengths that leap between sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,21 +12,21 @@ use super::style::{EdgeRef, PathPart, Seam, Style};
 use geom::polyline::Polyline;
 use geom::units::mm;
 
-/// Ratio of the sides from which a seam counts as gathered.
+/// Ratio of the lengths of both sides from which a seam counts as gathered.
 const GATHERED_RATIO: f64 = 1.2;
 /// Distance within which a notch belongs to an edge, m.
 const ON_EDGE_M: f64 = 12e-3;
-/// Least gain, share of the seam, by which the notches must lie better the other way round.
+/// Least improvement of the notch match, as a share of the seam, for which a reversed side is reported.
 const TURNED_GAIN: f64 = 0.05;
 
-/// Something to look at.
+/// A finding: something that a person should look at.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// What kind of thing was found.
+    /// Kind of the finding.
     pub kind: FindingKind,
     /// Seam, edge or piece.
     pub place: String,
-    /// What was found.
+    /// Description for messages.
     pub found: String,
 }
 
@@ -34,19 +34,19 @@ pub struct Finding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
-    /// An edge that no seam holds and that is neither measured nor said to be open.
+    /// An edge that is in no seam, has no measurement along it and is not listed as `open`.
     FreeEdge,
-    /// A drawn piece that the seam file does not name.
+    /// A drawn piece that the seam file does not use.
     UnusedPiece,
-    /// A seam whose sides differ much in length.
+    /// A seam whose sides differ much in length: one is gathered onto the other.
     Gathered,
-    /// A seam whose sides look turned round.
+    /// A seam of which one side seems to run in the wrong direction.
     Direction,
-    /// A measurement that is called a girth and does not close, or a length and does.
+    /// A measurement entered as a closed girth that does not close, or as an open length that closes.
     Loop,
     /// A style without a girth at chest or hip, so that its fit cannot be told.
     FitLevel,
-    /// A length that leaves the progression of its sizes.
+    /// A length that breaks the grading progression of the sizes.
     Leap,
 }
 
@@ -65,14 +65,14 @@ impl FindingKind {
         }
     }
 
-    /// Whether an edit of the seam file can settle it.
+    /// True if an edit of the seam file can settle the finding.
     #[must_use]
     pub fn is_of_seams(self) -> bool {
         !matches!(self, Self::Gathered | Self::FitLevel | Self::Leap)
     }
 }
 
-/// Findings of a style made of `pieces` by the entries of a seam file.
+/// Findings on a style that is made of `pieces` by the entries of a seam file.
 #[must_use]
 pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
     let is_left_out = |piece: &Piece| Finding {
@@ -108,13 +108,13 @@ fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
     })
 }
 
-/// Findings of a meshed garment: girths that do not close once sewn, and a missing girth for the fit.
+/// Findings on a meshed garment: girths that do not close once sewn, and a missing girth for the fit.
 #[must_use]
 pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     let welded = welded(garment);
     let mut findings = Vec::new();
     for measurement in &garment.measurements {
-        // In a closed loop every end of a run meets another.
+        // In a closed loop every end of a run coincides with another.
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
         for point in measurement.runs.iter().flat_map(|run| [run.points.first(), run.points.last()]).flatten() {
             let heaviest = (0..3).max_by(|&i, &j| point.weights[i].total_cmp(&point.weights[j])).unwrap_or(0);
@@ -136,7 +136,7 @@ pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     }
     let is_stated = style.fit_levels.iter().any(|(level, _)| ["chest", "hip"].contains(&level.as_str()));
     let is_found =
-        || style.points_of_measure().iter().any(|one| matches!(one.point, Point::HalfChest | Point::HalfHip));
+        || style.points_of_measure().iter().any(|measure| matches!(measure.point, Point::HalfChest | Point::HalfHip));
     if !is_stated && !is_found() {
         let found =
             "no girth at chest or hip: its pieces' roles show none, and neither [fit.chest] nor [fit.hip] says it"
@@ -146,11 +146,11 @@ pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     findings
 }
 
-/// Least vertex that each vertex is sewn to, over any number of seams.
+/// Representative of each vertex: the smallest index among the vertices that seams join it to, directly or in a chain.
 fn welded(garment: &Garment) -> Vec<usize> {
     let mut least: Vec<usize> = (0..garment.rest.len()).collect();
     let pairs = || garment.seams.iter().flat_map(|seam| &seam.pairs);
-    // A vertex is in few seams: the labels settle after as many rounds as seams meet in one point.
+    // The labels settle after as many rounds as seams meet in one point, which are few.
     loop {
         let before = least.clone();
         for &[a, b] in pairs() {
@@ -185,7 +185,8 @@ fn gathered(style: &Style, seam: &Seam) -> Option<Finding> {
     })
 }
 
-/// Pieces seen from outside meet against each other; notches that match better the other way round say so too.
+/// Reports a seam of which one side seems reversed. The sides of a seam run against each other where both pieces are
+/// seen from outside. Otherwise the notches tell: they match better with one side reversed.
 fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     let found = if seam.b_forwards {
         "both sides run counter-clockwise: one of the pieces is sewn inside out".to_owned()
@@ -193,7 +194,7 @@ fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
         let a = notch_shares(style, &seam.a, true);
         let b = notch_shares(style, &seam.b, false);
         let turned: Vec<f64> = b.iter().rev().map(|share| 1.0 - share).collect();
-        let worst = |other: &[f64]| a.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let worst = |shares: &[f64]| a.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if a.is_empty() || a.len() != b.len() || worst(&turned) + TURNED_GAIN > worst(&b) {
             return None;
         }
@@ -202,7 +203,7 @@ fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     Some(Finding { kind: FindingKind::Direction, place: seam.name.clone(), found })
 }
 
-/// Places of the notches along a side of a seam, as shares of its length in the direction of sewing.
+/// Positions of the notches along one side of a seam, as shares of its length in the direction of sewing.
 fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64> {
     let total = length(style, chain);
     let mut shares = Vec::new();
@@ -218,7 +219,7 @@ fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64>
     shares
 }
 
-/// Arc length of the vertex nearest to a notch; `None` for a notch elsewhere.
+/// Arc length, m, of the vertex of an edge that is nearest to a notch. `None` for a notch at an end or on another edge.
 fn arc_of(line: &Polyline, notch: &Notch) -> Option<f64> {
     let distance = |i: &usize| (line.points()[*i] - notch.at).norm();
     let nearest = (0..line.points().len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))?;

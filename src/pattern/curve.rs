@@ -1,4 +1,4 @@
-//! Curves of drafts and of imported panels, and the solver of the drafts.
+//! Curves of drafted and imported panels, and the root finder of the drafts.
 
 use geom::V2;
 
@@ -22,7 +22,7 @@ pub fn length(curve: &[V2]) -> f64 {
     curve.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
 }
 
-/// Root of an increasing function between `low` and `high`, to the last bit worth having.
+/// Root of an increasing function in `low..high`, by 60 bisections: down to the rounding of the numbers.
 pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -35,10 +35,10 @@ pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f
     0.5 * (low + high)
 }
 
-/// Points of a circular arc of a given length, from the origin along `+u`, that has turned by `angle` (radians, upwards
-/// positive, not zero) at its end.
+/// Points of a circular arc of a given length that starts at the origin in the direction of `+u`. `angle` is its total
+/// turning, radians, positive upwards and not zero.
 pub fn arc(length: f64, angle: f64) -> Vec<V2> {
     let radius = length / angle;
-    let at = |turned: f64| V2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));
-    (0..=CURVE_SEGMENTS).map(|i| at(angle * i as f64 / CURVE_SEGMENTS as f64)).collect()
+    let point_at = |turned: f64| V2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));
+    (0..=CURVE_SEGMENTS).map(|i| point_at(angle * i as f64 / CURVE_SEGMENTS as f64)).collect()
 }

@@ -1,5 +1,5 @@
-//! A drawing of all pieces of a style as they are worn, with numbered corners and edges, grain, notches and numbered
-//! measurements, as SVG in millimetres.
+//! Drawing of all pieces of a style, seen from outside, as SVG in millimetres. It has numbered corners and edges, grain
+//! lines, notches and numbered measurements.
 
 use std::fmt::Write as _;
 
@@ -11,19 +11,20 @@ use geom::V2;
 use geom::polyline::Polyline;
 use geom::units::{from_mm, mm};
 
-/// Space round pieces and sheet, mm.
+/// Margin round the drawing, mm.
 const MARGIN_MM: f64 = 45.0;
-/// Room for the title above a piece, mm.
+/// Height of the title above a piece, mm.
 const TITLE_MM: f64 = 30.0;
 /// Length of a notch tick, mm.
 const NOTCH_MM: f64 = 9.0;
 /// Distance of corner numbers and measurement numbers from the outline, mm.
 const LABEL_MM: f64 = 17.0;
-/// Where along an edge the number of its measurement stands: off the middle, where lines across the piece end.
+/// Position of the number of a measurement along its edge. It is off the middle, because lines across the piece end
+/// there.
 const EDGE_LABEL_SHARE: f64 = 0.4;
-/// Where along an edge its own number stands.
+/// Position of the number of an edge along it.
 const EDGE_NUMBER_SHARE: f64 = 0.6;
-/// How things look; the accent marks what is measured.
+/// Style sheet. The accent colour marks measured lines.
 const CSS: &str = "\
 text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .piece{fill:#f6f3ec;stroke:#3a3a3a;stroke-width:1.4;stroke-linejoin:round}\
@@ -62,22 +63,22 @@ pub fn svg(style: &Style) -> String {
     out
 }
 
-/// As [`svg`], with the points of measure numbered in place of the style's own measurements.
+/// Draws as [`svg`] does, with the points of measure numbered in place of the style's own measurements.
 #[must_use]
 pub fn points_svg(style: &Style) -> String {
     let points = style.points_of_measure().into_iter().zip(1..);
-    let measurement = |(one, no): (PointOfMeasure, u32)| StyleMeasurement {
+    let measurement = |(measure, no): (PointOfMeasure, u32)| StyleMeasurement {
         no,
-        name: one.point.as_str().replace('_', " "),
+        name: measure.point.as_str().replace('_', " "),
         kind: MeasurementKind::OpenLength,
-        path: one.path,
-        l2d_m: one.length_m,
+        path: measure.path,
+        l2d_m: measure.length_m,
         is_free_edge: false,
     };
     svg(&Style { measurements: points.map(measurement).collect(), ..style.clone() })
 }
 
-/// As [`svg`], of a style that was changed, with its outlines as they were before.
+/// Draws a changed style as [`svg`] does, with the outlines before the change dashed.
 #[must_use]
 pub fn changed_svg(before: &Style, after: &Style) -> String {
     let placed = arrange(after);
@@ -98,7 +99,7 @@ fn bounds_mm(points: &[V2]) -> (V2, V2) {
     (low.map(mm), high.map(mm))
 }
 
-/// Draws one piece at its place; takes metres, `v` up.
+/// Transform from the layout in metres, `y` up, to the sheet in millimetres, `y` down; writes SVG elements.
 struct Pen {
     origin: V2,
 }
@@ -138,7 +139,7 @@ impl Pen {
         self.edge_numbers(out, piece);
     }
 
-    /// The number of every edge, from 1 counter-clockwise, by which seams can be edited.
+    /// Writes the number of every edge, from 1 counter-clockwise. Edits of seams name edges by it.
     fn edge_numbers(&self, out: &mut String, piece: &StylePiece) {
         for (index, edge) in piece.edges.iter().enumerate() {
             let p = self.beside(&edge.line, EDGE_NUMBER_SHARE, 0.8 * LABEL_MM) + V2::new(0.0, 4.5);
@@ -146,7 +147,7 @@ impl Pen {
         }
     }
 
-    /// Place on the sheet beside an edge, inside its piece.
+    /// Point on the sheet beside an edge, inside its piece.
     fn beside(&self, line: &Polyline, share: f64, distance_mm: f64) -> V2 {
         let arc = share * line.length();
         let along = line.at(arc + 1e-3) - line.at(arc - 1e-3);
@@ -154,7 +155,7 @@ impl Pen {
         self.at(line.at(arc) + inwards * from_mm(distance_mm))
     }
 
-    /// A double arrow along the grain, beside the middle of the piece.
+    /// Draws a double arrow along the grain, beside the middle of the piece.
     fn grain(&self, out: &mut String, piece: &StylePiece, outline: &[V2]) {
         let (low, high) = bounds_mm(outline);
         let middle = V2::new(0.72 * low.x + 0.28 * high.x, 0.5 * (low.y + high.y)) * 1e-3;
@@ -190,14 +191,15 @@ impl Pen {
     }
 }
 
-/// Direction on the sheet that leads away from a piece at a corner of its outline; longer where the gap is narrow.
+/// Direction on the sheet away from the piece at a corner of its outline. It is longer at a reflex corner, where the
+/// gap is narrow.
 fn outwards(outline: &[V2], corner: V2) -> V2 {
     let n = outline.len();
     let distance = |i: usize| (outline[i] - corner).norm();
     let nearest = (0..n).min_by(|&i, &j| distance(i).total_cmp(&distance(j))).unwrap_or(0);
     let before = (outline[nearest] - outline[(nearest + n - 1) % n]).normalize();
     let after = (outline[(nearest + 1) % n] - outline[nearest]).normalize();
-    // To the right of a counter-clockwise outline is outside.
+    // The right side of a counter-clockwise outline is outside.
     let right = |along: V2| V2::new(along.y, -along.x);
     let sum = right(before) + right(after);
     let normal = sum.try_normalize(1e-9).unwrap_or_else(|| right(after));
@@ -220,12 +222,12 @@ fn numbered_disc(out: &mut String, place: V2, no: u32) {
 /// Columns of the legend: three, fewer where a sheet is too narrow for the longest name.
 fn legend_columns(style: &Style, width: f64) -> usize {
     let letters = style.measurements.iter().map(|m| m.name.chars().count()).max().unwrap_or(0);
-    // Letters of 15 mm are 9 mm wide; a disc stands before them, a length behind.
+    // Letters of 15 mm are 9 mm wide. The row also holds a numbered disc and a length.
     let widest = 9.0 * letters as f64 + 130.0;
     ((width - 2.0 * MARGIN_MM) / widest).clamp(1.0, 3.0) as usize
 }
 
-/// Numbers, names and pattern lengths, so many rows of them in columns.
+/// Writes the numbers, names and pattern lengths of the measurements, in columns of so many rows.
 fn legend(out: &mut String, style: &Style, sheet: V2, rows: usize) {
     let columns = style.measurements.len().div_ceil(rows).max(1) as f64;
     for (k, measurement) in style.measurements.iter().enumerate() {

@@ -1,14 +1,15 @@
-//! Thousands of damaged files of every kind that is read, the same ones every time: no reader panics, hangs or makes
-//! much out of little.
+//! Reading of thousands of damaged files of every kind, always the same ones. No reader panics, hangs, or makes much
+//! out of little.
 
 use super::draft::{Model, TshirtSize, tshirt};
 use super::features::Features;
 use super::{Style, dxf, garmentcode, grade, info, source};
 
-/// Most points that a small damaged file may become: what one entity with the most chords has, some times.
+/// Greatest number of points that a small damaged file may become: a multiple of that of the entity with the most
+/// chords.
 const MOST_POINTS: usize = 100_000;
 
-/// Tokens that formats of patterns turn on.
+/// Significant tokens of pattern formats.
 const TOKENS: [&str; 40] = [
     "0\nSECTION\n",
     "0\nENDSEC\n",
@@ -52,7 +53,7 @@ const TOKENS: [&str; 40] = [
     "RULE: DELTA 1\n",
 ];
 
-/// A small generator of numbers that look random (xorshift64*, [Marsaglia]).
+/// Small generator of pseudo-random numbers (xorshift64*, [Marsaglia]).
 struct Random(u64);
 
 impl Random {
@@ -110,7 +111,7 @@ LINE\n8\n1\n10\n300\n20\n0\n11\n300\n21\n90\n0\nLINE\n8\n1\n10\n300\n20\n90\n11\
 const RULES: &str =
     "UNITS: METRIC\nNUMBER OF SIZES: 2\nSIZE LIST: S M\nSAMPLE SIZE: S\nRULE: DELTA 1\n0.0, 0.0  5.0, 5.0\nEND\n";
 
-/// Reads damaged copies of a file; says how many of them could still be read.
+/// Reads damaged copies of a file, and returns the number of those that could still be read.
 fn survivors(whole: &[u8], rounds: usize, seed: u64, mut is_read: impl FnMut(&[u8]) -> bool) -> usize {
     assert!(is_read(whole), "the whole file reads");
     let mut random = Random(seed);
@@ -122,7 +123,7 @@ fn survivors(whole: &[u8], rounds: usize, seed: u64, mut is_read: impl FnMut(&[u
     damaged.count()
 }
 
-/// Reads a pattern and checks that it is not more than its bytes can say.
+/// Reads a pattern and checks that it is not larger than its bytes allow.
 fn reads_pattern(bytes: &[u8]) -> bool {
     let Ok(file) = source::read(bytes, "a", Some(dxf::Unit::Mm)) else { return false };
     let points: usize = file.pieces.iter().map(|piece| piece.outline.len()).sum();

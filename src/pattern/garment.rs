@@ -1,14 +1,14 @@
-//! A garment ready to sew: triangulated pieces in their own planes, seams as vertex pairs, measurement paths.
+//! A garment that is ready to sew: triangulated pieces in their own planes, seams as vertex pairs, measurement paths.
 //!
-//! Every piece is drawn seen from its outside, `v` up towards the neck (against the direction in which the garment
-//! hangs), so that counter-clockwise triangles face outwards once sewn.
+//! Every piece is drawn as seen from outside, with `v` up towards the neck, against the direction in which the garment
+//! hangs. Counter-clockwise triangles therefore face outwards once sewn.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use geom::{V2, V3};
 
-/// What a piece is worn as; decides how it is placed about the body.
+/// Part of the garment that a piece is. It decides the placement about the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -47,7 +47,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// All, as they are offered.
+    /// All roles, in the order in which they are offered.
     pub const ALL: [Self; 16] = [
         Self::Front,
         Self::Back,
@@ -67,7 +67,7 @@ impl Role {
         Self::Other,
     ];
 
-    /// Its name in seam files.
+    /// Name of the role in seam files.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -90,31 +90,31 @@ impl Role {
         }
     }
 
-    /// The role of a name.
+    /// Role with a given name in seam files.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.as_str() == name)
     }
 }
 
-/// One triangulated piece: ranges into the garment's arrays.
+/// One triangulated piece: its ranges in the garment's arrays.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PieceMesh {
     /// Identifier within the garment (`front`, `sleeve_right`, ...).
     pub id: String,
-    /// How it is worn.
+    /// Part of the garment that the piece is.
     pub role: Role,
-    /// Its vertices in [`Garment::rest`].
+    /// Range of its vertices in [`Garment::rest`].
     pub vertices: Range<usize>,
-    /// Its triangles in [`Garment::triangles`].
+    /// Range of its triangles in [`Garment::triangles`].
     pub triangles: Range<usize>,
     /// Unit vector of the warp (grain line) in the piece's plane.
     pub grain: V2,
-    /// Vertices of the named boundary edges, counter-clockwise, both end corners included.
+    /// Vertices of the named boundary edges, counter-clockwise, including the corners at both ends.
     pub edges: BTreeMap<String, Vec<usize>>,
 }
 
-/// A seam: pairs of garment vertices that are one vertex after sewing.
+/// A seam: pairs of vertices that become one vertex when sewn.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SeamMesh {
     /// Name in the seam file.
@@ -124,14 +124,14 @@ pub struct SeamMesh {
 }
 
 impl SeamMesh {
-    /// What lies between neighbouring pairs: of either side the two garment vertices. Where one side goes on to its next edge, the other
-    /// may stand still or leap.
+    /// Segments between neighbouring pairs: the two vertices on either side. Where one side passes a corner to its next
+    /// edge, the other may repeat its vertex or jump.
     pub fn stitches(&self) -> impl Iterator<Item = [[usize; 2]; 2]> {
         self.pairs.windows(2).map(|ends| [0, 1].map(|side| [ends[0][side], ends[1][side]]))
     }
 }
 
-/// A point of the cloth: a weighted mean of three vertices of one triangle (weights sum to 1).
+/// A point of the cloth: barycentric coordinates in one triangle. The weights sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialPoint {
     /// Vertices of the triangle, by their index in the garment.
@@ -141,33 +141,34 @@ pub struct MaterialPoint {
 }
 
 impl MaterialPoint {
-    /// The point's place when the garment's vertices are at `positions`.
+    /// Position of the point when the vertices are at `positions`.
     #[must_use]
     pub fn at(&self, positions: &[V3]) -> V3 {
         (0..3).map(|k| positions[self.vertices[k]] * self.weights[k]).sum()
     }
 
-    /// The point's place in its piece's plane.
+    /// Position of the point in the plane of its piece.
     #[must_use]
     pub fn at_rest(&self, rest: &[V2]) -> V2 {
         (0..3).map(|k| rest[self.vertices[k]] * self.weights[k]).sum()
     }
 }
 
-/// A connected stretch of cloth along which is measured, within one piece.
+/// A connected measurement line on the cloth, within one piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialLine {
-    /// Points in order; at least two.
+    /// Points in order, at least two.
     pub points: Vec<MaterialPoint>,
-    /// Pattern length of each segment, m: the arc of the drawn curve, not its chord. One fewer than `points`.
+    /// Pattern length of each segment, m: the arc of the drawn curve, not its chord. There is one fewer than `points`.
     pub arc_m: Vec<f64>,
 }
 
 impl MaterialLine {
-    /// Length (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
+    /// Length of the line, m, when the vertices are at `positions`. `rest` are their positions in the planes of the
+    /// pieces.
     ///
-    /// Each segment stretches by the ratio of its arcs (`arcs`); that ratio scales the arc of the drawn curve, so that an
-    /// unstretched garment has its pattern length exactly, however coarse its mesh.
+    /// The ratio of its arc on the drape to that in the flat mesh (`arcs`) is the stretch of a segment. It scales the
+    /// arc of the drawn curve, so an unstretched garment has its pattern length exactly, however coarse its mesh.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         let ways = |points: &[V3]| -> Vec<V3> { points.windows(2).map(|ends| ends[1] - ends[0]).collect() };
@@ -178,13 +179,13 @@ impl MaterialLine {
         self.arc_m.iter().zip(flat.iter().zip(&draped)).map(|(arc, (flat, draped))| arc * draped / flat).sum()
     }
 
-    /// The line in a garment whose vertices are called otherwise.
+    /// Returns the line with its vertices renumbered.
     fn renumbered(&self, name: impl Fn(&usize) -> usize) -> Self {
         let point = |point: &MaterialPoint| MaterialPoint { vertices: point.vertices.map(|v| name(&v)), ..*point };
         Self { points: self.points.iter().map(point).collect(), ..self.clone() }
     }
 
-    /// The line after its cloth was drawn elsewhere.
+    /// Returns the line after the pieces were redrawn: each arc changes as its chord does.
     fn redrawn(&self, before: &[V2], after: &[V2]) -> Self {
         let chords = |rest: &[V2]| -> Vec<f64> {
             self.points.windows(2).map(|ends| (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm()).collect()
@@ -194,20 +195,22 @@ impl MaterialLine {
     }
 }
 
-/// Greatest excess of a squared arc over a share of the squared step.
+/// Greatest excess of a squared arc over its squared chord, as a share of the squared rest length of the segment. The
+/// excess saturates towards it.
 const MOST_EXCESS: f64 = 0.1;
 
-/// Lengths of the arcs along a smooth line that goes these `ways` from point to point, and is `steps` long between them where it is not
-/// stretched, m.
+/// Arc lengths, m, of a smooth line with the chord vectors `ways` from point to point. `steps` are the rest lengths of
+/// the segments, m.
 fn arcs(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     ways.iter().zip(excesses(ways, steps)).map(|(way, excess)| (way.norm_squared() + excess).sqrt()).collect()
 }
 
-/// By how much the squared arcs between points of a smooth line exceed the squared chords, m2: the line goes these `ways` from point to
-/// point, and is `steps` long between them where it is not stretched.
+/// Excess of the squared arcs of a smooth line over its squared chords, m2. `ways` are the chord vectors from point to
+/// point, `steps` the rest lengths of the segments, m.
 ///
-/// A chord of a circle is shorter than its arc: squared, by the fourth power of the step times the squared curvature over 12. Curvature at
-/// a point is told by the ways to its neighbours, along a step by the mean of its ends.
+/// A chord of a circle is shorter than its arc: arc^2 - chord^2 = s^4 kappa^2 / 12 to leading order, for the arc length
+/// s and the curvature kappa. The curvature at a point is the finite difference of the chords to its neighbours. That
+/// of a segment is the mean of its ends.
 #[must_use]
 pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     let bend = |i: usize| {
@@ -226,7 +229,7 @@ pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     (0..steps.len()).map(excess).collect()
 }
 
-/// Whether a measurement goes once round or from one end to another.
+/// Closed or open measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasurementKind {
@@ -236,25 +239,25 @@ pub enum MeasurementKind {
     OpenLength,
 }
 
-/// A measurement of the style, laid on the mesh.
+/// A measurement of the style, traced on the mesh.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measurement {
-    /// Number in the style (`#1` ...).
+    /// Number in the style, such as 1 for `#1`.
     pub no: u32,
     /// Name in the style, such as `Neck Opening`.
     pub name: String,
-    /// Loop or length.
+    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// Whether it runs along an edge that no seam holds.
+    /// True if it runs along an edge that is in no seam.
     pub is_free_edge: bool,
     /// Pattern length L2D, m: the sum of all arcs.
     pub l2d_m: f64,
-    /// Where it runs; the lengths of the runs add up.
+    /// Lines on the mesh, whose lengths add up.
     pub runs: Vec<MaterialLine>,
 }
 
 impl Measurement {
-    /// Length L3D (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
+    /// Length L3D, m, when the vertices are at `positions`. `rest` are their positions in the planes of the pieces.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
@@ -264,22 +267,22 @@ impl Measurement {
 /// Girth of the pattern at a body level, from the style's fit-reference measurement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FitLevel {
-    /// Body level (`chest`, `hip`, ...).
+    /// Level of the body, such as `chest` or `hip`.
     pub level: String,
-    /// Pattern girth there, m.
+    /// Girth of the pattern at that level, m.
     pub girth_m: f64,
-    /// Where it runs on the mesh, the lengths adding up; empty where it does not lie on the cloth throughout.
+    /// Lines on the mesh, whose lengths add up. Empty if the girth does not lie on the cloth throughout.
     #[serde(default)]
     pub runs: Vec<MaterialLine>,
 }
 
-/// What strengthens an edge.
+/// Kind of reinforcement of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Band {
     /// A knitted rib, often cut shorter than the edge it is sewn to.
     Rib,
-    /// A tape sewn along.
+    /// A tape sewn along the edge.
     Tape,
     /// The edge turned over and sewn.
     Hem,
@@ -287,16 +290,16 @@ pub enum Band {
     Waistband,
 }
 
-/// A strengthened stretch of an edge.
+/// Reinforcement of a part of an edge.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Reinforcement {
-    /// What strengthens it.
+    /// Kind of the reinforcement.
     pub band: Band,
     /// Force per relative elongation, N.
     pub stiffness_n: f64,
-    /// Length of the band over that of the edge.
+    /// Ratio of the length of the band to that of the edge.
     pub length_factor: f64,
-    /// Garment vertices along the edge, in order.
+    /// Vertices of the garment along the edge, in order.
     pub vertices: Vec<usize>,
 }
 
@@ -305,28 +308,28 @@ pub struct Reinforcement {
 pub struct Garment {
     /// Name of the style, from its seam file.
     pub name: String,
-    /// Name of the size; empty where the file names none.
+    /// Name of the size; empty if the file names none.
     pub size: String,
     /// Pieces with the ranges of their vertices and triangles.
     pub pieces: Vec<PieceMesh>,
-    /// Vertex positions in their pieces' planes, m.
+    /// Vertex positions in the planes of their pieces, m.
     pub rest: Vec<V2>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[usize; 3]>,
     /// Seams as pairs of vertices that become one.
     pub seams: Vec<SeamMesh>,
-    /// Measurements of the style, laid on the mesh.
+    /// Measurements of the style, traced on the mesh.
     pub measurements: Vec<Measurement>,
-    /// Pattern girths for the fit.
+    /// Girths of the pattern at levels of the body, for the fit.
     pub fit_levels: Vec<FitLevel>,
-    /// Edges that a band strengthens, as chains of vertices.
+    /// Reinforced edges as chains of vertices.
     #[serde(default)]
     pub reinforcements: Vec<Reinforcement>,
-    /// Edge length asked of the mesher, m.
+    /// Target edge length of the mesher, m.
     pub edge_length_m: f64,
 }
 
-/// A place on a piece, as messages name it.
+/// A place on a piece, for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
     /// Identifier of the piece.
@@ -342,18 +345,18 @@ impl std::fmt::Display for Spot {
 }
 
 impl Garment {
-    /// Where some vertices lie: the piece that holds most of them, and the middle of those; `None` where there are none.
+    /// Place of some vertices: the piece that holds most of them, and their mean there. `None` without vertices.
     #[must_use]
     pub fn spot(&self, vertices: &[usize]) -> Option<Spot> {
-        let of = |piece: &PieceMesh| -> Vec<V2> {
+        let points_in = |piece: &PieceMesh| -> Vec<V2> {
             vertices.iter().filter(|v| piece.vertices.contains(v)).map(|&v| self.rest[v]).collect()
         };
-        let held = self.pieces.iter().rev().map(|piece| (piece, of(piece)));
+        let held = self.pieces.iter().rev().map(|piece| (piece, points_in(piece)));
         let (piece, points) = held.filter(|(_, points)| !points.is_empty()).max_by_key(|(_, points)| points.len())?;
         Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
     }
 
-    /// Garments as one, sewn to each other nowhere: pieces, vertices and triangles in their order.
+    /// Joins garments into one without sewing them to each other. Pieces, vertices and triangles keep their order.
     #[must_use]
     pub fn beside(garments: &[&Self]) -> Self {
         let names: Vec<&str> = garments.iter().map(|garment| garment.name.as_str()).collect();
@@ -388,7 +391,8 @@ impl Garment {
         all
     }
 
-    /// The garment with its vertices elsewhere in their pieces' planes: arcs of measurements change as their chords do.
+    /// Returns the garment with its vertices moved in the planes of their pieces. The arcs of measurements change as
+    /// their chords do.
     #[must_use]
     pub fn with_rest(&self, rest: Vec<V2>) -> Self {
         let redrawn = |line: &MaterialLine| line.redrawn(&self.rest, &rest);
@@ -406,7 +410,8 @@ impl Garment {
         Self { measurements, fit_levels, rest, ..self.clone() }
     }
 
-    /// The garment without some of its pieces, measured nowhere, and for each of its vertices the one that it was.
+    /// Returns the garment without some of its pieces and without measurements, and for each of its vertices the index
+    /// in the original.
     #[must_use]
     pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {
         let mut kept: Vec<usize> = Vec::new();

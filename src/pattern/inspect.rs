@@ -1,4 +1,4 @@
-//! The report of `pattern inspect`: what a pattern file holds, in millimetres.
+//! Report of `pattern inspect`: the content of a pattern file, in millimetres.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use geom::units::mm;
 /// Square millimetres in a square metre.
 const MM2_PER_M2: f64 = 1e6;
 
-/// What one pattern file holds, or why it cannot be read.
+/// Content of one pattern file, or the reason why it cannot be read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
     /// Name of the file, as it was given.
@@ -26,35 +26,35 @@ pub struct FileReport {
     pub mm_per_unit: Option<f64>,
     /// Pieces in the order of the file.
     pub pieces: Vec<PieceReport>,
-    /// Blocks that are no usable pieces.
+    /// Blocks that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// Things the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// Number of entities that are not used, by layer.
+    /// Number of unused entities by layer.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub unused: BTreeMap<String, usize>,
-    /// Why the file cannot be read.
+    /// Reason why the file cannot be read.
     pub error: Option<String>,
 }
 
-/// One piece, as stored.
+/// One piece as the file stores it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceReport {
-    /// Name of the block, byte for byte as the file writes it ([`PatternFile::as_written`]).
+    /// Name of the block, byte for byte as in the file ([`PatternFile::as_written`]).
     pub block: String,
-    /// Piece name, or the block's name where the file gives none, in the file's code page.
+    /// Name of the piece in the file's code page, or the name of the block if the file gives none.
     pub name: String,
-    /// Size that the piece or the file names.
+    /// Size as the piece or the file names it.
     pub size: Option<String>,
-    /// Number to cut, as written.
+    /// Quantity to cut, as written.
     pub quantity: Option<String>,
-    /// Length of the outline as the file draws it, with what was cut away to mend it.
+    /// Length of the outline as drawn, mm, including what a repair cut away.
     pub perimeter_mm: f64,
-    /// Area within the outline.
+    /// Area within the outline, mm2.
     pub area_mm2: f64,
-    /// Whether the outline closes (it does; a piece whose outline does not is refused).
+    /// True if the outline is closed. It always is: a piece with an open outline is refused.
     pub closed: bool,
-    /// Whether the file drew the outline clockwise.
+    /// True if the file draws the outline clockwise.
     pub clockwise: bool,
     /// Number of turn points.
     pub turn_points: usize,
@@ -62,9 +62,9 @@ pub struct PieceReport {
     pub curve_points: usize,
     /// Number of notches.
     pub notches: usize,
-    /// Length of the grain line.
+    /// Length of the grain line, mm.
     pub grain_mm: Option<f64>,
-    /// Number of mirror lines: 1 for a half piece, else 0.
+    /// Number of mirror lines: 1 for a half piece, otherwise 0.
     pub mirror_lines: usize,
     /// Number of internal lines.
     pub internal_lines: usize,
@@ -72,9 +72,9 @@ pub struct PieceReport {
     pub cut_outs: usize,
     /// Number of drill holes.
     pub drill_holes: usize,
-    /// Area within the sew line.
+    /// Area within the sew line, mm2.
     pub sew_area_mm2: Option<f64>,
-    /// Whether this is a half piece, opened for sewing; it is measured as stored.
+    /// True for a half piece. It is opened for sewing, but measured as stored.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub unfolded: bool,
 }

@@ -1,4 +1,5 @@
-//! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
+//! Sewing patterns ([T 3.3], pattern design module): reads a pattern file and a seam file, and makes a garment mesh
+//! that is ready to sew, with its pattern lengths.
 
 pub mod allowance;
 pub mod arrange;

@@ -1,52 +1,52 @@
-//! Pattern pieces as drawn: what a DXF block says, in metres, before anything is sewn.
+//! Pattern pieces as a file draws them, in metres, before anything is sewn.
 
 use std::sync::Arc;
 
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 
-/// A notch: a mark cut into the edge so that partners can be matched.
+/// A notch: a mark cut into the edge, by which seam partners are matched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notch {
-    /// Place on the outline.
+    /// Position on the outline.
     pub at: V2,
-    /// Depth of the cut, m; `None` where the file does not say.
+    /// Depth of the cut, m. `None` if the file does not give it.
     pub depth_m: Option<f64>,
-    /// Direction of the cut, degrees counter-clockwise from +u; `None` where the file does not say.
+    /// Direction of the cut, degrees counter-clockwise from +u. `None` if the file does not give it.
     pub angle_deg: Option<f64>,
 }
 
-/// A point that grading moves by a rule of a grade rule table.
+/// A grade point: it moves by a rule of the grade rule table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradePoint {
-    /// Place, on the outline or near it.
+    /// Position, on the outline or near it.
     pub at: V2,
-    /// Number of the rule.
+    /// Number of its grade rule.
     pub rule: u32,
-    /// Whether it is a point of an inner line, cut-out or drill hole, however near the outline it lies.
+    /// True for a point of an internal line, cut-out or drill hole, however near the outline it lies.
     pub is_inner: bool,
 }
 
 /// One piece of one size.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece {
-    /// Name of its block in the file.
+    /// Name of the block in the file.
     pub block: String,
-    /// `Piece Name`, or the block's name where none is given.
+    /// `Piece Name` of the file, or the name of the block if none is given.
     pub name: String,
-    /// What its file says beside it.
+    /// Context of the piece in its file.
     pub beside: Beside,
-    /// Size, where the piece or the file names one.
+    /// Size, if the piece or the file names one.
     pub size: Option<String>,
-    /// How many are cut, as written (`2`, or `1,1` for left and right).
+    /// Quantity to cut, as written: `2`, or `1,1` for left and right.
     pub quantity: Option<String>,
-    /// The other texts of the block as `(key, value)`; the key is empty for a text without one.
+    /// Other texts of the block as `(key, value)`. The key is empty for a text without one.
     pub texts: Vec<(String, String)>,
-    /// Closed outline (cut line where the file has a sew line too), counter-clockwise, first vertex not repeated.
+    /// Closed outline, counter-clockwise, first vertex not repeated. It is the cut line if the file has a sew line too.
     pub outline: Vec<V2>,
-    /// Length of the outline as the file draws it, m, where that had to be mended (loops and spikes cut away).
+    /// Length of the outline as drawn, m, if the outline was repaired: loops and spikes are cut away.
     pub drawn_perimeter_m: Option<f64>,
-    /// Whether the file drew the outline clockwise.
+    /// True if the file draws the outline clockwise.
     pub is_clockwise_in_file: bool,
     /// Turn points (corners), in the order of the file.
     pub turn_points: Vec<V2>,
@@ -56,13 +56,14 @@ pub struct Piece {
     pub notches: Vec<Notch>,
     /// Grain line from its first to its second end.
     pub grain: Option<[V2; 2]>,
-    /// Fold line of a half piece.
+    /// Mirror line (fold line) of a half piece.
     pub mirror_line: Option<[V2; 2]>,
-    /// Line along which grade rules have their x, from its first to its second end; horizontal without one.
+    /// Grade reference line, from its first to its second end. It is the x axis of the grade rules, which is horizontal
+    /// without such a line.
     pub grade_reference: Option<[V2; 2]>,
-    /// Points that a grade rule table moves.
+    /// Points that the grade rule table moves.
     pub grade_points: Vec<GradePoint>,
-    /// Lines drawn inside the outline (layer 8), open or closed.
+    /// Internal lines (layer 8), open or closed.
     pub internal_lines: Vec<Vec<V2>>,
     /// Closed lines along which holes are cut inside the outline.
     pub cut_outs: Vec<Vec<V2>>,
@@ -72,12 +73,12 @@ pub struct Piece {
     pub sew_line: Option<Vec<V2>>,
 }
 
-/// What a file says beside a piece.
+/// Context of a piece in its file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beside {
-    /// What it calls the garment and its sample size: such words in a name say nothing of the piece.
+    /// Names of the garment and its sample size. Such words in the name of a piece do not describe the piece.
     pub garment: Vec<String>,
-    /// The piece in every size, from the smallest; empty where the file holds one size.
+    /// The piece in every size, from the smallest. Empty if the file holds one size.
     pub sizes: Arc<[Piece]>,
 }
 
@@ -94,7 +95,7 @@ impl Piece {
         signed_area(&self.outline).abs()
     }
 
-    /// The line that is sewn: the sew line where there is one, else the outline (a net piece).
+    /// The line that is sewn: the sew line if there is one, otherwise the outline of a net piece.
     #[must_use]
     pub fn seam_outline(&self) -> &[V2] {
         self.sew_line.as_deref().unwrap_or(&self.outline)

@@ -1,7 +1,7 @@
-//! Lengths that leave the progression of their sizes.
+//! Lengths that break the grading progression of the sizes.
 //!
-//! A nest grows by grade steps, and a step is much like those beside it. A length that leaps says that a corner of it was
-//! found at another place than in the size before, or that a size was drawn otherwise.
+//! A nest grows by grade steps, and each step resembles its neighbours. An outlier among the steps says that a corner
+//! was found at another place than in the size before, or that a size was drawn differently.
 
 use std::collections::BTreeMap;
 
@@ -9,37 +9,37 @@ use crate::check::{Finding, FindingKind};
 use crate::style::Style;
 use geom::units::mm;
 
-/// Greatest step, over the greater of those beside it that go the same way.
+/// Greatest regular ratio of a step to the greater of its two neighbours that have the same sign.
 const GREATEST_RATIO: f64 = 3.0;
-/// Step that counts beside where nothing grows, m: as much as the sides of a seam may differ.
+/// Least step to compare with, m, for lengths that hardly grow. It is the tolerance for the sides of a seam.
 const LEAST_STEP_M: f64 = 1e-3;
-/// Sizes from which on a step is judged by those beside it alone: of two steps either may be the odd one.
+/// Number of sizes from which a step is judged by its neighbours alone. Of two steps either may be the outlier.
 const MANY_SIZES: usize = 4;
-/// Share of its step that an edge passes on to the next where the corner between them slips.
+/// Least share of its step that a neighbouring edge must lose, for the corner between them to count as slipped.
 const PASSED_ON: f64 = 0.5;
 
-/// A length that leaps from one size to the next.
+/// An outlier among the grade steps of a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leap {
-    /// Point of measure, or `piece.edge`.
+    /// Name of the point of measure, or `piece.edge`.
     pub length: String,
-    /// Both sizes, by their places.
+    /// Indices of both sizes.
     pub sizes: [usize; 2],
-    /// Its length in both, m.
+    /// Length in both sizes, m.
     pub lengths_m: [f64; 2],
-    /// Step over the greater of those beside it.
+    /// Ratio of the step to the greater of its neighbours.
     pub ratio: f64,
 }
 
 impl Leap {
-    /// The length in both sizes, for messages.
+    /// Text for messages with the length in both sizes.
     #[must_use]
     pub fn told(&self) -> String {
         let [before_mm, after_mm] = self.lengths_m.map(mm);
         format!("{} {before_mm:.1} to {after_mm:.1} mm ({:.1} times the steps beside it)", self.length, self.ratio)
     }
 
-    /// The leap as a finding, where `sizes` are the names of all sizes.
+    /// Finding for this leap. `sizes` are the names of all sizes.
     #[must_use]
     pub fn finding(&self, sizes: &[String]) -> Finding {
         let ([before, after], [before_mm, after_mm]) = (self.sizes.map(|size| &sizes[size]), self.lengths_m.map(mm));
@@ -51,13 +51,15 @@ impl Leap {
     }
 }
 
-/// Leaps of the points of measure and edges of a style from size to size, smallest first, the greatest ratio first. Of three sizes they
-/// are those of edges between which a corner slips: what one gains the next loses.
+/// Outliers among the grade steps of the points of measure and edges of a style, the greatest ratio first. `sizes` go
+/// from the smallest. With three sizes only edges count between which a corner slips: one gains what its neighbour
+/// loses.
 #[must_use]
 pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
     let mut lengths: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
     for (size, style) in sizes.iter().enumerate() {
-        let points = style.points_of_measure().into_iter().map(|one| (one.point.as_str().to_owned(), one.length_m));
+        let points =
+            style.points_of_measure().into_iter().map(|measure| (measure.point.as_str().to_owned(), measure.length_m));
         let edges = style.pieces.iter().flat_map(|piece| {
             piece
                 .edges
@@ -76,12 +78,12 @@ pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
     found
 }
 
-/// Whether an edge gains what one beside it loses.
+/// True if a neighbouring edge loses what the edge gains.
 fn slips(sizes: &[&Style], leap: &Leap) -> bool {
     let Some((id, edge)) = leap.length.split_once('.') else { return false };
     let edges = leap.sizes.map(|size| sizes[size].pieces.iter().find(|piece| piece.id == id).map(|piece| &piece.edges));
     let [Some(before), Some(after)] = edges else { return false };
-    let Some(k) = before.iter().position(|one| one.name.as_deref() == Some(edge)) else { return false };
+    let Some(k) = before.iter().position(|drawn| drawn.name.as_deref() == Some(edge)) else { return false };
     let step_m = |k: usize| after[k].line.length() - before[k].line.length();
     let count = before.len();
     let beside = [(k + 1) % count, (k + count - 1) % count];
@@ -89,18 +91,18 @@ fn slips(sizes: &[&Style], leap: &Leap) -> bool {
         && beside.into_iter().any(|other| -step_m(other) * step_m(k).signum() > PASSED_ON * step_m(k).abs())
 }
 
-/// Leaps of one length, m.
+/// Outliers among the grade steps of one length, m.
 fn leaps_of(name: &str, lengths_m: &[Option<f64>]) -> Vec<Leap> {
     let known: Vec<(usize, f64)> =
         lengths_m.iter().enumerate().filter_map(|(size, length_m)| Some((size, (*length_m)?))).collect();
     let steps: Vec<f64> = known.windows(2).map(|pair| pair[1].1 - pair[0].1).collect();
-    // A length that leaps in one size leaps back in the next: what goes the other way bears nothing out.
+    // A length that leaps in one size leaps back in the next. Only steps of the same sign are therefore comparable.
     let ratio = |k: usize| {
         let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|other| steps.get(other));
         let same_way = beside.map(|other| other * steps[k].signum()).fold(LEAST_STEP_M, f64::max);
         steps[k].abs() / same_way
     };
-    // One step alone has nothing beside it.
+    // A single step has no neighbours.
     let doubtful = (0..steps.len()).filter(|_| steps.len() > 1).map(|k| (k, ratio(k)));
     let leap = |(k, ratio): (usize, f64)| Leap {
         length: name.to_owned(),

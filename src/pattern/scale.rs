@@ -1,14 +1,14 @@
-//! Whether pieces have the size of a person's garment: a wrong unit makes them a doll's or a giant's.
+//! Check of the unit by the size of the pieces: a wrong unit makes them a doll's or a giant's.
 
 use super::dxf::Unit;
 use geom::V2;
 
-/// Length of the longest piece of a garment, m: a collar by itself has 0.3, the train of a wedding dress 4.
+/// Accepted length of the longest piece of a garment, m. A collar by itself has 0.3, the train of a wedding dress 4.
 const WORN_M: std::ops::RangeInclusive<f64> = 0.08..=6.0;
 /// Length of the longest piece of most garments, m.
 const USUAL_M: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 
-/// Greatest side of the box about an outline, m.
+/// Greatest side of the bounding box of an outline, m.
 #[must_use]
 pub fn extent_m(outline: &[V2]) -> f64 {
     let low = outline.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
@@ -16,8 +16,8 @@ pub fn extent_m(outline: &[V2]) -> f64 {
     if outline.is_empty() { 0.0 } else { (high - low).max() }
 }
 
-/// What a longest piece of this length says against the unit that it was read in, with the units that would do; `None` where
-/// somebody could wear it.
+/// Objection to the unit, given the length of the longest piece, with the units that would fit. `None` if a person
+/// could wear it.
 #[must_use]
 pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     if WORN_M.contains(&longest_m) {
@@ -32,12 +32,12 @@ pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     Some(format!("the longest piece is {} m long in {}{instead}", rounded(longest_m), unit.as_str()))
 }
 
-/// A length with two digits.
+/// Formats a length, m, for messages.
 fn rounded(length_m: f64) -> String {
     if length_m >= 10.0 { format!("{length_m:.0}") } else { format!("{length_m:.2}") }
 }
 
-/// What would be accepted instead of an absurd length.
+/// Text for messages: the accepted length of the longest piece, and the option that sets the unit.
 pub const ACCEPTED: &str = "0.08 to 6 m for a person; say the unit with --unit mm, cm, in or m";
 
 #[cfg(test)]

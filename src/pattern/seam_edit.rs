@@ -1,7 +1,7 @@
-//! Edits of a seam file that leave everything else of its text as it is, comments included.
+//! Edits of a seam file that leave the rest of its text as it is, comments included.
 //!
-//! Edges are named as in the file (`front.side_left`), by the number that the sheet shows (`front.3`), or by their
-//! corners (`front.3-5`, counter-clockwise as drawn); an edge that has no name yet gets one. A side of several edges is
+//! Edges are named as in the file (`front.side_left`), by the number that the drawing shows (`front.3`), or by their
+//! corners (`front.3-5`, counter-clockwise as drawn). An edge without a name is given one. A side of several edges is
 //! written with `+`, in order along the seam.
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
@@ -13,64 +13,64 @@ use super::seams::{RATIO_DOUBT, SAME_EASE, SeamEntry, SeamFile, StyleError};
 use super::style::Style;
 use geom::units::mm;
 
-/// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
+/// An edit of a seam file. A side is written `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Edit {
-    /// Sews two sides.
+    /// Adds a seam between two sides.
     Add {
         /// Edges of one side.
         a: String,
         /// Edges of the other side.
         b: String,
-        /// Name of the seam; made of the first edge's where none is given.
+        /// Name of the seam. Without one it is made of the first edge.
         name: Option<String>,
-        /// Whether a difference of their lengths is meant: it is written as ease.
+        /// True if a difference of their lengths is intended. It is then written as ease.
         is_eased: bool,
     },
-    /// Opens the seam between two edges.
+    /// Removes the seam between two edges.
     Remove {
         /// An edge of one side.
         a: String,
         /// An edge of the other side.
         b: String,
     },
-    /// Turns one side of the seam between two edges round.
+    /// Reverses one side of the seam between two edges.
     Flip {
         /// An edge of one side.
         a: String,
         /// An edge of the other side.
         b: String,
     },
-    /// Says that an edge is meant to be in no seam.
+    /// Lists an edge as `open`: it is in no seam on purpose.
     Open {
         /// Edge that stays free.
         edge: String,
     },
-    /// Leaves a piece out, with its seams.
+    /// Removes a piece and its seams.
     LeaveOut {
         /// Identifier of the piece that is left out.
         piece: String,
     },
-    /// Takes a drawn piece in that the file leaves out; what it is worn as is to be said.
+    /// Adds a drawn piece that the file leaves out. Its role is set by another edit.
     TakeIn {
         /// The piece, by its name or its block.
         drawn: String,
-        /// Whether it is worn twice, the second time mirrored: right and left.
+        /// True if it is worn twice, right and left, the second time mirrored.
         is_pair: bool,
     },
-    /// Says what a piece is worn as.
+    /// Sets the role of a piece.
     Role {
         /// Identifier of the piece.
         piece: String,
-        /// The role, as the file has it: `front`, `sleeve_right`.
+        /// Name of the role, such as `front` or `sleeve_right`.
         role: String,
     },
 }
 
-/// The sizes that a seam file is to hold for: the one that is worked on, and the others with their pieces.
+/// Sizes that share one seam file: the one that is edited, and the others with their pieces.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes<'a> {
-    /// The size that is worked on.
+    /// Name of the size that is edited.
     pub name: &'a str,
     /// Pieces of that size.
     pub pieces: &'a [Piece],
@@ -78,10 +78,10 @@ pub struct Sizes<'a> {
     pub others: &'a [(String, Vec<Piece>)],
 }
 
-/// The text of a seam file after an edit; `file` is its name for messages.
+/// Returns the text of a seam file after an edit. `file` is its name for messages.
 ///
 /// # Errors
-/// [`StyleError`] when the edit names what is not there, or when what it makes does not fit the pieces.
+/// [`StyleError`] if the edit names something that does not exist, or if its result does not fit the pieces.
 pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<String, StyleError> {
     let pieces = sizes.pieces;
     let entries = SeamFile::parse(text.as_bytes(), file)?;
@@ -116,7 +116,7 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
     Ok(text)
 }
 
-/// The edges of an outline between corners that follow each other.
+/// Entries for the edges between neighbouring corners of an outline with so many corners.
 fn edges_between(corners: usize) -> InlineTable {
     let edge = |k: usize| {
         let (from, to) = (k as i64, ((k + 1) % corners) as i64);
@@ -138,7 +138,7 @@ impl Editor<'_> {
         StyleError::Contradiction { file: self.file.to_owned(), place, found, accepted }
     }
 
-    /// The list of seams of the document, which is made where there is none.
+    /// The list of seams of the document. It is created if missing.
     fn seams(&mut self) -> Result<&mut ArrayOfTables, StyleError> {
         let refused = self.refused("seam", "a list in one line".to_owned(), "[[seam]] tables");
         let seams = self.document.entry("seam").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
@@ -158,7 +158,7 @@ impl Editor<'_> {
         let name = name.map_or_else(|| self.free_name(&a[0]), str::to_owned);
         let mut all = vec![(sizes.name.to_owned(), own)];
         for (size, pieces) in sizes.others {
-            // A size that the file does not fit anyway is told by the check.
+            // A size that the file does not fit anyway is reported by the check.
             all.extend(self.sides_in(pieces, [&a, &b]).map(|sides| (size.clone(), sides)));
         }
         let ease = self.ease(&name, &all, is_eased)?;
@@ -174,7 +174,7 @@ impl Editor<'_> {
         Ok(())
     }
 
-    /// Lengths of two sides in a size of other pieces, mm; `None` where the file as it is now does not fit them.
+    /// Lengths of two sides, mm, measured on the pieces of a size. `None` if the file as it is now does not fit them.
     fn sides_in(&self, pieces: &[Piece], sides: [&[String]; 2]) -> Option<[f64; 2]> {
         let mut entries = SeamFile::parse(self.document.to_string().as_bytes(), self.file).ok()?;
         entries.length_tolerance_mm = f64::INFINITY;
@@ -189,8 +189,8 @@ impl Editor<'_> {
         Some([a?, b?])
     }
 
-    /// What stands as the ease of a seam whose sides have these lengths by size, mm, that of the size worked on first; nothing where they
-    /// are alike in all.
+    /// Value of `ease_mm` for a seam. `all` has the lengths of both sides by size, mm, that of the edited size first.
+    /// `None` if both sides are equal in all sizes.
     fn ease(&self, name: &str, all: &[(String, [f64; 2])], is_eased: bool) -> Result<Option<Value>, StyleError> {
         let tolerance_mm = self.entries.length_tolerance_mm;
         let own = all.first().map_or(1.0, |(_, [a_mm, b_mm])| a_mm / b_mm);
@@ -237,7 +237,7 @@ impl Editor<'_> {
         if let Some(pieces) = self.document["piece"].as_table_like_mut() {
             pieces.remove(piece);
         }
-        let is_of = |edge: &str| edge.split_once('.').is_some_and(|(of, _)| of == piece);
+        let is_of = |edge: &str| edge.split_once('.').is_some_and(|(id, _)| id == piece);
         let touches = |seam: &Table| {
             let sides = ["a", "b"].into_iter().filter_map(|side| seam.get(side)?.as_array());
             sides.flatten().filter_map(|edge| edge.as_str()).any(is_of)
@@ -269,13 +269,13 @@ impl Editor<'_> {
             let id = self.free_id(&piece.name, hand);
             self.document["piece"][&id] = Item::Table(entry);
             let style = Style::read(pieces, self.document.to_string().as_bytes(), self.file)?;
-            let corners = style.pieces.iter().find(|one| one.id == id).map_or(2, |one| one.corners.len());
+            let corners = style.pieces.iter().find(|worn| worn.id == id).map_or(2, |worn| worn.corners.len());
             self.document["piece"][&id]["edges"] = value(edges_between(corners));
         }
         Ok(())
     }
 
-    /// A name in the file for a drawn piece: letters, digits and `_`.
+    /// Unused identifier for a drawn piece, of letters, digits and `_`.
     fn free_id(&self, drawn: &str, hand: &str) -> String {
         let words = drawn.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         let base = match words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("_") {
@@ -305,7 +305,7 @@ impl Editor<'_> {
         Err(self.unknown("piece", piece, &ids.join(", ")))
     }
 
-    /// A name for a seam that begins at an edge.
+    /// Unused name for a seam that begins at an edge.
     fn free_name(&self, edge: &str) -> String {
         let base = edge.replace('.', "_");
         let is_free = |name: &String| !self.entries.seam.iter().any(|seam| seam.name == *name);
@@ -313,12 +313,12 @@ impl Editor<'_> {
         std::iter::once(base.clone()).chain(numbered).find(is_free).unwrap_or(base)
     }
 
-    /// The edges of a side with their lengths, mm; those without a name are given one in the document.
+    /// Names and lengths, mm, of the edges of a side. Edges without a name are given one in the document.
     fn side(&mut self, side: &str) -> Result<Vec<(String, f64)>, StyleError> {
         side.split('+').map(|edge| self.edge(edge.trim())).collect()
     }
 
-    /// The name of an edge, which is given one where it has none, and its length, mm.
+    /// Name and length, mm, of an edge. An edge without a name is given one in the document.
     fn edge(&mut self, text: &str) -> Result<(String, f64), StyleError> {
         let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
         let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else {
@@ -357,7 +357,7 @@ impl Editor<'_> {
             return Err(self.unknown("edge", text, &accepted));
         };
         let known =
-            self.entries.piece[piece].edges.iter().find(|(_, of)| **of == corners).map(|(name, _)| name.clone());
+            self.entries.piece[piece].edges.iter().find(|(_, ends)| **ends == corners).map(|(name, _)| name.clone());
         let length_mm = self.length_between(piece, corners);
         let name = known.unwrap_or_else(|| self.named(piece, corners));
         Ok((format!("{piece}.{name}"), length_mm))
@@ -366,7 +366,7 @@ impl Editor<'_> {
     /// Length of the outline between two corners, counter-clockwise as drawn, mm.
     fn length_between(&self, piece: &str, [from, to]: [usize; 2]) -> f64 {
         let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else { return 0.0 };
-        // A mirrored piece is worn the other way round.
+        // A mirrored piece runs clockwise as drawn.
         let is_mirrored = self.entries.piece[piece].mirror;
         let [from, to] = if is_mirrored { [to, from] } else { [from, to] };
         let outline = drawn.outline();
@@ -379,7 +379,7 @@ impl Editor<'_> {
         (0..steps).map(|k| mm((outline[(first + k + 1) % n] - outline[(first + k) % n]).norm())).sum()
     }
 
-    /// Corners of an edge that lies between named ones, counter-clockwise as drawn.
+    /// Corners, counter-clockwise as drawn, of an unnamed edge between two named ones.
     fn unnamed_corners(&self, piece: &str, index: usize) -> [usize; 2] {
         let edges = &self.style.pieces.iter().find(|drawn| drawn.id == piece).map_or(&[][..], |drawn| &drawn.edges);
         let n = edges.len();
@@ -391,7 +391,7 @@ impl Editor<'_> {
         if self.entries.piece[piece].mirror { [after[1], before[0]] } else { [before[1], after[0]] }
     }
 
-    /// Names a stretch of outline in the document.
+    /// Adds a name for the outline between two corners to the document.
     fn named(&mut self, piece: &str, [from, to]: [usize; 2]) -> String {
         let name = format!("edge_{from}_{to}");
         let mut corners = Array::new();
@@ -401,7 +401,7 @@ impl Editor<'_> {
         name
     }
 
-    /// The seam that holds one edge on one side and the other on the other.
+    /// Index of the seam that has edge `a` on one side and edge `b` on the other.
     fn between(&self, a: &str, b: &str) -> Result<usize, StyleError> {
         let full = |text: &str| {
             let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
@@ -410,8 +410,8 @@ impl Editor<'_> {
             format!("{piece}.{}", numbered.unwrap_or_else(|| edge.to_owned()))
         };
         let (a, b) = (full(a), full(b));
-        let holds = |one: &[String], other: &[String]| one.contains(&a) && other.contains(&b);
-        let found = self.entries.seam.iter().position(|seam| holds(&seam.a, &seam.b) || holds(&seam.b, &seam.a));
+        let joins = |side: &[String], other: &[String]| side.contains(&a) && other.contains(&b);
+        let found = self.entries.seam.iter().position(|seam| joins(&seam.a, &seam.b) || joins(&seam.b, &seam.a));
         found.ok_or_else(|| {
             let seams: Vec<String> =
                 self.entries.seam.iter().map(|seam| format!("{} to {}", seam.a.join("+"), seam.b.join("+"))).collect();
@@ -574,8 +574,8 @@ mod tests {
         let sewn = edited(&text(), "a.toml", &sizes, &eased).expect("it is meant");
         let entries = SeamFile::parse(sewn.as_bytes(), "a.toml").expect("it reads");
         let ease = entries.seam.last().map(|seam| seam.ease_mm.clone()).expect("a seam");
-        let of = |size: &str| ease.of_size(size).expect("both sizes");
-        assert!(of("L") > of("S") + 1.0, "{ease}");
+        let ease_of = |size: &str| ease.of_size(size).expect("both sizes");
+        assert!(ease_of("L") > ease_of("S") + 1.0, "{ease}");
         for (size, pieces) in [("S", &small), ("L", &others[0].1)] {
             let entries = SeamFile { size: Some(size.to_owned()), ..entries.clone() };
             Style::of(pieces, &entries, "a.toml").unwrap_or_else(|error| panic!("{size}: {error}"));

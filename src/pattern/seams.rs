@@ -1,17 +1,18 @@
-//! The seam file: how the pieces of a style are named, sewn and measured. TOML, one file for all sizes.
+//! Seam file: names, roles, seams and measurements of the pieces of a style. It is TOML, one file for all sizes.
 //!
-//! `docs/reference.md` lists its keys, and a test holds that page to what is read here. `docs/patterns.md` has an example.
+//! `docs/reference.md` lists its keys, and a test compares that page with this module. `docs/patterns.md` has an
+//! example.
 //!
-//! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn, starting
-//! at the first turn point in the file. Where a file has no usable turn points, corners are the vertices at which the
-//! outline turns by 30 degrees or more, starting at its first vertex. Sizes may differ in what is marked and in what turns
-//! enough: where the entry has `corners_at`, edges count its corners, and each is found on the outline of a size by its
-//! place beside the others.
+//! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn. Corner 0
+//! is the first turn point in the file. If a file has no usable turn points, corners are the vertices at which the
+//! outline turns by 30 degrees or more, from its first vertex on. Sizes may differ in their turn points and angles. An
+//! entry with `corners_at` has corners of its own that its edges count. Each is found on the outline of a size by its
+//! relative position.
 //!
-//! **Directions.** Pieces are drawn seen from outside, so every edge runs counter-clockwise round its piece *as worn*
-//! (a mirrored piece's edges are turned round). The two sides of a seam therefore run against each other: `a` is walked
-//! forwards, `b` backwards, each chain in the order written. **Points** of an edge are `start`, `mid` (half its length)
-//! and `end`, in the direction of the edge as worn.
+//! **Directions.** Pieces are drawn as seen from outside, so every edge runs counter-clockwise round its piece *as
+//! worn*. The edges of a mirrored piece are reversed. The two sides of a seam therefore run against each other: `a` is
+//! walked forwards, `b` backwards, each chain in the order written. **Points** of an edge are `start`, `mid` (half its
+//! length) and `end`, in the direction of the edge as worn.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,25 +21,25 @@ use serde::{Deserialize, Serialize};
 
 use super::garment::{Band, MeasurementKind, Role};
 
-/// Why pieces and a seam file do not make a style.
+/// Error of making a style from pieces and a seam file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StyleError {
-    /// The seam file is not the TOML it should be.
+    /// The seam file is not valid TOML of the expected form.
     #[error("{file}: not a seam file: {reason}")]
     Syntax {
         /// Name of the seam file, for the message.
         file: String,
-        /// What the TOML reader found, with the line.
+        /// Message of the TOML reader, with the line.
         reason: String,
     },
-    /// A name that is not there.
+    /// A name that does not exist.
     #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
     Unknown {
         /// Name of the seam file, for the message.
         file: String,
         /// Entry of the seam file.
         place: String,
-        /// Kind of thing named.
+        /// Kind of the named thing.
         what: &'static str,
         /// Name that the entry has.
         found: String,
@@ -52,14 +53,14 @@ pub enum StyleError {
         file: String,
         /// Entry of the seam file.
         place: String,
-        /// What is wrong.
+        /// Description of the contradiction.
         found: String,
-        /// What would be accepted.
+        /// Description of what is accepted.
         accepted: String,
     },
 }
 
-/// Greatest difference of length between the two sides of a seam where the file names none, mm.
+/// Default of the greatest difference of length between both sides of a seam, mm.
 pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 
 /// A seam file.
@@ -68,40 +69,40 @@ pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 pub struct SeamFile {
     /// Name of the style.
     pub name: String,
-    /// Size that it was made on, where it holds for several.
+    /// Size that the file was made on, if it holds for several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Greatest difference of length between the two sides of a seam, mm.
+    /// Greatest difference of length between both sides of a seam, mm.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
-    /// Seam allowance of pieces whose file has only the cut line, mm.
+    /// Seam allowance of pieces for which the pattern file has only the cut line, mm.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub allowance_mm: f64,
-    /// Edges, `piece.edge`, that are meant to be in no seam; those that a measurement runs along need not be named.
+    /// Edges, `piece.edge`, that are in no seam on purpose. Edges with a measurement along them need no entry.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub open: Vec<String>,
-    /// Pieces by id; none in a file that only measures a pattern with its own seams.
+    /// Pieces by identifier. There is none in a file that only measures a pattern with seams of its own.
     #[serde(default)]
     pub piece: BTreeMap<String, PieceEntry>,
-    /// Which edges are sewn together.
+    /// Seams between edges.
     #[serde(default)]
     pub seam: Vec<SeamEntry>,
-    /// Lengths along the pattern that are compared with the drape.
+    /// Measurements: lengths on the pattern that are compared with the drape.
     #[serde(default)]
     pub measurement: Vec<MeasurementEntry>,
-    /// Edges that a rib, a tape, a hem or a band strengthens.
+    /// Edges reinforced by a rib, a tape, a hem or a band.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reinforce: Vec<ReinforceEntry>,
-    /// Pattern girths at body levels, by level.
+    /// Girths of the pattern, by level of the body.
     #[serde(default)]
     pub fit: BTreeMap<String, FitEntry>,
 }
 
 impl SeamFile {
-    /// Reads the bytes of a seam file; `file` is its name for messages.
+    /// Parses the bytes of a seam file. `file` is its name for messages.
     ///
     /// # Errors
-    /// [`StyleError::Syntax`] when they are not UTF-8 or not such TOML.
+    /// [`StyleError::Syntax`] if they are not UTF-8 or not valid TOML of this form.
     pub fn parse(bytes: &[u8], file: &str) -> Result<Self, StyleError> {
         let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
         let text = std::str::from_utf8(bytes).map_err(|error| syntax(format!("{error}; UTF-8 text is accepted")))?;
@@ -122,27 +123,27 @@ fn default_tolerance() -> f64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PieceEntry {
-    /// Block, or piece name, in the DXF file.
+    /// Name of the block or piece in the pattern file.
     pub block: String,
-    /// How it is worn.
+    /// Role of the piece.
     pub role: Role,
-    /// Worn as the mirror image of what is drawn.
+    /// True if the piece is worn as the mirror image of the drawing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub mirror: bool,
-    /// Corners that the edges count, counter-clockwise, as shares of the width and the height of the piece as drawn, on
-    /// the size that the file was made on; where there are none, the corners of each size count.
+    /// Corners, counter-clockwise, as shares of the width and height of the piece as drawn, on the size that the file
+    /// was made on. Without entries, each size has its own corners.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub corners_at: Vec<[f64; 2]>,
-    /// Seam allowance of edges by name, mm, where it is not that of the file.
+    /// Seam allowances of single edges, by name, mm, if they differ from that of the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub allowance_mm: BTreeMap<String, f64>,
-    /// Edges by name: first and last corner, counter-clockwise as drawn.
+    /// Edges by name, as first and last corner, counter-clockwise as drawn.
     pub edges: BTreeMap<String, [usize; 2]>,
 }
 
-/// Difference of the ratio of two sides between sizes that is asked about.
+/// Difference between sizes, in the ratio of both sides of a seam, from which the user is asked.
 pub(crate) const RATIO_DOUBT: f64 = 0.05;
-/// Share of the tolerance within which the ease of all sizes counts as one.
+/// Share of the length tolerance within which the ease of all sizes counts as equal.
 pub(crate) const SAME_EASE: f64 = 0.5;
 
 /// A seam between two chains of edges.
@@ -151,25 +152,25 @@ pub(crate) const SAME_EASE: f64 = 0.5;
 pub struct SeamEntry {
     /// Name of the seam, for messages.
     pub name: String,
-    /// One side, `piece.edge` each, in order along the seam.
+    /// Edges of one side, as `piece.edge`, in order along the seam.
     pub a: Vec<String>,
-    /// The other side.
+    /// Edges of the other side.
     pub b: Vec<String>,
-    /// Both sides run counter-clockwise round their pieces.
+    /// True if both sides run counter-clockwise round their pieces.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub same_direction: bool,
-    /// Length of `a` less length of `b`.
+    /// Ease, mm: length of `a` minus length of `b`.
     #[serde(default, skip_serializing_if = "Ease::is_none")]
     pub ease_mm: Ease,
 }
 
-/// Length of one side of a seam less that of the other, mm.
+/// Ease of a seam, mm: length of one side minus that of the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Ease {
-    /// The same in every size.
+    /// Equal in every size.
     Same(f64),
-    /// By the name of the size.
+    /// Different by size, with its name as key.
     BySize(BTreeMap<String, f64>),
 }
 
@@ -180,13 +181,13 @@ impl Default for Ease {
 }
 
 impl Ease {
-    /// Whether the sides are equally long in every size.
+    /// True if the sides are equally long in every size.
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The ease of a size, mm, whose name counts in upper and lower case alike; `None` of a size that is not named.
+    /// Ease of a size, mm. Its name matches in upper and lower case. `None` for a size without an entry.
     #[must_use]
     pub fn of_size(&self, size: &str) -> Option<f64> {
         match self {
@@ -218,48 +219,48 @@ pub struct MeasurementEntry {
     pub no: u32,
     /// Name for people to read, such as `Neck Opening`.
     pub name: String,
-    /// Loop or length.
+    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// Where it runs.
+    /// Parts of the path, in order.
     pub path: Vec<Stretch>,
 }
 
-/// Edges with a stiffness of their own.
+/// Reinforcement of edges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReinforceEntry {
-    /// Edges, `piece.edge` each.
+    /// Edges as `piece.edge`.
     pub edges: Vec<String>,
-    /// What strengthens them.
+    /// Kind of the reinforcement.
     pub kind: Band,
     /// Force per relative elongation, N.
     pub stiffness_n: f64,
-    /// Length of the band over that of the edge.
-    #[serde(default = "one")]
+    /// Ratio of the length of the band to that of the edge.
+    #[serde(default = "unstretched")]
     pub length_factor: f64,
 }
 
-fn one() -> f64 {
+fn unstretched() -> f64 {
     1.0
 }
 
-/// The girth of the pattern at a body level.
+/// Girth of the pattern at a level of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitEntry {
-    /// Where it runs.
+    /// Parts of the path, in order.
     pub path: Vec<Stretch>,
 }
 
-/// One stretch of a path.
+/// One part of a path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Stretch {
     /// Along an edge, `piece.edge`.
     Edge(String),
-    /// Straight across a piece between two points, `piece.edge.start|mid|end`.
+    /// Straight line across a piece between two points, each written `piece.edge.start`, `.mid` or `.end`.
     Line {
-        /// Both ends, as `piece.edge.start`, `.mid` or `.end`.
+        /// Both ends.
         line: [String; 2],
     },
 }

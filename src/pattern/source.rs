@@ -1,13 +1,13 @@
-//! A pattern file of any kind that is read: DXF, GarmentCode JSON, pattern features as JSON.
+//! Reading of pattern files of every supported kind: DXF, GarmentCode JSON, pattern features as JSON.
 
 use super::dxf::{self, CodePage, DxfError, PatternFile, Unit, UnitSource};
 use super::features::{self, FeaturesError};
 use super::garmentcode::{self, GarmentCodeError, Specification};
 
-/// Why a pattern file cannot be read.
+/// Error of reading a pattern file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SourceError {
-    /// A DXF file, or what is taken for one, cannot be read.
+    /// A file that is DXF, or taken for DXF, cannot be read.
     #[error(transparent)]
     Dxf(#[from] DxfError),
     /// A GarmentCode specification cannot be read.
@@ -18,18 +18,18 @@ pub enum SourceError {
     Features(#[from] FeaturesError),
 }
 
-/// Kind of a pattern file, as its first bytes tell.
+/// Kind of a pattern file, told by its first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// DXF, or nothing that is known.
+    /// DXF, or an unknown kind.
     Dxf,
-    /// GarmentCode JSON, with its seams.
+    /// GarmentCode JSON, which holds its seams.
     GarmentCode,
     /// Pattern features as JSON.
     Features,
 }
 
-/// What kind of file it is.
+/// Tells the kind of a file from its bytes.
 #[must_use]
 pub fn kind(bytes: &[u8]) -> Kind {
     let text = without_mark(bytes);
@@ -40,7 +40,8 @@ pub fn kind(bytes: &[u8]) -> Kind {
     }
 }
 
-/// Whether a JSON file is a pattern: features, or panels as GarmentCode writes them. Other JSON lies beside patterns too.
+/// True if a JSON file is a pattern: features, or panels as GarmentCode writes them. Patterns often lie beside JSON
+/// files of other kinds.
 #[must_use]
 pub fn is_json_pattern(bytes: &[u8]) -> bool {
     #[derive(serde::Deserialize)]
@@ -57,15 +58,15 @@ pub fn is_json_pattern(bytes: &[u8]) -> bool {
     features::is_features(text) || has_panels()
 }
 
-/// A text without the mark of UTF-8 and blanks before it.
+/// The text without the byte order mark and blanks at its beginning.
 fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start()
 }
 
-/// The pieces of a pattern file of any kind; `unit` says the unit of a DXF file, whatever it says itself.
+/// Reads the pieces of a pattern file of any kind. `unit` overrides the unit of a DXF file.
 ///
 /// # Errors
-/// [`SourceError`] as the reader of that kind says.
+/// [`SourceError`] of the reader for that kind.
 ///
 /// # Examples
 /// ```
@@ -91,12 +92,12 @@ pub fn read(bytes: &[u8], file: &str, unit: Option<Unit>) -> Result<PatternFile,
 }
 
 impl From<Specification> for PatternFile {
-    /// The panels as pieces; their seams are left behind.
+    /// Takes the panels as pieces, without their seams.
     fn from(specification: Specification) -> Self {
         Self {
             file: specification.file,
             format: "GarmentCode JSON".to_owned(),
-            // The places are metres already; the unit says how the numbers of the file were meant.
+            // The coordinates are metres already. The unit tells which one the file used.
             unit: if specification.mm_per_unit == 10.0 { Unit::Cm } else { Unit::Mm },
             unit_source: UnitSource::File,
             texts: Vec::new(),

@@ -1,15 +1,15 @@
-//! Tables as text (CSV): rows with their lines in the file, and cells that no spreadsheet computes.
+//! Tables as text (CSV): rows with their line numbers, and cells that no spreadsheet takes for formulas.
 //!
-//! A spreadsheet takes a cell that begins with `=`, `+`, `-` or `@` for a formula, unless it is a number. A text that begins
-//! so is written with an apostrophe before it. The readers of Toile take that apostrophe off again.
+//! A spreadsheet takes a cell that begins with `=`, `+`, `-` or `@` for a formula, unless it is a number. Such a text
+//! is written with an apostrophe before it. The readers of Toile remove that apostrophe again.
 
 use std::borrow::Cow;
 
 use csv::{ReaderBuilder, Trim};
 
-/// Signs that divide the columns of a table; the last where there is no telling.
+/// Possible column delimiters. The last one is used if none can be told.
 const DELIMITERS: [char; 3] = [';', '\t', ','];
-/// What formulas begin with.
+/// First characters of formulas.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
 /// A row of a table.
@@ -21,10 +21,10 @@ pub struct Row {
     pub cells: Vec<String>,
 }
 
-/// The text of a file, without a byte order mark.
+/// Decodes a file as UTF-8, without a byte order mark.
 ///
 /// # Errors
-/// The line of the first byte that is no UTF-8.
+/// The line number of the first byte that is not UTF-8.
 pub fn text(bytes: &[u8]) -> Result<&str, usize> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let mut lines = Lines::default();
@@ -33,8 +33,8 @@ pub fn text(bytes: &[u8]) -> Result<&str, usize> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// The rows of a table with columns divided by commas, semicolons or tabs, whatever its lines end in. Rows without any text
-/// are left out; rows may have different numbers of cells.
+/// Parses the rows of a table. Its columns are divided by commas, semicolons or tabs, with any kind of line end. Rows
+/// without text are left out, and rows may differ in their number of cells.
 #[must_use]
 pub fn rows(text: &str) -> Vec<Row> {
     let mut reader = ReaderBuilder::new()
@@ -45,10 +45,10 @@ pub fn rows(text: &str) -> Vec<Row> {
         .from_reader(text.as_bytes());
     let mut lines = Lines::default();
     let mut rows = Vec::new();
-    // Text in memory with rows of any length has none that cannot be read.
+    // Reading text from memory, with rows of any length, cannot fail.
     for record in reader.records().map_while(Result::ok) {
         let from = record.position().map_or(0, |position| position.byte() as usize);
-        // The reader takes the line ends before a record for a part of it.
+        // The CSV reader counts the line ends before a record as part of it.
         let ends = text[from..].bytes().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
         let line = lines.to(text.as_bytes(), from + ends);
         let cells: Vec<String> = record.iter().map(|cell| unguarded(cell).to_owned()).collect();
@@ -59,7 +59,7 @@ pub fn rows(text: &str) -> Vec<Row> {
     rows
 }
 
-/// What divides the columns: what the first line with text has most of, outside of quotes.
+/// Delimiter of the columns: the one that is most frequent in the first line with text, outside of quotes.
 fn delimiter(text: &str) -> u8 {
     let head = text.split(['\r', '\n']).find(|line| !line.trim().is_empty()).unwrap_or_default();
     let count = |mark: &char| head.split('"').step_by(2).map(|plain| plain.matches(*mark).count()).sum::<usize>();
@@ -74,7 +74,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// The line of a byte, from 1; places are asked for in their order.
+    /// Line number of a byte, from 1. Calls go from the beginning to the end.
     fn to(&mut self, bytes: &[u8], at: usize) -> usize {
         while self.at < at {
             let is_end = match bytes[self.at] {
@@ -88,14 +88,14 @@ impl Lines {
     }
 }
 
-/// A text as a cell that no spreadsheet computes.
+/// Text of a cell that no spreadsheet takes for a formula.
 #[must_use]
 pub fn guarded(text: &str) -> Cow<'_, str> {
     let is_plain = !begins_as_formula(text.trim_start_matches('\'')) || is_number(text);
     if is_plain { text.into() } else { format!("'{text}").into() }
 }
 
-/// The text of a cell.
+/// Text of a cell as it was before [`guarded`].
 fn unguarded(cell: &str) -> &str {
     let text = cell.strip_prefix('\'').filter(|text| begins_as_formula(text.trim_start_matches('\'')));
     text.unwrap_or(cell)
@@ -103,7 +103,7 @@ fn unguarded(cell: &str) -> &str {
 
 fn begins_as_formula(text: &str) -> bool {
     let text = text.trim();
-    // One sign alone is none.
+    // A single character is no formula.
     text.starts_with(FORMULA) && text.chars().nth(1).is_some()
 }
 
@@ -111,7 +111,7 @@ fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok() && !text.contains(|sign: char| sign.is_alphabetic() && !matches!(sign, 'e' | 'E'))
 }
 
-/// A row as a line of CSV; cells with commas, quotes or line ends are quoted.
+/// A row as a line of CSV. Cells with commas, quotes or line ends are quoted.
 #[must_use]
 pub fn line<'a>(cells: impl Iterator<Item = Cow<'a, str>>) -> String {
     let quoted = |cell: Cow<'a, str>| {
@@ -119,7 +119,7 @@ pub fn line<'a>(cells: impl Iterator<Item = Cow<'a, str>>) -> String {
         if needs { format!("\"{}\"", cell.replace('"', "\"\"")).into() } else { cell }
     };
     let line = cells.map(quoted).collect::<Vec<_>>().join(",");
-    // A line without text would be no row.
+    // An empty line would not be read as a row.
     if line.is_empty() { "\"\"\n".to_owned() } else { line + "\n" }
 }
 

@@ -1,14 +1,14 @@
-//! Opening a half piece at its fold (mirror) line.
+//! Unfolding of a half piece at its mirror line (fold line).
 
 use super::piece::{Notch, Piece};
 use geom::V2;
 
 /// Distance within which a vertex lies on the fold line, m.
 const ON_FOLD_M: f64 = 0.1e-3;
-/// Turn of the opened outline at an end of the fold line below which that end is no corner, degrees.
+/// Turning angle of the unfolded outline, degrees, below which an end of the mirror line is no corner.
 const CORNER_TURN_DEG: f64 = 10.0;
 
-/// A fold line: reflects points to the other half.
+/// Mirror line, which reflects points to the other half.
 struct Fold {
     from: V2,
     along: V2,
@@ -29,11 +29,12 @@ impl Fold {
         self.from + self.along * (2.0 * self.along.dot(&offset)) - offset
     }
 
-    /// Both halves of a closed outline, or `None` where no side of it lies along the fold.
+    /// Joins both halves of a closed outline. `None` if no side of it lies along the mirror line.
     fn opened(&self, outline: &[V2]) -> Option<Vec<V2>> {
         let n = outline.len();
         let is_on = |i: usize| self.distance(&outline[i % n]) < ON_FOLD_M;
-        // The fold is one run of vertices; the half piece begins at the run's last vertex and ends at its first.
+        // The vertices on the mirror line are consecutive. The half outline begins at the last of them and ends at the
+        // first.
         let last = (0..n).find(|&i| is_on(i) && !is_on(i + 1))?;
         let half_sides = (1..n).find(|&k| is_on(last + k))?;
         let rest_is_fold = (half_sides..=n).all(|k| is_on(last + k));
@@ -47,10 +48,11 @@ impl Fold {
 }
 
 impl Piece {
-    /// The whole piece where this one is half of it: its mirror line (layer 6) is a side of its outline.
+    /// Returns the whole piece if this one is a half piece, of which the mirror line (layer 6) is a side. `None` for a
+    /// piece that is whole.
     ///
-    /// Points, notches and lines are mirrored with it; an end of the fold line stays a turn point only where the opened
-    /// outline turns there. `None` for a piece that is whole already.
+    /// Points, notches and lines are mirrored too. An end of the mirror line stays a turn point only if the unfolded
+    /// outline turns there.
     #[must_use]
     pub fn unfolded(&self) -> Option<Self> {
         let fold = Fold::of(self)?;
@@ -96,7 +98,7 @@ impl Piece {
     }
 }
 
-/// Turn of an outline at its vertex nearest to a point, degrees; 180 where the point is not on it.
+/// Turning angle of an outline at a vertex, degrees. It is 180 if the point is no vertex.
 fn turn_deg(outline: &[V2], point: &V2) -> f64 {
     let n = outline.len();
     match (0..n).find(|&i| (outline[i] - point).norm() < ON_FOLD_M) {

@@ -1,14 +1,7 @@
-//! The women's dress: eleven lengths, one size; a sleeveless bodice down to the hip and a short pegged skirt.
+//! Women's dress, drafted from eleven lengths, in one size: a sleeveless bodice down to the hip and a short pegged
+//! skirt.
 //!
-//! Decisions where the numbers leave them open:
-//! - **Centre and side lengths `#3`, `#7`, `#8` are those of the whole dress**, skirt included. The bodice's centre back is
-//!   then 589.44 mm, that of the tee-top M to 0.05 mm, and the seam lies at the hip, where its 1104 mm belong; as lengths
-//!   of the bodice alone they would put the "waist" at mid-thigh.
-//! - Each skirt panel is a quarter of both girths wide on either side of its centre: with straight edges its side
-//!   would be 180.15 mm long, and 180.44 mm are printed.
-//! - Seam and hem are arcs that meet the sides nearly at right angles, so that the panels join without a point.
-//! - The bust is not printed: 960 mm, between the tee-tops M and L.
-//! - The neck is round and the back neck 45 mm deep: with less the armhole could not be 438 mm long.
+//! Choices that the published numbers leave open:
 
 use super::Draft;
 use super::marks::{mirrored, mirrored_notch, net, notch, notches_along};
@@ -23,11 +16,11 @@ const BUST_M: f64 = 0.960;
 /// Depth of the back neck below the side-neck points, m.
 const BACK_NECK_DROP_M: f64 = 0.045;
 
-/// The one size with its published lengths `#1` to `#11`, mm [T table 6-29].
+/// The single size with its published lengths `#1` to `#11`, mm [T table 6-29].
 pub(super) const SIZES: [(&str, [f64; 11]); 1] =
     [("ONE", [1036.40, 1104.24, 722.84, 437.95, 600.22, 58.41, 768.79, 605.61, 180.44, 179.35, 179.35])];
 
-/// Blocks `BODICE-FRONT`, `BODICE-BACK`, `SKIRT-FRONT` and `SKIRT-BACK`, all whole.
+/// Drafts the blocks `BODICE-FRONT`, `BODICE-BACK`, `SKIRT-FRONT` and `SKIRT-BACK`, all whole.
 pub(super) fn draft(size: &str, lengths_mm: [f64; 11]) -> Draft {
     let lengths = lengths_mm.map(from_mm);
     let [hem, seam, centre_front, armhole, neck, shoulder, centre_back, side, skirt_side, skirt_front, skirt_back] =
@@ -55,7 +48,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 11]) -> Draft {
     Draft::new("Womens dress", size, "JERSEY", pieces)
 }
 
-/// Half of the bodice's lower edge, an arc that meets the side at a right angle, and the underarm point.
+/// Half of the lower edge of the bodice, an arc at right angles to the side, and the underarm point.
 fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     let underarm = |flare: f64| {
         let lower = arc(half_seam, flare);
@@ -65,7 +58,8 @@ fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     (arc(half_seam, flare), underarm(flare))
 }
 
-/// A skirt panel, hem at `v = 0` on the centre line; `halves` are half its hem and half its seam.
+/// Drafts a skirt panel, its hem at `v = 0` on the centre line. The first argument after the name is half the hem and
+/// half the seam.
 fn skirt(block: &str, [half_hem, half_seam]: [f64; 2], centre: f64, side: f64) -> Piece {
     // An arc that falls by the slope of the side meets it at a right angle.
     let hem = arc(half_hem, -(half_seam - half_hem) / centre);

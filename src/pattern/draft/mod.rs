@@ -1,7 +1,7 @@
-//! Drafting: the four styles of the thesis, drawn so that their measurements are the published ones.
+//! Drafting of the four styles of the thesis, so that their measurements are the published ones.
 //!
-//! The pieces are **net**: layer 1 is the sew line, without allowances. What the published numbers leave open is decided,
-//! and the decision explained, in the module of each style.
+//! The pieces are **net**: layer 1 is the sew line, without allowances. The published numbers leave some choices open.
+//! The module of each style lists and explains them.
 
 mod dress;
 mod marks;
@@ -11,7 +11,7 @@ mod trunk;
 mod tshirt;
 
 use self::marks::finished;
-use super::dxf;
+use super::dxf::{Standard, write_pieces};
 use super::piece::Piece;
 
 pub use self::tshirt::{TSHIRT_SEAMS, TshirtSize, tshirt};
@@ -19,11 +19,11 @@ pub use self::tshirt::{TSHIRT_SEAMS, TshirtSize, tshirt};
 /// Drafted pieces of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
-    /// Name of the style, as its files begin: `tshirt`.
+    /// Name of the style, the prefix of its files: `tshirt`.
     pub style: String,
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Pieces with the sew line as outline, without allowances, m.
+    /// Pieces, with the sew line as outline and without allowances, m.
     pub pieces: Vec<Piece>,
 }
 
@@ -34,7 +34,17 @@ impl Draft {
     }
 }
 
-/// The styles that can be drafted.
+/// Writes a draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
+///
+/// The bytes depend on the draft only: no date is written.
+#[must_use]
+pub fn write(draft: &Draft) -> Vec<u8> {
+    let texts = [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size)];
+    let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    write_pieces(&draft.pieces, &texts, Standard::Aama)
+}
+
+/// Styles that can be drafted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// Men's V-neck T-shirt, sizes S, M and L.
@@ -51,7 +61,7 @@ impl Model {
     /// All styles that can be drafted.
     pub const ALL: [Self; 4] = [Self::Tshirt, Self::Trousers, Self::Teetop, Self::Dress];
 
-    /// Its name, with which its files begin.
+    /// Name, the prefix of its files.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -62,7 +72,7 @@ impl Model {
         }
     }
 
-    /// Its seam file, for all sizes.
+    /// Seam file, for all sizes.
     #[must_use]
     pub fn seams(self) -> &'static [u8] {
         match self {
@@ -73,7 +83,7 @@ impl Model {
         }
     }
 
-    /// Its sizes, smallest first, with their published pattern lengths `#1`, `#2` ..., mm.
+    /// Sizes, smallest first, with their published pattern lengths `#1`, `#2` ..., mm.
     #[must_use]
     pub fn published_mm(self) -> Vec<(&'static str, Vec<f64>)> {
         match self {
@@ -84,7 +94,7 @@ impl Model {
         }
     }
 
-    /// Drafts all its sizes, smallest first.
+    /// Drafts all sizes, smallest first.
     #[must_use]
     pub fn drafts(self) -> Vec<Draft> {
         match self {
@@ -95,12 +105,12 @@ impl Model {
         }
     }
 
-    /// Its files, by name: one DXF a size and the seam file.
+    /// Files by name: one DXF per size, and the seam file.
     #[must_use]
     pub fn files(self) -> Vec<(String, Vec<u8>)> {
         let drawing = |draft: &Draft| {
             let name = format!("{}-{}.dxf", self.as_str(), draft.size.to_lowercase());
-            (name, dxf::write(draft))
+            (name, write(draft))
         };
         let seams = (format!("{}.seams.toml", self.as_str()), self.seams().to_vec());
         self.drafts().iter().map(drawing).chain([seams]).collect()

@@ -3,11 +3,11 @@ use std::collections::BTreeMap;
 use super::trunk::SHOULDER_SLOPE_DEG;
 use super::*;
 use crate::curve::CURVE_SEGMENTS;
-use crate::{MeshQuality, Style};
+use crate::{MeshQuality, Style, dxf};
 use geom::polyline::self_crossing;
 use geom::units::{from_mm, mm};
 
-/// The style that the files of a draft make once read again.
+/// Style that the written files of a draft make.
 fn style(model: Model, (name, bytes): &(String, Vec<u8>)) -> Style {
     let file = dxf::read(bytes, name, None).expect("our own file reads");
     assert_eq!((file.refused.len(), file.warnings.len()), (0, 0), "{name}: {:?} {:?}", file.refused, file.warnings);
@@ -16,7 +16,7 @@ fn style(model: Model, (name, bytes): &(String, Vec<u8>)) -> Style {
 
 /// Every size of every style, with its published lengths.
 fn styles() -> Vec<(Model, Style, Vec<f64>)> {
-    let of = |model: Model| {
+    let sizes_of = |model: Model| {
         let sizes = model.published_mm();
         let files = model.files();
         assert_eq!(files.len(), sizes.len() + 1, "a file a size and the seams");
@@ -26,7 +26,7 @@ fn styles() -> Vec<(Model, Style, Vec<f64>)> {
             (model, style, lengths)
         })
     };
-    Model::ALL.into_iter().flat_map(of).collect()
+    Model::ALL.into_iter().flat_map(sizes_of).collect()
 }
 
 #[test]
@@ -42,12 +42,12 @@ fn the_files_sew_into_the_published_lengths() {
     }
 }
 
-/// Published pattern lengths by garment, size and number, from the table; the erroneous and the rejected are left out.
+/// Published pattern lengths by garment, size and number, from the table, without erroneous and rejected ones.
 fn published_table() -> Option<BTreeMap<(String, String, usize), f64>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/thesis/published_measurements.csv");
     let text = std::fs::read_to_string(path).ok()?;
     let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
-    // Tables 6-21 (a waist that is none) and 6-27 (two equal columns) are the ones the audit doubts.
+    // Tables 6-21 (a waist that is none) and 6-27 (two equal columns) are those that the audit doubts.
     let sound = rows.filter(|row| !["6-21", "6-27"].contains(&row[0]));
     let parsed = sound.map(|row| {
         let no = row[4].parse().expect("a number");

@@ -1,16 +1,9 @@
-//! The men's trousers: six lengths a size; a front and a back for each leg, without darts and waistband.
+//! Men's trousers, drafted from six lengths per size: a front and a back for each leg, without darts and waistband.
 //!
-//! Decisions where the numbers leave them open:
-//! - **Hip**: 40 mm more than the waist. Without darts a quarter can be taken in by no more than about 10 mm on the way
-//!   from hip to waist.
-//! - Front and back: the back is 20 mm wider at hem and knee, hip and waist (a quarter each); its fork is longer, in the
-//!   usual proportion of about 5 to 12.
-//! - The seat seam falls to a lower fork at the back, so that both inseams are equally long; the waist is scooped in
-//!   front and raised behind as far as the two crotch lengths ask.
-//! - Outseams are sewn hip to hip: both have the same length below and above the hip line.
+//! Choices that the published numbers leave open:
 //!
-//! A leg piece is drawn with the crease on `u = 0`, the outseam on `-u` and the hem at `v = 0`, as the right front is
-//! seen from outside; the right back is the mirror image of such a drawing.
+//! A leg piece is drawn with the crease on `u = 0`, the outseam on `-u` and the hem at `v = 0`. This is the right front
+//! as seen from outside. The right back is the mirror image of such a drawing.
 
 use super::Draft;
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notches_along};
@@ -37,7 +30,7 @@ pub(super) const SIZES: [(&str, [f64; 6]); 3] = [
     ("L", [252.24, 377.71, 788.12, 1037.83, 1031.43, 461.62]),
 ];
 
-/// Blocks `FRONT` and `BACK`, the right ones; the left are their mirror images.
+/// Drafts the blocks `FRONT` and `BACK` of the right leg. The left ones are their mirror images.
 pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
     let [crotch_front, crotch_back, inseam, outseam, waist, hem] = lengths_mm.map(from_mm);
     let hip = waist + HIP_OVER_WAIST_M;
@@ -52,7 +45,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
         proportions,
     };
     let front = plan(-1.0, crotch_front, FRONT);
-    // The crotch line is where the front's inseam ends; the hip line lies above it in both pieces.
+    // The inseam of the front ends at the crotch line. The hip line lies above it in both pieces.
     let crotch_line = bisect(0.5 * inseam, inseam, |v| length(&front.inseam_to(v)) - inseam);
     let hip_line = crotch_line + HIP_ABOVE_CROTCH_M;
     let front = Leg::solve(&front, crotch_line, hip_line, None);
@@ -62,7 +55,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
     Draft::new("Mens trousers", size, "TWILL", vec![front.piece("FRONT", &[0.0]), back_piece(&back)])
 }
 
-/// The right back: the drawing mirrored.
+/// Makes the right back: the mirror image of the drawing.
 fn back_piece(back: &Leg) -> Piece {
     let mut piece = back.piece("BACK", &[0.0, DOUBLE_NOTCH_M]);
     piece.outline = piece.outline.iter().rev().map(|&p| mirrored(p)).collect();
@@ -73,23 +66,23 @@ fn back_piece(back: &Leg) -> Piece {
     piece
 }
 
-/// In what front and back differ beside their girths.
+/// Proportions in which front and back differ, besides their girths.
 #[derive(Clone, Copy, Debug)]
 struct Proportions {
-    /// Length of the fork over the hip girth.
+    /// Ratio of the length of the fork to the hip girth.
     fork_share: f64,
-    /// Share of the fork by which the piece is set towards the outseam, so that it balances about the crease.
+    /// Share of the fork by which the piece is shifted towards the outseam, so that it balances about the crease.
     set_out: f64,
     /// Slant of the centre line from the vertical, degrees.
     slant_deg: f64,
-    /// Hollow of the inseam, m.
+    /// Depth of the hollow of the inseam, m.
     hollow: f64,
 }
 
 const FRONT: Proportions = Proportions { fork_share: 0.047, set_out: 0.5, slant_deg: 3.0, hollow: 0.006 };
 const BACK: Proportions = Proportions { fork_share: 0.115, set_out: 0.46, slant_deg: 5.0, hollow: 0.004 };
 
-/// What a leg piece is drawn from; widths and lengths in m.
+/// Dimensions of a leg piece, m.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     hem: f64,
@@ -112,14 +105,15 @@ impl Plan {
         V2::new(self.hem / 2.0 + KNEE_FLARE_M, self.inseam / 2.0 + KNEE_ABOVE_MIDDLE_M)
     }
 
-    /// From the knee point on one `side` (1: inseam, -1: outseam) on along the lower leg, by a third of the way to `end`.
+    /// Knee point and the next control point on one `side` (1: inseam, -1: outseam). The control point continues the
+    /// lower leg by a third of the distance to `end`.
     fn on_from_knee(&self, side: f64, end: V2) -> [V2; 2] {
         let knee = V2::new(side * self.knee().x, self.knee().y);
         let hem = V2::new(side * self.hem / 2.0, 0.0);
         [knee, knee + (knee - hem).normalize() * ((end - knee).norm() / 3.0)]
     }
 
-    /// The inseam from the hem to a fork at height `v`.
+    /// Inseam from the hem to a fork at height `v`.
     fn inseam_to(&self, v: f64) -> Vec<V2> {
         let fork = V2::new(self.hip - self.side() + self.fork, v);
         let [knee, above] = self.on_from_knee(1.0, fork);
@@ -129,7 +123,7 @@ impl Plan {
         line
     }
 
-    /// The outseam from the hem to the hip line at height `v`, which it crosses upright.
+    /// Outseam from the hem to the hip line at height `v`, where it is vertical.
     fn outseam_to(&self, v: f64) -> Vec<V2> {
         let hip = V2::new(-self.side(), v);
         let [knee, above] = self.on_from_knee(-1.0, hip);
@@ -141,23 +135,23 @@ impl Plan {
 
 /// The edges of a leg piece.
 struct Leg {
-    /// Hem to fork.
+    /// From hem to fork.
     inseam: Vec<V2>,
-    /// Fork to hip line, hip line to waist.
+    /// From fork to hip line, and from hip line to waist.
     crotch_lower: Vec<V2>,
     crotch_upper: Vec<V2>,
-    /// Centre to side.
+    /// From centre to side.
     waist: Vec<V2>,
-    /// Hem to hip line, hip line to waist.
+    /// From hem to hip line, and from hip line to waist.
     outseam_lower: Vec<V2>,
     outseam_upper: Vec<V2>,
-    /// Knee points are notched this far from the hem.
+    /// Arc length from the hem at which knee points are notched, m.
     knee_arc: f64,
 }
 
 impl Leg {
-    /// Draws a leg with its fork at one height and its hip line at another; `outseam_lower` is the length below the hip
-    /// line where the other piece sets it.
+    /// Drafts a leg with given heights of its fork and hip line. `outseam_lower` is the length below the hip line if
+    /// the other piece determines it.
     fn solve(plan: &Plan, fork_height: f64, hip_line: f64, outseam_lower: Option<f64>) -> Self {
         let inseam = plan.inseam_to(fork_height);
         let hip_at_side = outseam_lower.map_or(hip_line, |target| {
@@ -170,7 +164,7 @@ impl Leg {
         let upwards = V2::new(-slant.sin(), slant.cos());
         let seat = V2::new(plan.hip - plan.side(), hip_line);
         let rise = seat.y - fork.y;
-        // Square to the inseam, so that front and back forks join without a peak.
+        // The crotch curve begins square to the inseam, so that front and back forks join without a peak.
         let along_inseam = (fork - inseam[inseam.len() - 2]).normalize();
         let square = V2::new(-along_inseam.y, along_inseam.x);
         let crotch_lower = bezier([fork, fork + square * (0.45 * plan.fork), seat - upwards * (0.66 * rise), seat]);
@@ -202,7 +196,7 @@ impl Leg {
         }
     }
 
-    /// The piece, counter-clockwise from the hem at the outseam; `marks` are its crotch notches from the hip line up, m.
+    /// The piece, counter-clockwise from the hem at the outseam. `marks` are its crotch notches above the hip line, m.
     fn piece(&self, block: &str, marks: &[f64]) -> Piece {
         let reversed = |curve: &[V2]| -> Vec<V2> { curve.iter().rev().copied().collect() };
         let edges = [

@@ -1,4 +1,4 @@
-//! The upper body that T-shirt, tee-top and dress share: neck, shoulder, armhole and side, and the sleeve that fits it.
+//! Trunk block that T-shirt, tee-top and dress share: neck, shoulder, armhole and side, and the sleeve for it.
 
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notch, notches_along};
 use crate::curve::{bezier, bisect, length};
@@ -9,22 +9,22 @@ use geom::V2;
 pub const SHOULDER_SLOPE_DEG: f64 = 20.0;
 /// Front armhole length minus the mean of front and back, m.
 const ARMHOLE_BALANCE_M: f64 = 0.003;
-/// Share of an armhole from the underarm at which it is notched.
+/// Position of the armhole notch, as a share of the armhole from the underarm.
 const ARMHOLE_NOTCH_SHARE: f64 = 0.35;
 
 /// Shape of the front neckline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrontNeck {
-    /// Leaves the apex along its chord, so that the apex is a corner.
+    /// V neck: it leaves the apex along its chord, so that the apex is a corner.
     V,
-    /// Leaves the centre line at a right angle.
+    /// Round neck: it leaves the centre line at a right angle.
     Round,
 }
 
-/// What the upper body is drawn from; lengths in m.
+/// Dimensions of the trunk block, m.
 #[derive(Clone, Debug)]
 pub struct TrunkPlan {
-    /// Half of the lower edge, from the centre line (or, where it is straight, only its end) to the side.
+    /// Half of the lower edge, from the centre line to the side. A straight edge has only its end.
     pub lower: Vec<V2>,
     /// Top of the side.
     pub underarm: V2,
@@ -40,17 +40,17 @@ pub struct TrunkPlan {
     pub shoulder: f64,
     /// Length of the armhole, front and back together.
     pub armhole: f64,
-    /// How far the front and the back armhole run on square to the shoulder, in shares of their depth: the less, the
-    /// rounder at the underarm.
+    /// Lengths of the Bezier handles of the front and back armhole at the shoulder, square to it, as shares of their
+    /// depth. A shorter handle makes the underarm rounder.
     pub armhole_reach: [f64; 2],
-    /// Whether a sleeve is sewn in: then the armhole is notched, else the side.
+    /// True if a sleeve is sewn in. The armhole is then notched, otherwise the side.
     pub has_sleeve: bool,
 }
 
-/// Half front and half back, on the `u > 0` side of the centre line.
+/// Half front and half back, on the side `u > 0` of the centre line.
 pub struct Trunk {
     plan: TrunkPlan,
-    /// Curves, each from the centre outwards or from the shoulder down.
+    /// Curves, each from the centre outwards or from the shoulder downwards.
     pub front_neck: Vec<V2>,
     pub back_neck: Vec<V2>,
     pub front_armhole: Vec<V2>,
@@ -58,7 +58,7 @@ pub struct Trunk {
 }
 
 impl Trunk {
-    /// Finds the neck width that gives the neck opening and the scoops that give the armhole.
+    /// Solves for the neck width that gives the neck opening, and for the scoops that give the armhole.
     pub fn solve(plan: TrunkPlan) -> Self {
         let slope = SHOULDER_SLOPE_DEG.to_radians();
         let along_shoulder = V2::new(slope.cos(), -slope.sin());
@@ -102,7 +102,8 @@ impl Trunk {
         }
     }
 
-    /// The whole front: lower edge, left side, armhole, shoulder, neck, and back down the right.
+    /// The whole front. Its outline goes from the lower edge up one side, over armhole, shoulder and neck, and down the
+    /// other.
     pub fn front(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.front_armhole, &self.front_neck, &[0.0]);
         if self.plan.front_neck == FrontNeck::V {
@@ -111,14 +112,14 @@ impl Trunk {
         piece
     }
 
-    /// The whole back, with its double notches; its neck is one smooth curve.
+    /// The whole back, with its double notches. Its neck is one smooth curve.
     pub fn back(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.back_armhole, &self.back_neck, &[0.0, -DOUBLE_NOTCH_M]);
         piece.notches.push(notch(self.back_neck[0], 270.0));
         piece
     }
 
-    /// A whole piece; `marks` are the places of its armhole notches from the first of them, m.
+    /// A whole piece. `marks` are the offsets of its armhole notches from the first of them, m.
     fn both_halves(&self, block: &str, armhole: &[V2], neck: &[V2], marks: &[f64]) -> Piece {
         let (lower, bottom) = (&self.plan.lower, self.plan.bottom());
         let (tip, side_neck) = (armhole[0], neck[neck.len() - 1]);
@@ -152,8 +153,8 @@ impl Trunk {
         }
     }
 
-    /// The right sleeve: front half of the cap on `+u`, as long as the front armhole; back half likewise. The cap is
-    /// `cap_share` of the armhole's depth high and has no ease.
+    /// The right sleeve. The front half of the cap lies on `+u` and is as long as the front armhole, and the back half
+    /// likewise. The cap height is `cap_share` of the armhole depth, and the cap has no ease.
     pub fn sleeve(&self, cap_share: f64, opening: f64, underarm_seam: f64) -> Piece {
         let height = cap_share * (self.front_armhole[0].y - self.plan.underarm.y);
         let front = cap(height, length(&self.front_armhole));
@@ -186,14 +187,14 @@ impl TrunkPlan {
         self.lower[self.lower.len() - 1]
     }
 
-    /// Unit vector outwards at right angles to the side.
+    /// Unit vector outwards, normal to the side.
     fn square_to_side(&self) -> V2 {
         let side = (self.underarm - self.bottom()).normalize();
         V2::new(side.y, -side.x)
     }
 }
 
-/// Half a sleeve cap of a given height and length, from the underarm point on `+u` to the top.
+/// Half of a sleeve cap of given height and length, from the underarm point on `+u` to the top.
 fn cap(height: f64, target: f64) -> Vec<V2> {
     let curve = |width: f64| {
         bezier([

@@ -1,13 +1,6 @@
-//! The men's T-shirt: nine lengths a size.
+//! Men's T-shirt, drafted from nine lengths per size.
 //!
-//! Decisions where the numbers leave them open:
-//! - The neck is a **V**, as [T 6.2.1] says. The numbers agree: a neckline that leaves the apex along its chord and
-//!   meets the shoulder at a right angle, with a back neck 22 mm deep, gives half neck widths of 80.0, 80.1 and
-//!   80.2 mm for S, M and L, whereas a round neck 176 mm deep would be only about 142 mm wide.
-//! - **Sleeve length is the underarm seam.** Its published L3D hardly varies (119.1-119.4 mm over four subjects) as a
-//!   hanging seam does, and as a length from the cap top it would leave no room for the cap of a 504 mm armhole.
-//! - Sides are straight and vertical, so the girth at the underarm is the hem girth. Front and back share the shoulder
-//!   line; the front armhole is scooped deeper and 6 mm longer. The cap has no ease: it is as long as the armhole.
+//! Choices that the published numbers leave open:
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
@@ -16,7 +9,7 @@ use geom::units::from_mm;
 
 /// Depth of the back neck below the side-neck points, m.
 const BACK_NECK_DROP_M: f64 = 0.022;
-/// Cap height over armhole depth.
+/// Ratio of the cap height to the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.56;
 
 /// Seam file of the T-shirt, for all sizes.
@@ -37,7 +30,7 @@ impl TshirtSize {
     /// All sizes, smallest first.
     pub const ALL: [Self; 3] = [Self::S, Self::M, Self::L];
 
-    /// Its letter, as files and tables name it.
+    /// Letter of the size, as in files and tables.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -58,7 +51,8 @@ impl TshirtSize {
     }
 }
 
-/// Drafts the men's T-shirt: blocks `FRONT`, `BACK` and `SLEEVE` (the right one; the left is its mirror image).
+/// Drafts the blocks `FRONT`, `BACK` and `SLEEVE` of the men's T-shirt. The sleeve is the right one, and the left is
+/// its mirror image.
 #[must_use]
 pub fn tshirt(size: TshirtSize) -> Draft {
     let lengths = size.published_mm().map(from_mm);
@@ -67,7 +61,7 @@ pub fn tshirt(size: TshirtSize) -> Draft {
     Draft::new("Mens T-shirt", size.as_str(), "JERSEY", vec![trunk.front("FRONT"), trunk.back("BACK"), sleeve])
 }
 
-/// Front and back, hem at `v = 0`.
+/// Solves front and back, with the hem at `v = 0`.
 pub(super) fn trunk(lengths: &[f64; 9]) -> Trunk {
     let [hem, _, centre_front, centre_back, armhole, neck, side, shoulder, _] = *lengths;
     Trunk::solve(TrunkPlan {

@@ -1,7 +1,7 @@
-//! Names of the blocks that are written: one a piece, as readers of R12 take them.
+//! Names of written blocks, one per piece, as readers of DXF R12 accept them.
 //!
-//! R12 has names of 31 characters, of letters, digits, `$`, `-` and `_`. Some readers discard a file with another name,
-//! some a `$` too. Upper and lower case are one name. The true name of a piece stands in its texts.
+//! A name in R12 has at most 31 characters: letters, digits, `$`, `-` and `_`. Some readers discard a file with another
+//! name, and some one with a `$`. Upper and lower case count as equal. The true name of a piece stands in its texts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,16 +11,17 @@ use crate::piece::Piece;
 /// Most characters of a name in R12.
 const MOST_CHARS: usize = 31;
 
-/// A name of a block in R12: what is no letter or digit of any script, `-` or `_`, becomes `_`.
+/// Converts a name into a block name of R12. Characters other than letters and digits of any script, `-` and `_` become
+/// `_`.
 pub(crate) fn r12_name(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
     name.trim().chars().map(|c| if is_plain(c) { c } else { '_' }).take(MOST_CHARS).collect()
 }
 
-/// A name for the block of each piece, all different.
+/// Returns a block name for each piece. All of them differ.
 ///
-/// A piece keeps the name of its block where no other has it. Else it is called by that and its size, `FRONT_M`, as
-/// programs of the trade call the blocks of a nest. A number tells those of one name and size apart: `FRONT_M_2`.
+/// A piece keeps the name of its block if no other has it. Otherwise the name of its size is appended, `FRONT_M`, as
+/// CAD programs name the blocks of a nest. A number tells apart those of equal name and size: `FRONT_M_2`.
 pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     let own: Vec<String> = pieces.iter().map(own_name).collect();
     let mut alike: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -48,13 +49,13 @@ pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     names
 }
 
-/// The name of a piece's block, or its own where it is drawn in none.
+/// Name of the block of a piece, or the name of the piece if it is drawn outside all blocks.
 fn own_name(piece: &Piece) -> String {
     let named = [&piece.block, &piece.name].into_iter().find(|name| !name.trim().is_empty() && *name != NO_BLOCK);
     r12_name(named.map_or("PIECE", String::as_str))
 }
 
-/// A block's name without the size that stands in it after the piece's name.
+/// Name of a block without the size that follows the name of the piece in it.
 fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = &'n str>) -> &'n str {
     let after = block.strip_prefix(name).filter(|_| !name.is_empty());
     let is_size = after.is_some_and(|after| {
@@ -64,7 +65,7 @@ fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = 
     if is_size { &block[..name.len()] } else { block }
 }
 
-/// A name and what follows it, the name cut to leave room.
+/// Joins a name and its suffix. The name is clipped to leave room.
 fn joined(name: &str, after: &str) -> String {
     let after: String = after.chars().take(MOST_CHARS - 1).collect();
     let room = MOST_CHARS - after.chars().count();

@@ -1,11 +1,11 @@
-//! From the entities of one block to a piece.
+//! Conversion of the entities of one block into a piece.
 
 use std::collections::BTreeMap;
 
 use dxf::Block;
 use dxf::entities::{Entity, EntityType};
 
-use super::figures::{Figure, Placement, figure};
+use super::figures::{Curves, Figure, Placement, figure};
 use super::guard::Foreign;
 use super::outline::{
     LOOPS_SHARE, Line, MOST_LINES, TRIFLE_M2, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, text_mm,
@@ -19,17 +19,17 @@ use geom::units::mm;
 
 /// Least area of a piece, m2.
 const LEAST_AREA_M2: f64 = 1e-6;
-/// How deep blocks may be inserted in each other.
+/// Greatest depth of nested insertions of blocks.
 const DEEPEST_INSERT: usize = 8;
-/// Most entities and points of one piece that are looked at.
+/// Greatest number of entities and points of one piece that are read.
 const MOST_PARTS: usize = 400_000;
 
-/// The blocks of a file, for those that are inserted in others.
+/// Blocks of a file by name, to resolve insertions.
 #[derive(Clone, Debug)]
 pub struct Library<'d>(BTreeMap<String, Vec<&'d Block>>);
 
 impl<'d> Library<'d> {
-    /// The blocks by name, upper and lower case alike.
+    /// Collects blocks by name. Upper and lower case count as equal.
     pub fn of(blocks: &[&'d Block]) -> Self {
         let mut by_name: BTreeMap<String, Vec<&'d Block>> = BTreeMap::new();
         for block in blocks {
@@ -38,7 +38,7 @@ impl<'d> Library<'d> {
         Self(by_name)
     }
 
-    /// A block by its name; `None` where the file has none of it.
+    /// Finds a block by its name. `None` if the file has no such block.
     fn find(&self, name: &str) -> Result<Option<&'d Block>, String> {
         match self.0.get(&name.to_ascii_uppercase()).map(Vec::as_slice) {
             Some([block]) => Ok(Some(block)),
@@ -50,18 +50,18 @@ impl<'d> Library<'d> {
     }
 }
 
-/// A text of a block, with its place.
+/// A text of a block with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     /// Insertion point, m.
     pub at: V2,
-    /// What it says.
+    /// Content of the text.
     pub value: String,
-    /// Whether it is on a layer of inner lines, cut-outs or drill holes.
+    /// True if it is on the layer of internal lines, cut-outs or drill holes.
     is_inner: bool,
 }
 
-/// What a block draws, by AAMA layer, in metres.
+/// Drawing of a block, by AAMA layer, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// Boundary (layer 1).
@@ -76,26 +76,26 @@ pub struct Drawn {
     turn_points: Vec<V2>,
     curve_points: Vec<V2>,
     notches: Vec<Notch>,
-    /// Texts with their places.
+    /// Texts with their positions.
     pub texts: Vec<Text>,
-    /// Blocks that are inserted and not there.
+    /// Names of inserted blocks that the file does not hold.
     missing: Vec<String>,
-    /// What cannot be read on layers 1 and 14, and why.
+    /// Descriptions of what cannot be read on layers 1 and 14, with the reason.
     pub unreadable: Vec<String>,
     /// Curves that were flattened, by kind.
     pub flattened: BTreeMap<&'static str, usize>,
-    /// Entities that are not used, by layer.
+    /// Number of unused entities by layer.
     pub unused: BTreeMap<String, usize>,
-    /// Lines on the boundary drawn a second time.
+    /// Boundary lines that duplicate another one.
     copies: Vec<Line>,
-    /// Number of entities that are used, texts aside.
+    /// Number of used entities, without texts.
     used: usize,
-    /// Points and entities so far.
+    /// Number of points and entities so far.
     parts: usize,
 }
 
 impl Drawn {
-    /// Sorts entities by layer; blocks inserted among them are drawn where they are inserted.
+    /// Sorts entities by layer. Inserted blocks are drawn at their insertion points.
     pub fn collect<'e>(
         entities: impl IntoIterator<Item = &'e Entity>,
         placement: &Placement,
@@ -112,12 +112,12 @@ impl Drawn {
         drawn
     }
 
-    /// Whether nothing at all is drawn (model and paper space of some writers).
+    /// True if nothing is drawn at all, as in the model and paper space of some writers.
     pub fn is_empty(&self) -> bool {
         self.is_no_piece() && self.texts.is_empty() && self.unused.is_empty()
     }
 
-    /// Whether nothing is drawn on a layer that a piece is drawn on.
+    /// True if nothing is drawn on the layers of a piece.
     pub fn is_no_piece(&self) -> bool {
         self.used == 0 && self.unreadable.is_empty()
     }
@@ -136,7 +136,7 @@ impl Drawn {
                 self.unreadable.push(format!("more than {MOST_PARTS} points; accepted: fewer"));
                 return;
             }
-            // What a block draws on layer 0 takes the layer of its insertion [DXF reference, BLOCKS].
+            // Entities on layer 0 of a block take the layer of its insertion [DXF reference, BLOCKS].
             let own = entity.common.layer.trim();
             let layer = layer_of_insert.filter(|_| own == "0").unwrap_or(own);
             let EntityType::Insert(insert) = &entity.specific else {
@@ -180,7 +180,7 @@ impl Drawn {
         };
         match figure {
             Figure::Text { .. } | Figure::Label => return,
-            Figure::Line { points, is_closed, curves: (count, kind) } => {
+            Figure::Line { points, is_closed, curves: Curves { count, kind } } => {
                 self.parts += points.len();
                 if count > 0 {
                     *self.flattened.entry(kind).or_default() += count;
@@ -221,7 +221,7 @@ impl Drawn {
         self.used += 1;
     }
 
-    /// Adds what the block draws in kinds of entities that are not read.
+    /// Adds the entities of the block that are of unsupported kinds.
     pub fn add_foreign(&mut self, foreign: &Foreign<'_>) {
         for (&(layer, kind), &count) in foreign {
             if layer == b"1" || layer == b"14" {
@@ -238,7 +238,7 @@ impl Drawn {
         *self.unused.entry(layer.to_owned()).or_default() += 1;
     }
 
-    /// The lines of a layer that holds lines; those of layer 8 for any other.
+    /// Lines of a layer. Those of layer 8 stand for any other.
     fn lines_of(&mut self, layer: &str) -> &mut Vec<Line> {
         match layer {
             "1" => &mut self.boundary,
@@ -251,8 +251,8 @@ impl Drawn {
         }
     }
 
-    /// The boundary, joined. A line that is drawn twice counts once, unless the outline closes only over both: then they are the two
-    /// sides of a slit.
+    /// Joins the boundary into one outline. A duplicate line counts once, unless the outline closes only over both:
+    /// they are then the two sides of a slit.
     fn outline(&self, block: &str, remarks: &mut Vec<String>) -> Result<Vec<V2>, String> {
         let once = joined(&self.boundary, "outline (layer 1)");
         if self.copies.is_empty() {
@@ -260,7 +260,7 @@ impl Drawn {
         }
         let what = "outline (layer 1)";
         let both = || joined(&[&self.boundary[..], &self.copies[..]].concat(), what);
-        // A slit of one line, drawn there and back, ends where it begins: the outline goes on without it.
+        // A slit that is drawn there and back as one line ends where it begins. The outline is closed without it.
         let neither = || {
             let is_single = |line: &&Line| !self.copies.iter().any(|copy| copy.is_drawn_again_by(line));
             joined(&self.boundary.iter().filter(is_single).cloned().collect::<Vec<_>>(), what)
@@ -276,10 +276,10 @@ impl Drawn {
         Ok(outline)
     }
 
-    /// The piece that the block draws; what a user should know of it is added to `remarks`.
+    /// Makes the piece of the block. Remarks for the user are added to `remarks`.
     ///
     /// # Errors
-    /// A sentence that says why it is no usable piece, with the place in millimetres.
+    /// The reason why it is no usable piece, with the place in millimetres.
     pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
         if let Some(reason) = std::mem::take(&mut self.unreadable).into_iter().next() {
             return Err(reason);
@@ -348,7 +348,7 @@ impl Drawn {
         })
     }
 
-    /// The size that its texts name.
+    /// Size that the texts name.
     pub fn size(&self) -> Option<String> {
         let texts = self.texts.iter().map(|text| key_and_value(&text.value));
         texts
@@ -357,7 +357,7 @@ impl Drawn {
             .next()
     }
 
-    /// A place of what is drawn; of its first entity where there are several.
+    /// A point of the drawing. If several entities are drawn, it is on the first of them.
     pub fn place(&self) -> Option<V2> {
         let lines = [&self.boundary, &self.sew_lines, &self.internal, &self.cut_outs];
         let more = [&self.grain, &self.mirror, &self.grade_reference];
@@ -372,7 +372,7 @@ impl Drawn {
             .next()
     }
 
-    /// What a user should know of how the block was read.
+    /// Remarks for the user on the reading of the block.
     pub fn remarks(&self, block: &str) -> Vec<String> {
         let error_mm = mm(super::curves::CHORD_ERROR_M);
         let mut remarks = Vec::new();
@@ -389,12 +389,12 @@ impl Drawn {
     }
 }
 
-/// Layers that a piece is drawn on.
+/// True for the layers of a piece.
 fn is_used(layer: &str) -> bool {
     matches!(layer, "1" | "2" | "3" | "4" | "5" | "6" | "7" | "8" | "11" | "13" | "14" | "80" | "81" | "82" | "83")
 }
 
-/// A notch drawn as a line from the edge inwards.
+/// Reads a notch that is drawn as a line from the edge inwards.
 fn notch(line: &Line) -> Notch {
     let [at, inner] = line.ends();
     let cut = inner - at;
@@ -402,20 +402,20 @@ fn notch(line: &Line) -> Notch {
     Notch { at, depth_m: Some(cut.norm()), angle_deg }
 }
 
-/// The middle of points' extent.
+/// Centre of the bounding box of some points.
 fn middle(points: &[V2]) -> V2 {
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
     (low + high) * 0.5
 }
 
-/// The point that a text `# n` gives grade rule `n`.
+/// Grade point of a text `# n`: rule `n` applies at its position.
 fn grade_point(text: &Text) -> Option<GradePoint> {
     let rule = text.value.trim().strip_prefix('#')?.trim().parse().ok()?;
     Some(GradePoint { at: text.at, rule, is_inner: text.is_inner })
 }
 
-/// `(key, value)` texts of a set of entities.
+/// Texts of a set of entities as `(key, value)`.
 pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, String)> {
     let text = |entity: &'e Entity| match &entity.specific {
         EntityType::Text(text) => Some(key_and_value(&text.value)),
@@ -424,7 +424,7 @@ pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, Str
     entities.filter_map(text).collect()
 }
 
-/// `Key: value` apart; a text without a key has the key `""`.
+/// Splits `Key: value`. A text without a key has the key `""`.
 pub fn key_and_value(text: &str) -> (String, String) {
     match text.split_once(':') {
         Some((key, value)) => (key.trim().to_owned(), value.trim().to_owned()),

@@ -1,23 +1,23 @@
-//! Code pages of texts, by all the names that programs give them.
+//! Code pages of texts, by all the names that programs use for them.
 
 use encoding_rs::Encoding;
 use oem_cp::code_table::{DECODING_TABLE_CP_MAP, ENCODING_TABLE_CP_MAP};
 use oem_cp::encode_string_lossy;
 
-/// How texts are written.
+/// Character encoding of texts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CodePage {
-    /// An encoding of the web, among them all of Windows and ISO 8859.
+    /// An encoding of the WHATWG standard, which include those of Windows and ISO 8859.
     Web(&'static Encoding),
-    /// A code page of DOS, by its number.
+    /// An OEM (DOS) code page, by its number.
     Dos(u16),
 }
 
-/// Words before the number of a code page.
+/// Prefixes before the number of a code page.
 const PREFIXES: [&str; 8] = ["ANSI", "WINDOWS", "WIN", "CP", "DOS", "OEM", "IBM", "MS"];
 
 impl CodePage {
-    /// The code page of a name: `ANSI_1252`, `iso8859-1`, `8859_1`, `dos850`, `gb2312`, `utf8`, ...
+    /// Finds a code page by name: `ANSI_1252`, `iso8859-1`, `8859_1`, `dos850`, `gb2312`, `utf8`, ...
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let web = |label: &str| Encoding::for_label(label.as_bytes()).map(Self::Web);
@@ -47,7 +47,7 @@ impl CodePage {
         }
     }
 
-    /// The text that bytes of the file stand for.
+    /// Decodes bytes of the file.
     #[must_use]
     pub fn decoded(self, bytes: &[u8]) -> String {
         match self {
@@ -59,7 +59,7 @@ impl CodePage {
         }
     }
 
-    /// A text as the bytes that it was read from.
+    /// Encodes a text into the bytes that it was read from.
     #[must_use]
     pub fn encoded(self, text: &str) -> Vec<u8> {
         match self {
@@ -71,7 +71,7 @@ impl CodePage {
         }
     }
 
-    /// Whether it is UTF-8.
+    /// True for UTF-8.
     #[must_use]
     pub fn is_utf8(self) -> bool {
         self == Self::Web(encoding_rs::UTF_8)

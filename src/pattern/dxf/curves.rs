@@ -1,7 +1,7 @@
-//! Curved entities as chains of chords: bulges, arcs, ellipses and splines [DXF reference].
+//! Flattening of curved entities into chains of chords: bulges, arcs, ellipses and splines [DXF reference].
 //!
-//! Chords stay within [`CHORD_ERROR_M`] of the curve and turn by so little that the length of a flattened arc is right
-//! to 0.004 %.
+//! Chords stay within [`CHORD_ERROR_M`] of the curve. Each turns so little that the length of a flattened arc is
+//! accurate to 0.004 %.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,16 +9,17 @@ use geom::V2;
 
 /// Greatest distance of a chord from its curve, m.
 pub const CHORD_ERROR_M: f64 = 0.01e-3;
-/// Greatest turn over one chord, radians: a chord is shorter than its arc by the square of this over 24.
+/// Greatest turning angle over one chord, radians. The relative error of the length of a chord is its square over 24.
 const MOST_TURN: f64 = 0.03;
-/// How often a spline's span is halved at most.
+/// Greatest number of bisections of a span of a spline.
 const MOST_HALVINGS: usize = 10;
-/// Greatest degree of a spline; DXF writers use 3, and de Boor's scheme takes the square of it.
+/// Greatest degree of a spline. DXF writers use 3, and the cost of de Boor's scheme is quadratic in it.
 const MOST_DEGREE: usize = 25;
 
-/// Points after `start` up to `end` of the arc whose sagitta is `bulge` halves of its chord, left of it negative.
+/// Points of an arc after `start` up to and including `end`. `bulge` is its sagitta over half of its chord. It is
+/// negative for an arc to the left of the chord.
 ///
-/// The bulge is the tangent of a quarter of the turn [DXF reference, LWPOLYLINE].
+/// The bulge is the tangent of a quarter of the included angle [DXF reference, LWPOLYLINE].
 pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
     let turn = 4.0 * bulge.atan();
     let chord = end - start;
@@ -26,7 +27,7 @@ pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
     if half_sine == 0.0 || chord.norm() == 0.0 {
         return vec![end];
     }
-    // The centre lies on the chord's bisector; `left` is at right angles to the chord.
+    // The centre lies on the perpendicular bisector of the chord.
     let left = V2::new(-chord.y, chord.x);
     let centre = start + chord * 0.5 + left * (0.5 / (0.5 * turn).tan());
     let from = start - centre;
@@ -36,7 +37,8 @@ pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
     points
 }
 
-/// A circular arc counter-clockwise from one direction to another, degrees; a full circle where both are the same.
+/// Points of a circular arc, counter-clockwise from one direction to another, degrees. Equal directions give a full
+/// circle.
 pub fn arc(centre: V2, radius: f64, degrees: [f64; 2], tolerance: f64) -> Vec<V2> {
     let [from, to] = degrees.map(f64::to_radians);
     let turn = full_turn(to - from);
@@ -45,26 +47,28 @@ pub fn arc(centre: V2, radius: f64, degrees: [f64; 2], tolerance: f64) -> Vec<V2
     (0..=count).map(|k| centre + rotated(start, turn * k as f64 / count as f64)).collect()
 }
 
-/// A circle; its first point is not repeated.
+/// Points of a circle, the first not repeated.
 pub fn circle(centre: V2, radius: f64, tolerance: f64) -> Vec<V2> {
     let mut points = arc(centre, radius, [0.0, 0.0], tolerance);
     points.pop();
     points
 }
 
-/// An elliptic arc between two parameters, radians; `major` is the half axis, `ratio` the minor axis over it.
+/// Points of an elliptic arc between two parameters, radians. `major` is the semi-major axis, `ratio` that of the minor
+/// to the major axis.
 pub fn ellipse(centre: V2, major: V2, ratio: f64, parameters: [f64; 2], tolerance: f64) -> Vec<V2> {
     let minor = V2::new(-major.y, major.x) * ratio;
     let turn = full_turn(parameters[1] - parameters[0]);
-    // Curvature is greatest at the ends of the longer axis; steps there are too fine elsewhere, which does no harm.
+    // The curvature is greatest at the ends of the longer axis. Steps that suit it are too fine elsewhere, which does
+    // no harm.
     let longest = major.norm().max(minor.norm());
     let eccentric = ratio.abs().max(1.0 / ratio.abs()).min(1.0 / MOST_TURN);
     let count = (steps(turn, longest, tolerance) as f64 * eccentric).ceil() as usize;
-    let at = |k: usize| parameters[0] + turn * k as f64 / count as f64;
-    (0..=count).map(|k| centre + major * at(k).cos() + minor * at(k).sin()).collect()
+    let parameter_at = |k: usize| parameters[0] + turn * k as f64 / count as f64;
+    (0..=count).map(|k| centre + major * parameter_at(k).cos() + minor * parameter_at(k).sin()).collect()
 }
 
-/// A turn between two directions, counter-clockwise; no turn is a whole one.
+/// Angle between two directions, counter-clockwise, radians. Equal directions give a full turn.
 fn full_turn(turn: f64) -> f64 {
     let turn = turn.rem_euclid(TAU);
     if turn < 1e-9 { TAU } else { turn }
@@ -80,20 +84,20 @@ fn rotated(vector: V2, angle: f64) -> V2 {
     V2::new(cosine * vector.x - sine * vector.y, sine * vector.x + cosine * vector.y)
 }
 
-/// A spline, rational where it has weights.
+/// A B-spline. It is rational if it has weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     degree: usize,
     knots: Vec<f64>,
-    /// Control points times their weights, and the weights.
+    /// Homogeneous control points: each point times its weight, and the weight.
     control: Vec<(V2, f64)>,
 }
 
 impl Spline {
-    /// A spline of a degree.
+    /// Makes a spline of the given degree.
     ///
     /// # Errors
-    /// A sentence where knots, weights and control points do not belong together.
+    /// A sentence for messages if knots, weights and control points do not match.
     pub fn new(degree: i32, knots: &[f64], control: &[V2], weights: &[f64]) -> Result<Self, String> {
         let of_degree = usize::try_from(degree).ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
         let Some(degree) = of_degree else {
@@ -123,7 +127,7 @@ impl Spline {
         Ok(Self { degree, knots: knots.to_vec(), control })
     }
 
-    /// The point at a parameter within a span of the knots, by de Boor's scheme [de Boor].
+    /// Point at the parameter `u` within a knot span, by de Boor's scheme [de Boor].
     fn at(&self, span: usize, u: f64) -> V2 {
         let p = self.degree;
         let mut points = self.control[span - p..=span].to_vec();
@@ -138,7 +142,7 @@ impl Spline {
         points[p].0 / points[p].1
     }
 
-    /// The curve from its first to its last knot that counts.
+    /// Flattens the curve over its valid knot spans.
     pub fn flattened(&self, tolerance: f64) -> Vec<V2> {
         let mut points = Vec::new();
         for span in self.degree..self.control.len() {
@@ -156,7 +160,7 @@ impl Spline {
         points
     }
 
-    /// Adds the points after the first end of a stretch, halved until chords follow it.
+    /// Adds the points of a part of a span after its first end. It is bisected until the chords follow the curve.
     fn halve(&self, span: usize, ends: [(f64, V2); 2], tolerance: f64, halvings: usize, points: &mut Vec<V2>) {
         let [(from, start), (to, end)] = ends;
         let middle = 0.5 * (from + to);
@@ -166,7 +170,7 @@ impl Spline {
         let turn = |k: usize| (chain[k + 1] - chain[k]).angle(&(chain[k + 2] - chain[k + 1]));
         let is_straight = inner.iter().all(|point| off(point) <= tolerance)
             && ((end - start).norm() <= tolerance || (0..3).map(turn).sum::<f64>() <= MOST_TURN);
-        // The first look is never the last: a curve that swings to both sides may pass through its chord.
+        // At least one bisection is made. A curve with an inflection may pass through its chord.
         if (is_straight && halvings < MOST_HALVINGS) || halvings == 0 {
             return points.push(end);
         }

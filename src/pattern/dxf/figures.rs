@@ -1,4 +1,4 @@
-//! What one entity draws: lines with their curves flattened, points, texts, and blocks inserted in others.
+//! Geometry of one entity: lines with flattened curves, points, texts, and the placement of inserted blocks.
 
 use dxf::entities::{Entity, EntityType, Insert};
 use dxf::{Point, Vector};
@@ -11,19 +11,19 @@ const CLOSED: i32 = 1;
 const MESH: i32 = 16 | 64;
 const FRAME_OF_SPLINE: i32 = 16;
 
-/// Where a block's drawing lies: an affine map into the piece, in metres.
+/// Placement of the drawing of a block: an affine map into the piece, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Image of a unit step along x.
+    /// Image of the unit vector along x.
     x: V2,
-    /// Image of a unit step along y.
+    /// Image of the unit vector along y.
     y: V2,
     /// Image of the origin.
     origin: V2,
 }
 
 impl Placement {
-    /// File units turned into metres, nothing moved.
+    /// Scales file units to metres.
     pub fn scaled(scale: f64) -> Self {
         Self { x: V2::new(scale, 0.0), y: V2::new(0.0, scale), origin: V2::zeros() }
     }
@@ -33,20 +33,21 @@ impl Placement {
         self.origin + self.vector(point)
     }
 
-    /// Image of a step.
+    /// Image of a vector.
     fn vector(&self, step: V2) -> V2 {
         self.x * step.x + self.y * step.y
     }
 
-    /// How much longer a step becomes at most.
+    /// Length of the longer image of the two unit vectors.
     fn scale(&self) -> f64 {
         self.x.norm().max(self.y.norm())
     }
 
-    /// Seen from behind where the entity's normal points down: its x runs the other way [DXF reference, OCS].
+    /// Placement for an entity with this normal. If the normal points down, the entity is seen from behind and its x
+    /// axis is reversed [DXF reference, OCS].
     ///
     /// # Errors
-    /// A sentence where the normal is tilted.
+    /// A sentence for messages if the normal is tilted.
     fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
         let tilt = normal.x.abs().max(normal.y.abs());
         if tilt > 1e-6 * normal.z.abs() {
@@ -55,10 +56,10 @@ impl Placement {
         Ok(if normal.z < 0.0 { Self { x: -self.x, ..*self } } else { *self })
     }
 
-    /// The placement of a block inserted in what this places; `base` is the block's base point.
+    /// Placement of a block that is inserted in a drawing with this placement. `base` is the base point of the block.
     ///
     /// # Errors
-    /// A sentence for an array of insertions, or a tilted one.
+    /// A sentence for messages for an array of insertions, or a tilted one.
     pub fn of_insert(&self, insert: &Insert, base: &Point) -> Result<Self, String> {
         if insert.column_count > 1 || insert.row_count > 1 {
             return Err(format!(
@@ -75,17 +76,26 @@ impl Placement {
     }
 }
 
-/// What an entity draws, in metres.
+/// Curves of one kind that were flattened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Curves {
+    /// Number of them.
+    pub count: usize,
+    /// Name of the kind, for messages.
+    pub kind: &'static str,
+}
+
+/// Geometry of an entity, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Figure {
-    /// A chain of points; curves in it are flattened.
+    /// A polyline. Its curves are flattened.
     Line {
-        /// Points of the chain, m; the first is not repeated where it is closed.
+        /// Points, m. The first is not repeated if it is closed.
         points: Vec<V2>,
-        /// Whether its last point joins its first.
+        /// True if its last point joins its first.
         is_closed: bool,
-        /// How many curves were flattened, and what they are.
-        curves: (usize, &'static str),
+        /// Curves that were flattened.
+        curves: Curves,
     },
     /// A circle: a drill hole, a cut-out or a round outline.
     Circle {
@@ -96,9 +106,9 @@ pub enum Figure {
     },
     /// A POINT entity: a turn point, a curve point, a notch or a drill hole.
     Point {
-        /// Place in the plane, m.
+        /// Position in the plane, m.
         at: V2,
-        /// Its z: the depth of a notch.
+        /// Its z coordinate: the depth of a notch, m.
         depth_m: f64,
         /// Direction, degrees counter-clockwise from +u.
         angle_deg: f64,
@@ -107,20 +117,20 @@ pub enum Figure {
     Text {
         /// Insertion point, m.
         at: V2,
-        /// What it says.
+        /// Content of the text.
         value: String,
     },
-    /// Something else: labels, and what [`super::guard`] has counted as not read.
+    /// Anything else: labels, and kinds that [`super::guard`] has counted as unsupported.
     Label,
 }
 
-/// Farthest that anything is drawn from the sheet's origin, m: a cutting table is some tens long.
+/// Greatest distance of a point from the origin of the sheet, m. A cutting table is some tens of metres long.
 const FARTHEST_M: f64 = 1_000.0;
 
-/// What an entity draws at a placement.
+/// Geometry of an entity at a placement.
 ///
 /// # Errors
-/// A sentence that says what cannot be read and what would be accepted.
+/// A sentence for messages: what cannot be read, and what is accepted.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let figure = figure_anywhere(entity, placement)?;
     let places: &[V2] = match &figure {
@@ -136,7 +146,7 @@ pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> 
     }
 }
 
-/// What an entity draws, however far away.
+/// Geometry of an entity, at any distance from the origin.
 fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let tolerance = CHORD_ERROR_M / placement.scale();
     match &entity.specific {
@@ -147,7 +157,7 @@ fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, Str
             Ok(Figure::Circle { centre: placement.at(flat(&drawn.center)), points })
         }
         EntityType::ModelPoint(point) => {
-            // A point's place is one of the world, whatever its normal.
+            // The position of a POINT is in world coordinates, whatever its normal.
             let (sine, cosine) = point.angle.to_radians().sin_cos();
             let cut = placement.vector(V2::new(cosine, sine));
             let is_turned = placement.x.y != 0.0 || placement.x.x < 0.0 || placement.y.y < 0.0;
@@ -173,20 +183,20 @@ fn flat(point: &Point) -> V2 {
     V2::new(point.x, point.y)
 }
 
-/// A chain of points as the entity has them.
+/// A polyline in the coordinates of the entity.
 struct Chain<'e> {
     points: Vec<V2>,
     is_closed: bool,
-    curves: (usize, &'static str),
-    /// Normal of the plane that they are in; `None` for the world's.
+    curves: Curves,
+    /// Normal of the plane of the points. `None` for world coordinates.
     normal: Option<&'e Vector>,
 }
 
-/// The chain of an entity that draws a line or a curve.
+/// Polyline of an entity that draws a line or a curve.
 fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
     let of_world = |points: Vec<V2>, curves| Chain { points, is_closed: false, curves, normal: None };
     Ok(Some(match &entity.specific {
-        EntityType::Line(drawn) => of_world(vec![flat(&drawn.p1), flat(&drawn.p2)], (0, "")),
+        EntityType::Line(drawn) => of_world(vec![flat(&drawn.p1), flat(&drawn.p2)], Curves { count: 0, kind: "" }),
         EntityType::Polyline(drawn) => {
             if drawn.flags & MESH != 0 {
                 return Err("a polygon mesh; accepted: polylines, lines and curves".to_owned());
@@ -195,28 +205,36 @@ fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
             let vertices: Vec<(V2, f64)> = vertices.map(|v| (flat(&v.location), v.bulge)).collect();
             let is_closed = drawn.flags & CLOSED != 0;
             let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
-            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.normal) }
+            Chain { points, is_closed, curves: Curves { count: arcs, kind: "arc" }, normal: Some(&drawn.normal) }
         }
         EntityType::LwPolyline(drawn) => {
             let vertices: Vec<(V2, f64)> = drawn.vertices.iter().map(|v| (V2::new(v.x, v.y), v.bulge)).collect();
             let is_closed = drawn.is_closed();
             let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
-            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.extrusion_direction) }
+            Chain {
+                points,
+                is_closed,
+                curves: Curves { count: arcs, kind: "arc" },
+                normal: Some(&drawn.extrusion_direction),
+            }
         }
         EntityType::Arc(drawn) => {
             let degrees = [drawn.start_angle, drawn.end_angle];
             let points = curves::arc(flat(&drawn.center), drawn.radius, degrees, tolerance);
-            Chain { normal: Some(&drawn.normal), ..of_world(points, (1, "arc")) }
+            Chain { normal: Some(&drawn.normal), ..of_world(points, Curves { count: 1, kind: "arc" }) }
         }
         EntityType::Ellipse(drawn) => {
             let major = V2::new(drawn.major_axis.x, drawn.major_axis.y);
-            // Its axes are those of the world; a normal that points down only turns its parameter round.
+            // Its axes are in world coordinates. A normal that points down only reverses its parameter.
             let ratio = drawn.minor_axis_ratio * if drawn.normal.z < 0.0 { -1.0 } else { 1.0 };
             if !(1e-4..=1e4).contains(&ratio.abs()) {
                 return Err(format!("an ellipse of ratio {}; accepted: 0.0001 to 10000", drawn.minor_axis_ratio));
             }
             let parameters = [drawn.start_parameter, drawn.end_parameter];
-            of_world(curves::ellipse(flat(&drawn.center), major, ratio, parameters, tolerance), (1, "ellipse"))
+            of_world(
+                curves::ellipse(flat(&drawn.center), major, ratio, parameters, tolerance),
+                Curves { count: 1, kind: "ellipse" },
+            )
         }
         EntityType::Spline(drawn) => {
             let control: Vec<V2> = drawn.control_points.iter().map(flat).collect();
@@ -224,13 +242,13 @@ fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
                 return Err("a spline of fit points alone; accepted: one with control points and knots".to_owned());
             }
             let spline = Spline::new(drawn.degree_of_curve, &drawn.knot_values, &control, &drawn.weight_values)?;
-            of_world(spline.flattened(tolerance), (1, "spline"))
+            of_world(spline.flattened(tolerance), Curves { count: 1, kind: "spline" })
         }
         _ => return Ok(None),
     }))
 }
 
-/// The points of a polyline whose sides bulge, and the number of sides that do.
+/// Points of a polyline with bulges, and the number of segments that are arcs.
 fn with_bulges(vertices: &[(V2, f64)], is_closed: bool, tolerance: f64) -> (Vec<V2>, usize) {
     let n = vertices.len();
     let sides = if is_closed { n } else { n.saturating_sub(1) };
@@ -239,7 +257,7 @@ fn with_bulges(vertices: &[(V2, f64)], is_closed: bool, tolerance: f64) -> (Vec<
     for k in 0..sides {
         let ((start, value), (end, _)) = (vertices[k], vertices[(k + 1) % n]);
         if value == 0.0 {
-            // The side back to the first vertex is drawn by closing.
+            // The segment back to the first vertex is implied by closing.
             if k + 1 < n {
                 points.push(end);
             }

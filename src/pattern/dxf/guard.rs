@@ -1,19 +1,19 @@
-//! What a DXF file holds, counted from its tags before the `dxf` crate reads it.
+//! Inventory of a DXF file, counted from its tags before the `dxf` crate reads it.
 //!
-//! The crate returns `Ok` while it drops polylines with group codes it does not know (240-269, as some 3D garment CAD
-//! writes them) and vertices whose numbers do not parse. So every number is checked here, the unknown codes are taken
-//! out, and afterwards the crate's entities are counted against these.
+//! The crate returns `Ok` even where it drops entities. It drops polylines with unknown group codes (240-269, as some
+//! 3D garment CAD writes them) and vertices with malformed numbers. Every number is therefore checked here, and the
+//! unknown codes are removed. Afterwards the entities of the crate are compared with these counts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::DxfError;
 use super::tags::{Tag, ValueType, clipped, value_type};
 
-/// Entities that carry a pattern; `VERTEX` counts those of LWPOLYLINE too.
+/// Kinds of entities that carry a pattern. `VERTEX` includes the vertices of LWPOLYLINE.
 pub const KINDS: [&str; 11] =
     ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"];
 
-/// Entities of DXF besides [`KINDS`] [DXF reference, ENTITIES section]; anything else is a damaged or foreign file.
+/// Other kinds of entities of DXF [DXF reference, ENTITIES section]. Any further kind means a damaged or foreign file.
 const OTHER_KINDS: [&str; 37] = [
     "3DFACE",
     "3DLINE",
@@ -58,64 +58,74 @@ const OTHER_KINDS: [&str; 37] = [
 const SECTIONS: [&str; 8] =
     ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"];
 
-/// Entities that draw something that is not read, counted by layer (as bytes of the file) and kind: the crate drops some.
+/// Number of drawing entities of unsupported kinds, by layer (as bytes of the file) and kind. The crate drops some of
+/// them.
 pub type Foreign<'a> = BTreeMap<(&'a [u8], &'a str), usize>;
 
-/// Kinds besides [`KINDS`] that draw nothing of a piece.
+/// Other kinds that draw no part of a piece.
 const LABELS: [&str; 4] = ["ATTDEF", "ATTRIB", "MTEXT", "SEQEND"];
 
 /// Number of entities of each kind.
 pub type Counts = BTreeMap<&'static str, usize>;
 
-/// A block and what it holds.
+/// Inventory of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlockCount<'a> {
     /// Name as bytes of the file.
     pub name: &'a [u8],
-    /// Line of its `0/BLOCK`.
+    /// Line number of its `0/BLOCK`.
     pub line: usize,
-    /// Number of entities that are read, by kind.
+    /// Number of supported entities by kind.
     pub counts: Counts,
-    /// Entities of other kinds.
+    /// Entities of unsupported kinds.
     pub foreign: Foreign<'a>,
 }
 
-/// A text value with its line.
+/// Value of a header variable with its line number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeaderValue<'a> {
-    /// The value, trimmed; empty where it is not UTF-8.
+    /// Value, trimmed. Empty if it is not UTF-8.
     pub value: &'a str,
     /// Line of the value, from 1.
     pub line: usize,
 }
 
-/// A DXF file as counted.
+/// A value as bytes of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located<'a> {
+    /// Its bytes.
+    pub bytes: &'a [u8],
+    /// Line number, from 1.
+    pub line: usize,
+}
+
+/// Inventory of a DXF file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inventory<'a> {
-    /// Header variables that matter here, by name.
+    /// Header variables by name.
     pub header: BTreeMap<&'a str, HeaderValue<'a>>,
     /// Blocks in order.
     pub blocks: Vec<BlockCount<'a>>,
-    /// Entities outside blocks.
+    /// Number of supported entities outside blocks, by kind.
     pub entities: Counts,
-    /// Entities of other kinds outside blocks.
+    /// Entities of unsupported kinds outside blocks.
     pub foreign: Foreign<'a>,
-    /// Texts (group code 1 of TEXT) with their lines, as bytes.
-    pub texts: Vec<(&'a [u8], usize)>,
-    /// Blocks that are inserted, with the lines that say so.
-    inserted: Vec<(&'a [u8], usize)>,
-    /// The tags to hand to the crate: version, blocks and entities, without undefined group codes.
+    /// Texts (group code 1 of TEXT).
+    pub texts: Vec<Located<'a>>,
+    /// Names of inserted blocks.
+    inserted: Vec<Located<'a>>,
+    /// Tags for the crate: version, blocks and entities, without undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
 
-/// Counts what the tags hold.
+/// Takes the inventory of the tags of a file.
 ///
 /// # Errors
-/// [`DxfError`] where sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code
-/// is undefined (other than 240-269, which are skipped).
+/// [`DxfError`] if sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code is
+/// undefined (other than 240-269, which are skipped).
 pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
     let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
-    // Records: a tag of group code 0 with those up to the next.
+    // A record is a tag of group code 0 with those up to the next.
     let starts: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
     if let Some(stray) = tags[..starts.first().copied().unwrap_or(tags.len())].iter().find(|tag| tag.code != 999) {
         return Err(walk.fail(stray, format!("group code {} before the first section", stray.code), "0/SECTION"));
@@ -136,24 +146,24 @@ pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>,
 }
 
 impl Inventory<'_> {
-    /// Names and texts, as bytes.
+    /// Names of blocks and texts, as bytes.
     pub fn words(&self) -> impl Iterator<Item = &[u8]> {
-        self.texts.iter().map(|(bytes, _)| *bytes).chain(self.blocks.iter().map(|block| block.name))
+        self.texts.iter().map(|text| text.bytes).chain(self.blocks.iter().map(|block| block.name))
     }
 
-    /// Blocks that the file inserts and does not hold, each once, with the line that says so.
+    /// Names of inserted blocks that the file does not hold, each once, with the line number of the insertion.
     pub fn missing_blocks(&self) -> Vec<(String, usize)> {
         let mut known: BTreeSet<Vec<u8>> = self.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
-        let missing = self.inserted.iter().filter(|(name, _)| known.insert(name.to_ascii_uppercase()));
-        missing.map(|(name, line)| (clipped(&String::from_utf8_lossy(name)), *line)).collect()
+        let missing = self.inserted.iter().filter(|name| known.insert(name.bytes.to_ascii_uppercase()));
+        missing.map(|name| (clipped(&String::from_utf8_lossy(name.bytes)), name.line)).collect()
     }
 }
 
 struct Walk<'a, 'f> {
     file: &'f str,
-    /// Name of the section open now.
+    /// Name of the open section.
     section: Option<&'a str>,
-    /// Whether a block is open: the line of its start.
+    /// Line number of the start of the open block.
     block: Option<usize>,
     inventory: Inventory<'a>,
 }
@@ -221,7 +231,7 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    /// A record of the sections BLOCKS and ENTITIES.
+    /// Handles a record of the sections BLOCKS and ENTITIES.
     fn content(&mut self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let head = record[0];
         let is_in_blocks = self.section == Some("BLOCKS");
@@ -237,7 +247,7 @@ impl<'a> Walk<'a, '_> {
                 self.inventory.blocks.push(BlockCount { name, line: head.line, counts, foreign });
             }
             "ENDBLK" if is_in_blocks => {
-                // Some writers close the section's own, never opened block; that holds nothing.
+                // Some writers end the section with an ENDBLK of a block that was never opened. It holds nothing.
                 self.block = None;
             }
             _ if is_in_blocks && self.block.is_none() => {
@@ -279,11 +289,16 @@ impl<'a> Walk<'a, '_> {
             *counts.entry("VERTEX").or_default() += record.iter().filter(|tag| tag.code == 10).count();
         }
         if keyword == "INSERT" {
-            let names = record.iter().filter(|tag| tag.code == 2).map(|tag| (tag.value.trim_ascii(), tag.line));
+            let names = record
+                .iter()
+                .filter(|tag| tag.code == 2)
+                .map(|tag| Located { bytes: tag.value.trim_ascii(), line: tag.line });
             self.inventory.inserted.extend(names);
         }
         if keyword == "TEXT" {
-            self.inventory.texts.extend(record.iter().filter(|tag| tag.code == 1).map(|tag| (tag.value, tag.line)));
+            self.inventory.texts.extend(
+                record.iter().filter(|tag| tag.code == 1).map(|tag| Located { bytes: tag.value, line: tag.line }),
+            );
         }
     }
 
@@ -316,7 +331,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// The crate pairs what lists it finds.
+    /// Checks the number of points and knots of a spline, because the crate pairs incomplete lists without an error.
     fn check_spline(&self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
         for (x, y, stated, what) in [(10, 20, 73, "control points"), (11, 21, 74, "fit points"), (40, 40, 72, "knots")]
@@ -332,7 +347,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// The crate takes a missing coordinate for zero.
+    /// Checks that all coordinates are given, because the crate takes a missing one for zero.
     fn check_coordinates(&self, keyword: &str, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let needed: &[i32] = match keyword {
             "VERTEX" | "POINT" => &[10, 20],
@@ -363,7 +378,7 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
-/// An integer without the decimals that some writers give it (`0.000000`); other values as they are.
+/// An integer without zero decimals (`0.000000`), which some writers add. Other values stay as they are.
 fn without_zero_decimals(value: &[u8]) -> &[u8] {
     match value.iter().position(|&byte| byte == b'.') {
         Some(point) if point > 0 && value[point + 1..].trim_ascii_end().iter().all(|&byte| byte == b'0') => {
@@ -378,7 +393,7 @@ fn keyword_of(value: &[u8]) -> &str {
 }
 
 impl<'a> Tag<'a> {
-    /// [`Tag::keyword`] with the lifetime of the file.
+    /// Keyword as of [`Tag::keyword`], with the lifetime of the file.
     fn keyword_static(&self) -> &'a str {
         keyword_of(self.value)
     }

@@ -1,4 +1,4 @@
-//! Pieces drawn outside all blocks: each closed boundary line with what lies within it.
+//! Pieces drawn outside all blocks: each closed boundary line with the entities within it.
 
 use dxf::entities::{Entity, EntityType};
 
@@ -10,25 +10,25 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::polyline::{boundary_distance, contains};
 
-/// Points this near to an outline belong to it, m.
+/// Distance within which a point belongs to an outline, m.
 const NEAR_M: f64 = 1e-3;
-/// Most outlines that are told apart; what lies within which is asked for every pair.
+/// Greatest number of outlines that are told apart. Every pair is tested for containment.
 const MOST_OUTLINES: usize = 500;
 
-/// What is drawn outside all blocks.
+/// Content of the file outside all blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loose {
-    /// Closed boundary lines as pieces, each with what lies within it.
+    /// Pieces: closed boundary lines, each with the entities within it.
     pub pieces: Vec<Piece>,
-    /// Outlines that are no usable pieces.
+    /// Outlines that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// What a user should know.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
-    /// What is drawn, where no line of it is a boundary.
+    /// The drawing, if it has no boundary line.
     pub rest: Option<Drawn>,
 }
 
-/// Reads the entities outside all blocks; blocks inserted among them are pieces of their own.
+/// Reads the entities outside all blocks. Blocks inserted among them are pieces of their own.
 pub fn read<'e>(entities: impl Iterator<Item = &'e Entity>, placement: &Placement, library: &Library<'_>) -> Loose {
     let entities: Vec<&Entity> = entities.filter(|e| !matches!(e.specific, EntityType::Insert(_))).collect();
     let drawn = Drawn::collect(entities.iter().copied(), placement, library);
@@ -47,10 +47,10 @@ pub fn read<'e>(entities: impl Iterator<Item = &'e Entity>, placement: &Placemen
     let mut outside = 0;
     let mut parts: Vec<Vec<&Entity>> = vec![Vec::new(); outlines.len()];
     for entity in entities {
-        let one = Drawn::collect([entity], placement, library);
-        match one.place().and_then(|place| outlines.iter().position(|outline| is_of(outline, &place))) {
+        let single = Drawn::collect([entity], placement, library);
+        match single.place().and_then(|place| outlines.iter().position(|outline| is_of(outline, &place))) {
             Some(index) => parts[index].push(entity),
-            None => outside += usize::from(!one.is_no_piece()),
+            None => outside += usize::from(!single.is_no_piece()),
         }
     }
     for part in parts {
@@ -62,7 +62,7 @@ pub fn read<'e>(entities: impl Iterator<Item = &'e Entity>, placement: &Placemen
     loose
 }
 
-/// The chains that do not lie within another one.
+/// Chains that do not lie within another closed one.
 fn outer(chains: Vec<Line>) -> Vec<Line> {
     let is_inner = |index: usize| {
         let within = |(other, outline): (usize, &Line)| {
@@ -78,7 +78,8 @@ fn is_of(outline: &Line, place: &V2) -> bool {
 }
 
 impl Loose {
-    /// A piece is called by its `Piece Name`, else by its first text that is no `key: value` and no rule number.
+    /// Adds a piece. Its name is its `Piece Name`, otherwise its first text that is neither a `key: value` nor a rule
+    /// number.
     fn add(&mut self, drawn: Drawn) {
         let keyless = |text: &Text| {
             let (key, value) = key_and_value(&text.value);

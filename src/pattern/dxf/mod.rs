@@ -1,8 +1,10 @@
-//! Reading and writing AAMA/ASTM DXF: bytes in, pieces out, nothing lost in silence.
+//! Reading and writing of AAMA/ASTM DXF: bytes to pieces and back. Nothing is dropped without a message.
 //!
-//! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 6 mirror line, 7 grain line,
-//! 5 grade reference, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line; curves are flattened. A file is read in three steps: its tags are scanned and counted (`guard`), the `dxf`
-//! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
+//! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 5 grade reference, 6 mirror
+//! line, 7 grain line, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line. Curves are flattened.
+//!
+//! A file is read in three steps. Its tags are scanned and counted (`guard`). The `dxf` crate reads them, and its
+//! entities are compared with the counts. Then each block becomes a piece or is refused.
 
 mod block_names;
 mod blocks;
@@ -29,27 +31,28 @@ use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
 pub(crate) use self::write::D6673;
-pub use self::write::{Standard, write, write_pieces};
+pub use self::write::{Standard, write_pieces};
+pub use super::draft::write;
 use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};
 
-/// Name given to the outline of a file that has no blocks.
+/// Name of the block of an outline that is drawn outside all blocks.
 pub const NO_BLOCK: &str = "(no block)";
 
-/// Why a DXF file cannot be read.
+/// Error of reading a DXF file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
 pub struct DxfError {
     /// Name of the file, for the message.
     pub file: String,
-    /// Line, where one can be named.
+    /// Line number, if one can be named.
     pub line: Option<usize>,
-    /// Block, where one can be named.
+    /// Name of the block, if one can be named.
     pub block: Option<String>,
-    /// What was found.
+    /// Description of what was found.
     pub found: String,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
@@ -65,50 +68,50 @@ fn place(file: &str, line: Option<usize>, block: Option<&str>) -> String {
     format!("{file}{line}{block}")
 }
 
-/// A block that is no usable piece.
+/// A block that cannot be used as a piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Refused {
-    /// Name of the block, or words for what is drawn outside all blocks.
+    /// Name of the block, or [`NO_BLOCK`] for an outline outside all blocks.
     pub block: String,
-    /// Line at which the block begins; `None` for a file without blocks.
+    /// Line number at which the block begins. `None` for a file without blocks.
     pub line: Option<usize>,
-    /// Size of the piece that it would have been, where one is named.
+    /// Size of the refused piece, if one is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Why, with the place in millimetres.
+    /// Reason, with the place in millimetres.
     pub reason: String,
 }
 
-/// A pattern file as read.
+/// Content of a pattern file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatternFile {
     /// Name of the file, for messages.
     pub file: String,
-    /// What kind of file it is, with its version: `DXF AC1009`; `DXF` alone where the file names none.
+    /// Format and version: `DXF AC1009`, or `DXF` alone if the file names no version.
     pub format: String,
-    /// Unit of the numbers.
+    /// Unit of the coordinates in the file.
     pub unit: Unit,
-    /// Where the unit comes from.
+    /// Source of the unit.
     pub unit_source: UnitSource,
     /// Texts outside the blocks as `(key, value)`.
     pub texts: Vec<(String, String)>,
     /// Pieces in the order of the file.
     pub pieces: Vec<Piece>,
-    /// Blocks that are no usable pieces.
+    /// Blocks that cannot be used as pieces.
     pub refused: Vec<Refused>,
-    /// Things the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What the file says against the unit that it is read in, one of the warnings.
+    /// Warning if the file contradicts the unit that it is read in. It is one of the warnings.
     pub unit_remark: Option<String>,
-    /// Number of entities that are not used, by layer.
+    /// Number of unused entities by layer.
     pub unused: BTreeMap<String, usize>,
     /// Encoding of the texts.
     pub encoding: CodePage,
 }
 
 impl PatternFile {
-    /// A block's name byte for byte as the file writes it, each byte as the character of that number (Latin-1); the
-    /// name itself in a UTF-8 file. It names the block whatever code page a reader believes in.
+    /// Name of a block byte for byte as in the file, each byte as the character of that number (Latin-1). In a UTF-8
+    /// file it is the name itself. It identifies the block whatever code page a reader assumes.
     #[must_use]
     pub fn as_written(&self, block: &str) -> String {
         if block == NO_BLOCK || self.encoding.is_utf8() {
@@ -117,14 +120,14 @@ impl PatternFile {
         self.encoding.encoded(block).into_iter().map(char::from).collect()
     }
 
-    /// Doubt about the unit, from the longest piece.
+    /// Doubt about the unit, told by the length of the longest piece.
     fn doubt(&self) -> Option<String> {
         let longest_m = self.pieces.iter().map(|piece| scale::extent_m(&piece.outline)).fold(0.0, f64::max);
         if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 
-    /// Sizes from the smallest to the largest, where their names tell it; else in the order in which they first appear.
-    /// Pieces without one count as the size `""`.
+    /// Sizes from the smallest to the largest. Those whose names do not tell their order stay in the order of the file.
+    /// Pieces without a size count as size `""`.
     #[must_use]
     pub fn sizes(&self) -> Vec<&str> {
         let mut sizes = Vec::new();
@@ -138,7 +141,7 @@ impl PatternFile {
         sizes
     }
 
-    /// The size that stands for the others: the one that the file calls its sample size, else the middle one.
+    /// Sample size: the one that the file names, otherwise the middle one.
     #[must_use]
     pub fn sample_size(&self) -> &str {
         let sizes = self.sizes();
@@ -147,12 +150,12 @@ impl PatternFile {
         sample.copied().unwrap_or_else(|| sizes.get(sizes.len() / 2).copied().unwrap_or_default())
     }
 
-    /// The pieces of one size, half pieces opened, ready for a seam file. Without a `size` the file must hold only one;
-    /// upper and lower case count the same.
+    /// Pieces of one size, half pieces unfolded, ready for a seam file. Without `size` the file must hold only one.
+    /// Upper and lower case count as equal.
     ///
     /// # Errors
-    /// [`DxfError`] when the file names no unit and none was said, a block was refused (a garment without one of its
-    /// pieces is another garment), or the size is not there or not said.
+    /// [`DxfError`] if no unit is known, a block of this size was refused, or the size is missing or ambiguous. A
+    /// garment without one of its pieces would be another garment.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
         let doubt = self.doubt();
         if self.unit_source == UnitSource::Assumed {
@@ -177,7 +180,7 @@ impl PatternFile {
                 ));
             }
         };
-        // What is broken of another size is no part of this one.
+        // A refused piece of another size is no part of this one.
         let is_part = |refused: &&Refused| refused.size.as_ref().is_none_or(|size| size.eq_ignore_ascii_case(wanted));
         if let Some(refused) = self.refused.iter().find(is_part) {
             return Err(DxfError {
@@ -220,11 +223,11 @@ impl PatternFile {
     }
 }
 
-/// Gives each piece of one size what it is in every size: what has its name there, or its name but for the size. Of pieces of one
-/// name each stands for that of its number.
+/// Gives each piece of one size its counterparts in every size. A counterpart has the same name, or the same name but
+/// for the size. Pieces of equal name are matched by their order.
 fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
-    // `SLEEVE 2` of size 2 is no `SLEEVE`: whole names come first.
+    // Full names are compared first, because the 2 of a `SLEEVE 2` may be no size.
     let is_same = |is_whole: bool, a: &Piece, b: &Piece| if is_whole { a.name == b.name } else { bare(a) == bare(b) };
     for k in 0..pieces.len() {
         let in_size = |size: &Vec<Piece>| {
@@ -238,29 +241,29 @@ fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     }
 }
 
-/// Whether a text of a file says its sample size.
+/// True for the key of a text that names the sample size.
 #[must_use]
 pub fn is_sample_size(key: &str) -> bool {
     plain(key) == "samplesize"
 }
 
-/// Whether a text of a file says what the garment is called, or its sample size.
+/// True for the key of a text that names the garment or its sample size.
 fn is_of_garment(key: &str) -> bool {
     is_sample_size(key)
         || ["style", "stylename", "stylenumber", "styleno", "model", "modelname"].contains(&plain(key).as_str())
 }
 
-/// A key in lower case, without what parts its words.
+/// A key in lower case, without blanks and underscores.
 fn plain(key: &str) -> String {
     key.to_ascii_lowercase().replace(['_', ' '], "")
 }
 
-/// Reads a DXF file. `unit` says the unit, whatever the file says; `file_name` is used in messages.
+/// Reads a DXF file. `unit` overrides the unit of the file. `file_name` is used in messages.
 ///
 /// # Errors
-/// [`DxfError`] when the file is empty, binary, truncated or no DXF, holds a number that does not parse, names an unknown
-/// unit or code page, or loses an entity on the way through the reader. A block that is no usable piece is no error: it
-/// is in [`PatternFile::refused`].
+/// [`DxfError`] if the file is empty, binary, truncated or no DXF, has a malformed number, or names an unknown unit or
+/// code page. It is also an error if the `dxf` crate loses an entity. A block that cannot be used is no error: it is in
+/// [`PatternFile::refused`].
 pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
@@ -371,11 +374,11 @@ impl PatternFile {
         }
     }
 
-    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the
+    /// Gives pieces without texts those of the piece of the same name in another size. CAD programs write them to the
     /// sample size alone.
     fn share_texts(&mut self) {
         let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
-        // Of several the first counts.
+        // Of several pieces the first counts.
         let told: BTreeMap<String, usize> =
             self.pieces.iter().enumerate().filter(has_texts).rev().map(|(k, piece)| (piece.name.clone(), k)).collect();
         for k in 0..self.pieces.len() {
@@ -395,7 +398,7 @@ impl PatternFile {
     }
 }
 
-/// Whether a block is the sheet itself, as DXF names model and paper space.
+/// True if a block is a layout: the model or paper space of DXF.
 fn is_layout(block: &str) -> bool {
     let name = block.trim_start_matches(['*', '$']).to_ascii_uppercase();
     name.len() < block.len() && (name.starts_with("MODEL_SPACE") || name.starts_with("PAPER_SPACE"))
@@ -410,7 +413,7 @@ fn inserted<'e>(entities: impl Iterator<Item = &'e Entity>) -> BTreeSet<String> 
     entities.filter_map(name).collect()
 }
 
-/// A warning where a block is inserted at another size than it is stored in.
+/// Warning if a block is inserted at another scale than it is stored in.
 fn scaled_insert(entity: &Entity) -> Option<String> {
     let EntityType::Insert(insert) = &entity.specific else { return None };
     let (x, y) = (insert.x_scale_factor, insert.y_scale_factor);
@@ -418,7 +421,7 @@ fn scaled_insert(entity: &Entity) -> Option<String> {
         .then(|| format!("block `{}` is inserted {x} x {y} times its size: it is read as stored", insert.name))
 }
 
-/// Has the crate read the clean tags, and compares what it found with what is there.
+/// Loads the clean tags with the `dxf` crate, and compares its entities with the inventory.
 fn load(inventory: &Inventory<'_>, code_page: CodePage, file: &str) -> Result<Drawing, DxfError> {
     let mut clean = Vec::new();
     if let Some(version) = inventory.header.get("$ACADVER") {
@@ -427,7 +430,7 @@ fn load(inventory: &Inventory<'_>, code_page: CodePage, file: &str) -> Result<Dr
     for tag in &inventory.clean {
         clean.extend(format!("{}\n", tag.code).into_bytes());
         match code_page {
-            // The crate knows no code pages of DOS.
+            // The crate supports no OEM code pages.
             CodePage::Dos(_) if !tag.value.is_ascii() => clean.extend(code_page.decoded(tag.value).into_bytes()),
             _ => clean.extend(tag.value),
         }

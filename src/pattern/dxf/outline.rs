@@ -1,4 +1,4 @@
-//! From lines as drawn to closed outlines.
+//! Joining of drawn lines into closed outlines, and their repair.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -8,43 +8,44 @@ use geom::units::mm;
 
 /// Greatest gap between the ends of boundary lines that join, m.
 pub const JOIN_M: f64 = 0.05e-3;
-/// Points closer than this are one, m.
+/// Distance below which points coincide, m.
 const SAME_M: f64 = 1e-6;
-/// Most vertices of an outline that is looked at; a piece has some hundreds.
+/// Greatest number of vertices of an outline. A piece has some hundreds.
 const MOST_VERTICES: usize = 20_000;
-/// Most lines that an outline is joined from; drawn side by side it has some hundreds.
+/// Greatest number of lines of an outline. One that is drawn segment by segment has some hundreds.
 pub const MOST_LINES: usize = 5_000;
-/// Greatest share of a piece that loops of its cut line may enclose; those of trousers with pockets enclose a thousandth.
+/// Greatest area of the loops of a cut line, as a share of the piece. Those of trousers with pockets enclose a
+/// thousandth.
 pub const LOOPS_SHARE: f64 = 0.01;
-/// Greatest area of loops of an outline that is sewn itself, m2: a knot of grading that no scissors could follow.
+/// Greatest area of the loops of an outline that is sewn itself, m2: a knot from grading that no scissors could follow.
 pub const TRIFLE_M2: f64 = 1e-5;
-/// Most loops of a cut line; there are some at each inner corner at most.
+/// Greatest number of loops of a cut line. It has a few at each inner corner at most.
 const MOST_LOOPS: usize = 200;
 
-/// Greatest width of a spike, m: what runs out and back over itself to within the coarsest grid that programs write on, a thousandth
-/// of an inch, which either side may be off by half.
+/// Greatest width of a spike, m. The coarsest grid that programs write on is a thousandth of an inch. Either side may
+/// be off by half of it.
 const SPIKE_M: f64 = 0.026e-3;
 
-/// Greatest slope of one side of a spike against the other: a short one is no corner that happens to be sharp.
+/// Greatest slope of one side of a spike relative to the other. It tells a spike from a short sharp corner.
 const SPIKE_SLOPE: f64 = 1e-3;
 
 /// Distance below which an outline touches itself, m.
 const TOUCHING_M: f64 = 0.01e-3;
 
-/// How far the corners of an outline that touches itself go inwards there, m.
+/// Distance by which the corners of an outline that touches itself are moved inwards there, m.
 const PARTED_M: f64 = 0.02e-3;
 
-/// A line as drawn.
+/// A polyline as drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Its points; at least one.
+    /// Points, at least one.
     pub points: Vec<V2>,
-    /// Whether it is drawn as closed.
+    /// True if it is drawn as closed.
     pub is_closed: bool,
 }
 
 impl Line {
-    /// A line without repeated points; `None` where it has none.
+    /// Makes a line without repeated points. `None` without points.
     pub fn new(mut points: Vec<V2>, is_closed: bool) -> Option<Self> {
         points.dedup_by(|later, earlier| (*later - *earlier).norm() < SAME_M);
         (!points.is_empty()).then_some(Self { points, is_closed })
@@ -60,18 +61,19 @@ impl Line {
         (end - start).norm()
     }
 
-    /// Whether it closes by its flag, or by ending where it begins.
+    /// True if it is closed by its flag, or ends where it begins.
     pub fn closes(&self) -> bool {
         self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M && !self.is_slit())
     }
 
-    /// Whether it only runs out and back: the sides of a slit end where they begin, and the outline goes on.
+    /// True if it only runs out and back along itself. The sides of a slit end where they begin, but the outline
+    /// continues there.
     fn is_slit(&self) -> bool {
         let length: f64 = self.points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
         signed_area(&self.points).abs() < JOIN_M * length
     }
 
-    /// Whether another line has the same points, in this or the other direction.
+    /// True if another line has the same points, in this or the reverse direction.
     pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let near = |(a, b): (&V2, &V2)| (a - b).norm() < SAME_M;
         self.points.len() == other.points.len()
@@ -80,12 +82,12 @@ impl Line {
     }
 }
 
-/// Lines without those that are drawn a second time, and those.
+/// Separates lines from their duplicates. Returns both.
 pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     let (mut kept, mut copies): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
     let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for line in lines {
-        // Copies have the same sum of ends, up to rounding to the next cell.
+        // Duplicates have the same midpoint of their ends, up to rounding to the next cell.
         let [start, end] = line.ends();
         let key = cell(&((start + end) * 0.5));
         let is_copy = around(key)
@@ -102,7 +104,7 @@ pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     (kept, copies)
 }
 
-/// The cell of a grid of [`JOIN_M`] that holds a point.
+/// Cell of a grid of width [`JOIN_M`] that holds a point.
 fn cell(point: &V2) -> [i64; 2] {
     [point.x, point.y].map(|x| (x / JOIN_M).floor() as i64)
 }
@@ -112,7 +114,7 @@ fn around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
     (-1..=1).flat_map(move |i: i64| (-1..=1).map(move |j: i64| [x.saturating_add(i), y.saturating_add(j)]))
 }
 
-/// The ends of lines that are not used yet, by place.
+/// Index of the ends of unused lines, by grid cell.
 struct Ends<'a> {
     lines: &'a [Line],
     by_cell: HashMap<[i64; 2], Vec<usize>>,
@@ -130,7 +132,7 @@ impl<'a> Ends<'a> {
         Self { lines, by_cell, left: (0..lines.len()).collect() }
     }
 
-    /// Takes the line, the first in the file, that begins or ends at a place; its points lead away from there.
+    /// Takes the first unused line that begins or ends at a point. The returned points lead away from there.
     fn take_at(&mut self, place: &V2) -> Option<Vec<V2>> {
         let touches = |index: &usize| self.lines[*index].ends().iter().any(|end| (end - place).norm() < JOIN_M);
         let near = around(cell(place)).filter_map(|key| self.by_cell.get(&key)).flatten().copied();
@@ -144,7 +146,7 @@ impl<'a> Ends<'a> {
     }
 }
 
-/// Lines joined end to end where they meet, each chain from the first line of the file that is not used yet.
+/// Joins lines end to end where they meet. Each chain begins with the first unused line of the file.
 pub fn chains(lines: &[Line]) -> Vec<Line> {
     let mut ends = Ends::of(lines);
     let mut chains = Vec::new();
@@ -154,7 +156,7 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
             let Some(next) = ends.take_at(&chain.ends()[1]) else { break };
             chain.points.extend(next.into_iter().skip(1));
         }
-        // An open chain may go on before the line it was begun with.
+        // An open chain may extend before its first line too.
         while !chain.closes() {
             let Some(next) = ends.take_at(&chain.ends()[0]) else { break };
             let before = next.into_iter().skip(1).rev();
@@ -165,10 +167,10 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
     chains
 }
 
-/// The one closed polygon that lines draw, without a repeated first vertex.
+/// Joins lines into one closed polygon, the first vertex not repeated.
 ///
 /// # Errors
-/// A sentence where there is none, it is open, or there are several.
+/// A sentence for messages if there is none, it is open, or there are several.
 pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     let mut chains = chains(lines).into_iter();
     let Some(first) = chains.next() else {
@@ -181,10 +183,10 @@ pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     }
 }
 
-/// The polygon of a chain, without a repeated first vertex.
+/// Polygon of a chain, the first vertex not repeated.
 ///
 /// # Errors
-/// A sentence where it is open, or has fewer than 3 or more than [`MOST_VERTICES`].
+/// A sentence for messages if it is open, or has fewer than 3 or more than [`MOST_VERTICES`] vertices.
 pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
     let [start, end] = chain.ends();
     let gap = chain.gap();
@@ -210,7 +212,7 @@ pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
 /// Refuses an outline that crosses itself.
 ///
 /// # Errors
-/// A sentence with the place.
+/// A sentence for messages with the place.
 pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     match self_crossing(outline) {
         Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),
@@ -218,11 +220,11 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     }
 }
 
-/// Cuts away the loops of a line that runs over itself, as a cut line does that is drawn at a distance from the sew line (at inner
-/// corners, pocket mouths); the place of each.
+/// Removes the loops of a line that crosses itself, and returns the place of each. A cut line at a constant distance
+/// from the sew line has loops at inner corners and pocket mouths.
 ///
 /// # Errors
-/// A sentence with the place of a crossing where the loops enclose more than `trifle_m2`.
+/// A sentence with the place of a crossing if the loops enclose more than `trifle_m2`.
 pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Vec<V2>, String> {
     let (mut places, mut cut) = (Vec::new(), 0.0);
     while let Some(([first, second], at)) = crossing_sides(outline) {
@@ -242,7 +244,8 @@ pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Ve
     Ok(places)
 }
 
-/// Cuts away the spikes of an outline, where it runs out and back along the same line and encloses nothing; the tip of each.
+/// Removes the spikes of an outline, where it runs out and back along the same line and encloses no area. Returns the
+/// tip of each.
 pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
     let (mut tips, mut at, mut passed) = (Vec::new(), 0, 0);
     while outline.len() > 3 && passed < outline.len() {
@@ -252,7 +255,7 @@ pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
             (at, passed) = ((at + 1) % n, passed + 1);
             continue;
         }
-        // What is left of it is looked at next, and is the same spike.
+        // The rest of the spike is tested next. It belongs to the same spike.
         if passed > 0 || tips.is_empty() {
             tips.push(tip);
         }
@@ -266,7 +269,7 @@ pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
     tips
 }
 
-/// Whether the nearer neighbour of a tip lies on the side to the other.
+/// True if the nearer neighbour of a vertex lies on the segment to the other one.
 fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     let [mut short, mut long] = [before - tip, after - tip];
     if short.norm() > long.norm() {
@@ -276,8 +279,8 @@ fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     short.dot(&long) > 0.0 && apart_m < SPIKE_M.min(SPIKE_SLOPE * short.norm())
 }
 
-/// Parts an outline where it touches itself, corner on corner, as a dart's legs do that run on together to the hem: they go
-/// a hair's breadth inwards; the place of each.
+/// Separates an outline where its corners touch each other. They are moved inwards a little, and the place of each is
+/// returned. The legs of a dart that run on together to the hem touch so.
 pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     if self_crossing(outline).is_none() {
         return Vec::new();
@@ -307,7 +310,7 @@ pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     touching.into_iter().map(|v| drawn[v]).collect()
 }
 
-/// Turns a clockwise polygon round, its first vertex kept; whether it was.
+/// Reverses a clockwise polygon, its first vertex kept. Returns true if it did.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
     if is_clockwise {
@@ -317,7 +320,7 @@ pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     is_clockwise
 }
 
-/// A place for messages.
+/// Text of a point for messages.
 pub fn text_mm(point: &V2) -> String {
     format!("({:.2}, {:.2}) mm", mm(point.x), mm(point.y))
 }

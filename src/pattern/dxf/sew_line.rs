@@ -1,18 +1,19 @@
-//! The sew line, which is drawn beside the outline and may end on it.
+//! Reading of the sew line, which is drawn inside the outline and may end on it.
 
 use super::outline::{JOIN_M, Line, chains, check_simple, closed, counter_clockwise, joined, without_copies};
 use geom::V2;
 use geom::polyline::{contains, signed_area};
 
-/// Least share of the outline's area that a closed line on layer 8 must enclose to be an old Valentina sew line.
+/// Least area of a closed line on layer 8 that is a sew line of old Valentina files, as a share of the outline.
 const SEW_LINE_SHARE: f64 = 0.5;
 /// Distance within which a sew line ends on the outline, m.
 const ON_OUTLINE_M: f64 = 0.1e-3;
 
-/// The sew line: layer 14, or in files of old Valentina a closed line on layer 8 that holds most of the piece.
+/// Sew line of a piece: on layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the
+/// piece.
 ///
 /// # Errors
-/// A sentence where layer 14 does not hold one closed line.
+/// A sentence for messages if layer 14 does not hold one closed line.
 pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
     let mut line = if on_14.is_empty() {
         let is_sew_line = |line: &Line| {
@@ -30,11 +31,11 @@ pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> R
     Ok(Some(line))
 }
 
-/// The closed line of chains that may end on an outline: from one to the next they go along it. So programs draw the sew line of a
-/// half piece, which ends at the fold, and one that is left out where there is no allowance.
+/// Closes chains that may end on the outline. From one to the next they follow it. So programs draw the sew line of a
+/// half piece, which ends at the fold, and one with a gap where there is no allowance.
 ///
 /// # Errors
-/// As [`joined`], where an end is not on the outline.
+/// As of [`joined`], if an end is not on the outline.
 fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, String> {
     let chains = chains(lines);
     let along = Along::new(outline);
@@ -44,7 +45,7 @@ fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, Stri
         match ends {
             [Some(from), Some(to)] if !chain.closes() => {
                 let back: Vec<V2> = chain.points.iter().rev().copied().collect();
-                // The way round that leaves more of the piece: a sew line cuts off a strip.
+                // The direction that leaves more of the piece is taken, because a sew line cuts off a strip.
                 let area = |points: &[V2], from: f64, to: f64| {
                     signed_area(&[points.to_vec(), along.between(to, from)].concat())
                 };
@@ -71,7 +72,7 @@ fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, Stri
     closed(Line { points, is_closed: true }, what)
 }
 
-/// An outline by arc length.
+/// An outline parametrised by arc length.
 struct Along<'a> {
     outline: &'a [V2],
     /// Arc length at each vertex, and at the end, m.
@@ -88,7 +89,7 @@ impl<'a> Along<'a> {
         Self { outline, arcs }
     }
 
-    /// Where a point lies on the outline, m; `None` where it does not.
+    /// Arc length of a point on the outline, m. `None` if it is not on it.
     fn arc_of(&self, point: &V2) -> Option<f64> {
         let n = self.outline.len();
         let side = |i: usize| {
@@ -101,7 +102,7 @@ impl<'a> Along<'a> {
         nearest.filter(|(distance_m, _)| *distance_m < ON_OUTLINE_M).map(|(_, arc)| arc)
     }
 
-    /// The vertices that are passed from one place to another, forwards.
+    /// Vertices between two arc lengths, forwards.
     fn between(&self, from: f64, to: f64) -> Vec<V2> {
         let total = self.arcs[self.outline.len()];
         let ahead = |arc: f64| (arc - from).rem_euclid(total);

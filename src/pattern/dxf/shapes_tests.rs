@@ -48,7 +48,7 @@ fn read_all(bytes: &[u8]) -> PatternFile {
     read(bytes, "a.dxf", None).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The only piece of a file of one block.
+/// The single piece of a file with one block.
 fn only(entities: &str) -> (Piece, Vec<String>) {
     let mut file = read_all(&sections(&block("P", entities), "0 INSERT; 8 1; 2 P; 10 0; 20 0;"));
     assert!(file.refused.is_empty() && file.pieces.len() == 1, "{:?} {:?}", file.refused, file.pieces.len());
@@ -83,7 +83,7 @@ fn curved_outlines_are_flattened_and_it_is_said() {
         line("1", [0.0, 0.0, 100.0, 0.0]) + &line("1", [0.0, 100.0, 0.0, 0.0]) + &line("1", [100.0, 100.0, 0.0, 100.0]);
     let arc = "0 ARC; 8 1; 10 100; 20 50; 40 50; 50 270; 51 90;";
     check(three.clone() + arc, 300.0 + half, 10_000.0 + 0.5 * disc, "1 arc");
-    // Seen from behind: the normal points down, so x runs the other way.
+    // Seen from behind: the normal points down, so x is reversed.
     let behind = "0 ARC; 8 1; 10 -100; 20 50; 40 50; 50 90; 51 270; 210 0; 220 0; 230 -1;";
     check(three.clone() + behind, 300.0 + half, 10_000.0 + 0.5 * disc, "1 arc");
     let ellipse =
@@ -165,7 +165,7 @@ fn pieces_outside_blocks_have_what_lies_within_them() {
     assert_eq!((sleeve.turn_points.len(), cuff.notches.len(), cuff.size.as_deref()), (2, 1, Some("38")));
     assert!(sleeve.grain.is_some() && cuff.grain.is_none());
     assert_eq!(file.warnings, ["1 entities lie outside all outlines and are not used"]);
-    // Blocks beside them are pieces all the same, and the sheet is none.
+    // Blocks beside them are pieces too, but the sheet is not.
     let blocks = block("P", &lwpolyline("1", &moved(400.0))) + &block("*Model_Space", "") + &block("$PAPER_SPACE", "");
     assert_eq!(read_all(&sections(&blocks, &entities.concat())).pieces.len(), 3);
 }
@@ -194,7 +194,7 @@ fn blocks_that_are_no_pieces_are_named() {
     let file = read_all(&sections(&blocks, ""));
     assert_eq!((file.pieces.len(), file.refused.len()), (1, 0));
     assert!(file.warnings[0].starts_with("block `ARROW` is no piece"), "{:?}", file.warnings);
-    // Where nothing else is there, it is refused.
+    // It is refused if the file has nothing else.
     let file = read_all(&sections(&block("ARROW", &line("0", [0.0, 0.0, 1.0, 1.0])), ""));
     assert!(file.refused[0].reason.starts_with("no outline"), "{:?}", file.refused);
 }
@@ -211,7 +211,7 @@ fn large_and_binary_files_are_told_apart() {
     check(&b"999\na\n".repeat(12_000_000), "72 MB");
 }
 
-/// The same piece, written by another program in the versions of DXF.
+/// One piece, written by another program in the versions of DXF.
 #[test]
 fn versions_from_r12_to_2013_read_the_same() {
     let all = [
@@ -266,7 +266,7 @@ fn versions_from_r12_to_2013_read_the_same() {
     }
 }
 
-/// Lines through points, closed where told.
+/// Lines through points, closed if asked.
 fn path(layer: &str, points: &[(f64, f64)]) -> String {
     points.windows(2).map(|ends| line(layer, [ends[0].0, ends[0].1, ends[1].0, ends[1].1])).collect()
 }

@@ -2,15 +2,15 @@
 
 use super::DxfError;
 
-/// Most bytes of a file that is read: a nest of 15 sizes has some megabytes.
+/// Greatest size of a file, bytes. A nest of 15 sizes has some megabytes.
 pub const MOST_BYTES: usize = 64 << 20;
-/// Most tags of a file that is read; each costs some 100 bytes of memory on the way.
+/// Greatest number of tags of a file. Each costs some 100 bytes of memory on the way.
 const MOST_TAGS: usize = 5_000_000;
 
-/// One pair of lines.
+/// A tag: a pair of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tag<'a> {
-    /// Group code: what the value is.
+    /// Group code, which tells the meaning of the value.
     pub code: i32,
     /// Value without its line end.
     pub value: &'a [u8],
@@ -19,18 +19,18 @@ pub struct Tag<'a> {
 }
 
 impl Tag<'_> {
-    /// Value as text for comparison with keywords, blanks trimmed; not decoded beyond ASCII.
+    /// Value as text for comparison with keywords, trimmed. It is not decoded beyond ASCII.
     pub fn keyword(&self) -> &str {
         std::str::from_utf8(self.value.trim_ascii()).unwrap_or("")
     }
 
-    /// Whether this is the start of something: group code 0 with this value.
+    /// True for the start of a record: group code 0 with this value.
     pub fn begins(&self, keyword: &str) -> bool {
         self.code == 0 && self.keyword() == keyword
     }
 }
 
-/// What a group code's value must be [DXF reference, group code value types].
+/// Type of the value of a group code [DXF reference, group code value types].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueType {
     /// A real number.
@@ -39,7 +39,7 @@ pub enum ValueType {
     Integer(i64, i64),
     /// Text, handles, binary chunks.
     Text,
-    /// DXF does not define the code.
+    /// A code that DXF does not define.
     Undefined,
 }
 
@@ -119,7 +119,7 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     )
 }
 
-/// What a file is that is no text.
+/// Kind of a file that is no text.
 fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 8] = [
         (b"AutoCAD Binary DXF", "a binary DXF file"),
@@ -135,7 +135,7 @@ fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
     kind.or_else(|| bytes.contains(&0).then_some("a binary file"))
 }
 
-/// The beginning of a text, for messages.
+/// Beginning of a text, for messages.
 pub fn clipped(text: &str) -> String {
     let mut short: String = text.chars().take(40).collect();
     if short.len() < text.len() {

@@ -15,7 +15,7 @@ fn shared(folder: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// All DXF files of a folder of sample patterns against its table of what they hold.
+/// Checks all DXF files of a folder of sample patterns against the table of their contents.
 fn check_folder(folder: &str, allowed_refusals: usize) {
     let Some(path) = shared(folder) else { return };
     let mut rows: BTreeMap<String, Vec<csv::StringRecord>> = BTreeMap::new();
@@ -55,7 +55,7 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
                     wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
                 }
             };
-            // Loops that are cut away count in the table, and what they run over twice.
+            // The table counts loops that are cut away, and segments that are drawn twice.
             let slack = if &row[column("simple_polygon")] == "0" { 5e-2 } else { 1e-3 };
             expect("area_mm2", piece.area_mm2, slack * piece.area_mm2);
             expect("turn_points", piece.turn_points as f64, 0.0);
@@ -120,7 +120,7 @@ fn what_is_written_is_read_back() {
     }
 }
 
-/// A drafted file with one text replaced, once.
+/// A drafted file with one occurrence of a text replaced.
 fn edited(from: &str, to: &str) -> Vec<u8> {
     let text = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("we write ASCII");
     assert!(text.contains(from), "`{from}` is in the file");
@@ -159,7 +159,7 @@ fn damaged_files_are_refused_with_line_and_finding() {
     let integer = edited(" 66\r\n1\r\n", " 66\r\n\r\n");
     check("empty integer", &integer, None, "`` for group code 66 of POLYLINE");
     let page = edited("AC1009\r\n", "AC1009\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\nANSI_77\r\n");
-    // Where a text has other letters than ASCII, the code page matters.
+    // The code page matters if a text has other letters than ASCII.
     let page = [page.as_slice(), b""].concat();
     let page = String::from_utf8_lossy(&page).replacen("JERSEY", "J\u{1}RSEY", 1).into_bytes();
     let page: Vec<u8> = page.into_iter().map(|byte| if byte == 1 { 0xD6 } else { byte }).collect();
@@ -226,7 +226,7 @@ fn units_come_from_the_user_the_texts_or_the_header() {
         assert_eq!(FileReport::from(&file).units, report);
         let told = file.warnings.iter().filter(|said| !said.starts_with("the longest piece")).count();
         assert_eq!(told, usize::from(expect.1 == UnitSource::Assumed || file.unit_remark.is_some()));
-        // The file is contradicted where the user gives another unit than it names.
+        // The user contradicts the file by giving another unit than it names.
         let own =
             read(bytes, "a.dxf", None).is_ok_and(|own| own.unit_source == UnitSource::File && own.unit != expect.0);
         assert_eq!(file.unit_remark.is_some(), given.is_some() && own, "{:?}", file.unit_remark);
@@ -270,10 +270,10 @@ fn loops_of_a_cut_line_matter_where_it_is_sewn_alone() {
         let front = &mut draft.pieces[0];
         front.sew_line = has_sew_line.then(|| front.outline.clone());
         let corner = front.outline[0];
-        // Alone it is large enough to be cut by mistake.
+        // Without a sew line, the loop is large enough to be an error.
         let size = if has_sew_line { 1e-3 } else { 2e-3 };
-        let at = |x: f64, y: f64| corner + V2::new(x, y) * size;
-        front.outline.splice(1..1, [at(10.0, 0.0), at(18.0, -4.0), at(10.0, -4.0), at(18.0, 0.0)]);
+        let point = |x: f64, y: f64| corner + V2::new(x, y) * size;
+        front.outline.splice(1..1, [point(10.0, 0.0), point(18.0, -4.0), point(10.0, -4.0), point(18.0, 0.0)]);
         read(&write(&draft), "a.dxf", None).expect("it reads")
     };
     let alone = looped(false);
@@ -286,7 +286,7 @@ fn loops_of_a_cut_line_matter_where_it_is_sewn_alone() {
         beside.warnings
     );
     assert_eq!(beside.pieces[0].seam_outline().len(), draft.pieces[0].outline.len());
-    // Told as it is drawn: 8 mm of the hem there and back, by two slants.
+    // The perimeter is that of the drawing: 8 mm of the hem there and back, by two slants.
     let longer_mm = FileReport::from(&beside).pieces[0].perimeter_mm - 1e3 * draft.pieces[0].perimeter_m();
     assert!((longer_mm - 2.0 * 80.0_f64.sqrt()).abs() < 0.01, "{longer_mm} mm longer");
 }
@@ -314,8 +314,8 @@ fn pieces_are_joined_over_sizes_by_their_names_whatever_sizes_are_called() {
     let check = |names: [[&str; 2]; 3], expect: [[&str; 3]; 2]| {
         let piece =
             |size: &str, name: &str| Piece { name: name.to_owned(), size: Some(size.to_owned()), ..Piece::default() };
-        let of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
-        let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(of).collect();
+        let pieces_of = |(size, names): (&str, [&str; 2])| names.map(|name| piece(size, name)).to_vec();
+        let sizes: Vec<Vec<Piece>> = ["1", "2", "3"].into_iter().zip(names).map(pieces_of).collect();
         for mut pieces in sizes.clone() {
             join_sizes(&mut pieces, &sizes);
             for (piece, expect) in pieces.iter().zip(expect) {

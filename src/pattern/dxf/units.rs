@@ -2,7 +2,7 @@
 
 use super::DxfError;
 use super::code_page::CodePage;
-use super::guard::Inventory;
+use super::guard::{Inventory, Located};
 use super::tags::clipped;
 
 /// Unit of length of a file.
@@ -20,7 +20,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// All that are read.
+    /// All supported units.
     pub const ALL: [Self; 4] = [Self::Mm, Self::Cm, Self::In, Self::M];
 
     /// Millimetres in one unit.
@@ -34,7 +34,7 @@ impl Unit {
         }
     }
 
-    /// Its symbol, as `--unit` takes it.
+    /// Symbol, as `--unit` takes it.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -46,14 +46,14 @@ impl Unit {
     }
 }
 
-/// Where the unit of a file comes from.
+/// Source of the unit of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitSource {
-    /// Said by the user.
+    /// The user.
     Given,
     /// A `Units:` text, `$INSUNITS` or `$MEASUREMENT`.
     File,
-    /// Nowhere; millimetres are assumed.
+    /// No source: millimetres are assumed.
     Assumed,
 }
 
@@ -62,20 +62,20 @@ pub enum UnitSource {
 pub struct Claim {
     /// Unit that is named.
     pub unit: Unit,
-    /// What names it.
+    /// Name of the text or header variable.
     pub by: &'static str,
-    /// Line of the text or of the header's value, from 1.
+    /// Line number of the text or header value, from 1.
     pub line: usize,
 }
 
-/// The units that a file names; the first counts: a `Units:` text [AAMA-292] goes before `$INSUNITS`, and that before
+/// Units that a file names, of which the first counts. A `Units:` text [AAMA-292] precedes `$INSUNITS`, which precedes
 /// `$MEASUREMENT`.
 ///
 /// # Errors
-/// [`DxfError`] for a unit that is not known.
+/// [`DxfError`] for an unknown unit.
 pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfError> {
     let mut claims = Vec::new();
-    for &(bytes, line) in &inventory.texts {
+    for &Located { bytes, line } in &inventory.texts {
         let text = String::from_utf8_lossy(bytes);
         let Some((key, value)) = text.split_once(':') else { continue };
         if key.trim().eq_ignore_ascii_case("units") {
@@ -112,7 +112,7 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
         };
         match units.iter().find(|(value, _)| *value == entry.value) {
             Some(&(_, unit)) => claims.push(Claim { unit, by, line: entry.line }),
-            // A text of the pattern itself is worth more than what a drawing program writes into every header.
+            // A text of the pattern itself counts more than a variable that drawing programs write into every header.
             None if !claims.is_empty() => {}
             None => {
                 return Err(DxfError::new(file, Some(entry.line), format!("{by} {}", clipped(entry.value)), accepted));
@@ -122,7 +122,7 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
     Ok(claims)
 }
 
-/// Warnings where later claims contradict the first.
+/// Warnings if later claims contradict the first.
 pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     let Some(first) = claims.first() else { return Vec::new() };
     let warning = |claim: &Claim| {
@@ -140,18 +140,18 @@ pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
-/// What a file says against the unit that the user gives it.
+/// Warning if the file contradicts the unit that the user gives.
 pub fn overruled(claims: &[Claim], given: Unit) -> Option<String> {
     let claim = claims.first().filter(|claim| claim.unit != given)?;
     let Claim { unit, by, line } = claim;
     Some(format!("{by} (line {line}) says {}: --unit {} is taken instead", unit.as_str(), given.as_str()))
 }
 
-/// Encoding of the texts: UTF-8 from AutoCAD 2007 on, and where texts are written so, whatever the header says; else
-/// `$DWGCODEPAGE`, else Windows-1252.
+/// Encoding of the texts. It is UTF-8 from AutoCAD 2007 on, and if all texts are valid UTF-8, whatever the header says.
+/// Otherwise it is `$DWGCODEPAGE`, or Windows-1252 without that.
 ///
 /// # Errors
-/// [`DxfError`] for a code page that is not known, where a text has other characters than ASCII.
+/// [`DxfError`] for an unknown code page, if a text has other characters than ASCII.
 pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<CodePage, DxfError> {
     let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);
     let is_ascii = inventory.words().all(<[u8]>::is_ascii);

@@ -1,14 +1,14 @@
-//! Writing AAMA and ASTM DXF (R12): one block a piece, of its own name, millimetres, one closed polyline on layer 1.
+//! Writing of AAMA and ASTM DXF (R12): one block of unique name per piece, in millimetres, with one closed polyline on
+//! layer 1.
 
 use std::fmt::Write as _;
 
 use super::block_names::block_names;
-use crate::draft::Draft;
 use crate::piece::Piece;
 use geom::V2;
 use geom::units::mm;
 
-/// Code pages that texts are tried in, by their names in `$DWGCODEPAGE`.
+/// Candidate code pages for texts, by their names in `$DWGCODEPAGE`.
 const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
     ("ANSI_1252", encoding_rs::WINDOWS_1252),
     ("ANSI_1250", encoding_rs::WINDOWS_1250),
@@ -16,30 +16,20 @@ const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
     ("ANSI_1253", encoding_rs::WINDOWS_1253),
 ];
 
-/// Writes a draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
-///
-/// The bytes depend on the draft only: no date is written.
-#[must_use]
-pub fn write(draft: &Draft) -> Vec<u8> {
-    let texts = [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size)];
-    let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    write_pieces(&draft.pieces, &texts, Standard::Aama)
-}
-
-/// Which standard a file is written by.
+/// Standard of a written file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Standard {
-    /// ANSI/AAMA-292: grade rules stand on the layer of their point.
+    /// ANSI/AAMA-292: grade rules are on the layer of their point.
     #[default]
     Aama,
-    /// ASTM D6673: grade rules stand on layer 1, quantities count the left and the right.
+    /// ASTM D6673: grade rules are on layer 1, and quantities count left and right separately.
     Astm,
 }
 
-/// Writes pieces as DXF in millimetres by a standard, with the style's texts outside the blocks.
+/// Writes pieces as DXF in millimetres by a standard. The texts of the style stand outside the blocks.
 ///
-/// A file of ASCII texts is plain R12; others name the first code page that has all their letters, or are of the
-/// version of AutoCAD 2007 and in UTF-8 where none has.
+/// A file with ASCII texts is plain R12. Otherwise it names the first code page that has all its letters. If none has
+/// them, it is UTF-8 in the version of AutoCAD 2007.
 #[must_use]
 pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Vec<u8> {
     let body = body(pieces, style, standard);
@@ -65,7 +55,7 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Stan
     [head.text.into_bytes(), bytes].concat()
 }
 
-/// Blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files that have them.
+/// Writes blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files that have them.
 fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> String {
     let mut out = Out { text: String::new(), standard };
     let names = block_names(pieces);
@@ -89,7 +79,7 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
     out.text
 }
 
-/// How a file says that it is by ASTM D6673.
+/// Text by which a file declares ASTM D6673.
 pub(crate) const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
 
 /// Distance within which a grade point is a turn point, m.
@@ -124,7 +114,7 @@ impl Out {
         self.tag(code, &format!("{:.4}", value + 0.0).replace("-0.0000", "0.0000"));
     }
 
-    /// Coordinates in millimetres; `code` is that of x.
+    /// Writes coordinates in millimetres. `code` is that of x.
     fn point(&mut self, code: i32, point: &V2) {
         self.number(code, mm(point.x));
         self.number(code + 10, mm(point.y));
@@ -140,7 +130,7 @@ impl Out {
         }
     }
 
-    /// A quantity as the standard writes it: AAMA counts the pieces, ASTM those of the left and of the right.
+    /// A quantity in the form of the standard: AAMA counts all pieces, ASTM left and right separately.
     fn quantity(&self, written: &str) -> String {
         let parts: Option<Vec<u32>> = written.split(',').map(|part| part.trim().parse().ok()).collect();
         match (self.standard, parts.as_deref()) {
@@ -231,7 +221,7 @@ mod tests {
     use crate::draft::Model;
     use crate::{Style, dxf};
 
-    /// What stands in a file, tag by tag: the texts of every block by its name, and the names that are inserted.
+    /// Content of a file, tag by tag: the texts of every block by its name, and the names that are inserted.
     fn blocks_and_inserts(bytes: &[u8]) -> (Vec<(String, Vec<String>)>, Vec<String>) {
         let text = String::from_utf8(bytes.to_vec()).expect("UTF-8");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();

@@ -1,8 +1,8 @@
-//! The features of pattern pieces as JSON, out and in [Lei, 3.3.2]: outline with corners and edges in the order in which
-//! it is redrawn, grain, reference points, notches, reference lines and piece information.
+//! Features of pattern pieces as JSON, written and read [Lei, 3.3.2]. They are the outline with corners and edges in
+//! drawing order, grain, reference points, notches, reference lines and piece information.
 //!
-//! Lengths are millimetres, angles degrees counter-clockwise from `+x`, places `[x, y]`. What follows from the rest
-//! (`corners`, `edges`) is written for the reader and not read back.
+//! Lengths are in millimetres, angles in degrees counter-clockwise from `+x`, points are `[x, y]`. Derived values
+//! (`corners`, `edges`) are written for the reader and ignored when read.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,30 +13,30 @@ use geom::V2;
 use geom::polyline::{self_crossing, signed_area};
 use geom::units::{from_mm, mm};
 
-/// What the file calls its format.
+/// Name of the format in the file.
 const FORMAT: &str = "toile pattern features";
 /// Version of the format that is written and read.
 const VERSION: u32 = 1;
-/// Decimals of a millimetre that are written: a billionth of a metre.
+/// Steps per millimetre to which written lengths are rounded: a nanometre each.
 const PER_MM: f64 = 1e6;
 /// Greatest coordinate, mm.
 const GREATEST_MM: f64 = 100_000.0;
 
-/// Why a file holds no usable pattern features.
+/// Error of reading pattern features.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct FeaturesError {
     /// Name of the file, for the message.
     pub file: String,
-    /// Piece, or where in the text.
+    /// Piece, or place in the text.
     pub place: String,
-    /// What was found.
+    /// Description of what was found.
     pub found: String,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// A place in the piece's plane, `[x, y]`, mm.
+/// A point in the plane of the piece, `[x, y]`, mm.
 type Place = [f64; 2];
 
 /// Root of the JSON document.
@@ -45,9 +45,9 @@ type Place = [f64; 2];
 pub struct Features {
     format: String,
     version: u32,
-    /// Unit of all lengths; `mm` is the only one.
+    /// Unit of all lengths, always `mm`.
     unit: String,
-    /// File that the features were taken from.
+    /// Name of the file that the features were taken from.
     #[serde(default)]
     source: String,
     /// Texts of the style, `[key, value]`.
@@ -60,13 +60,13 @@ pub struct Features {
 #[serde(deny_unknown_fields)]
 struct PieceFeatures {
     information: Information,
-    /// Counter-clockwise, in the order in which it is redrawn; the first vertex is not repeated.
+    /// Vertices, counter-clockwise in drawing order. The first is not repeated.
     outline: Vec<Place>,
     #[serde(default)]
     drawn_clockwise: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     sew_line: Option<Vec<Place>>,
-    /// Vertices of the line that is sewn which are corners, in the order of the seam file's numbers.
+    /// Corners: indices of vertices of the sewn line, in the order of the numbers in the seam file.
     #[serde(default)]
     corners: Vec<usize>,
     #[serde(default)]
@@ -79,7 +79,7 @@ struct PieceFeatures {
     reference_lines: ReferenceLines,
 }
 
-/// Who the piece is.
+/// Identification of the piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Information {
@@ -98,7 +98,7 @@ struct Information {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EdgeFeature {
-    /// Numbers of its corners, in `corners`.
+    /// Indices of its ends in `corners`.
     corners: [usize; 2],
     length_mm: f64,
 }
@@ -112,10 +112,10 @@ struct ReferencePoints {
     curve_points: Vec<Place>,
     #[serde(default)]
     drill_holes: Vec<Place>,
-    /// Points with the number of their grade rule.
+    /// Points of the outline with the number of their grade rule.
     #[serde(default)]
     grade_points: Vec<(Place, u32)>,
-    /// Those of inner lines, cut-outs and drill holes.
+    /// Points of internal lines, cut-outs and drill holes with the number of their grade rule.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     inner_grade_points: Vec<(Place, u32)>,
 }
@@ -144,7 +144,7 @@ struct ReferenceLines {
 }
 
 impl Features {
-    /// The features of a pattern's pieces; `source` and the style's texts are noted.
+    /// Features of the pieces of a pattern. The source and the texts of the style are recorded.
     #[must_use]
     pub fn of(pieces: &[Piece], source: &str, style: &[(String, String)]) -> Self {
         Self {
@@ -254,7 +254,7 @@ impl PieceFeatures {
         }
     }
 
-    /// All places of the piece.
+    /// All points of the piece.
     fn all_places(&self) -> impl Iterator<Item = &Place> {
         let marks = &self.reference_points;
         let lines = &self.reference_lines;
@@ -272,7 +272,7 @@ impl PieceFeatures {
     }
 }
 
-/// Graded points of the outline, or inside, with their rules.
+/// Grade points on the outline, or inside, with their rules.
 fn graded_places(piece: &Piece, is_inner: bool) -> Vec<(Place, u32)> {
     let graded = piece.grade_points.iter().filter(|graded| graded.is_inner == is_inner);
     graded.map(|graded| (place(&graded.at), graded.rule)).collect()
@@ -288,7 +288,7 @@ impl NotchFeature {
     }
 }
 
-/// The edges between corners of the line that is sewn.
+/// Edges between corners of the sewn line.
 fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
     let n = outline.len();
     let length = |from: usize, to: usize| -> f64 {
@@ -305,7 +305,7 @@ fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
     (0..corners.len()).map(edge).collect()
 }
 
-/// Whether JSON says that it is of this format.
+/// True if JSON declares this format.
 #[must_use]
 pub fn is_features(json: &[u8]) -> bool {
     #[derive(Deserialize)]
@@ -315,11 +315,11 @@ pub fn is_features(json: &[u8]) -> bool {
     serde_json::from_slice::<Head>(json).is_ok_and(|head| head.format == FORMAT)
 }
 
-/// Reads the features of pieces back as a pattern; `file` is its name for messages.
+/// Reads features of pieces as a pattern. `file` is its name for messages.
 ///
 /// # Errors
-/// [`FeaturesError`] where the JSON is of another format, version or unit, or a piece has no outline round an area that
-/// is free of crossings.
+/// [`FeaturesError`] if the JSON is of another format, version or unit, or the outline of a piece is missing, encloses
+/// no area or crosses itself.
 pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
     let fail = |place: &str, found: String, accepted: &str| FeaturesError {
         file: file.to_owned(),

@@ -6,7 +6,7 @@ fn written(pieces: &[Piece]) -> Vec<u8> {
     serde_json::to_vec(&Features::of(pieces, "a.dxf", &[("Style Name".to_owned(), "Tee".to_owned())])).expect("JSON")
 }
 
-/// The same up to the decimals that are written.
+/// The piece rounded to the written decimals.
 fn assert_same(read: &Piece, piece: &Piece) {
     let near = |a: &[V2], b: &[V2]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).norm() < 2e-9);
     assert!(near(&read.outline, &piece.outline), "{}", piece.name);
@@ -55,7 +55,7 @@ fn what_is_written_is_read_back_as_the_same_pieces() {
     for (read, piece) in file.pieces.iter().zip(&pieces) {
         assert_same(read, piece);
     }
-    // What was read once is read the same ever after.
+    // A piece that was read once is read unchanged from then on.
     let again = read(&written(&file.pieces), "a.json").expect("it reads");
     assert_eq!(again.pieces, file.pieces);
     assert_eq!(again.texts, [("Style Name".to_owned(), "Tee".to_owned())]);

@@ -1,8 +1,9 @@
-//! Writing a style as GarmentCode: every seam becomes stitches of whole edges, every curve straight or cubic.
+//! Writing of a style as GarmentCode. Every seam becomes stitches of whole edges, and every edge is straight or a cubic
+//! curve.
 //!
-//! The format sews one edge to one edge. Both sides of a seam are therefore cut at the joints of either, at the same
-//! shares of their lengths, and cut on in halves until a cubic curve follows each part. Panels are laid in a row: where
-//! they are worn about a body the format says, a style does not.
+//! The format sews one edge to one edge. Both sides of a seam are therefore split at the joints of either, at equal
+//! shares of their lengths. They are bisected further until a cubic fits each part. Panels are laid out in a row,
+//! because a style has no placement about a body.
 
 use std::collections::BTreeMap;
 
@@ -15,25 +16,26 @@ use geom::polyline::Polyline;
 
 /// Greatest distance of a drawn curve from the cubic written for it, m.
 const TOLERANCE_M: f64 = 0.05e-3;
-/// Parts shorter than this are written straight, m.
+/// Length below which parts are written straight, m.
 const SHORTEST_M: f64 = 0.5e-3;
-/// Points of a part that are compared with its cubic.
+/// Number of points of a part that are compared with its cubic.
 const SAMPLES: usize = 33;
 /// Space between panels, m.
 const GAP_M: f64 = 0.05;
 /// Centimetres in a metre: the unit written.
 const UNITS_IN_METER: f64 = 100.0;
 
-/// Part of an edge, from one arc length to another.
+/// Part of an edge, between two arc lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     edge: EdgeRef,
     arcs: [f64; 2],
 }
 
-/// The document of a style; one that [`super::read`] reads back to the same pieces and seams.
+/// Document of a style. [`super::read`] reads it back to the same pieces and seams.
 ///
-/// Piece ids become panel names. Names of edges, corners, notches, grain and measurements have no place in the format.
+/// Piece identifiers become panel names. The format cannot hold names of edges, corners, notches, grain and
+/// measurements.
 #[must_use]
 pub fn document(style: &Style) -> Document {
     let mut parts: Vec<Part> = Vec::new();
@@ -81,18 +83,18 @@ pub fn document(style: &Style) -> Document {
 }
 
 fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
-    let of = |(piece, drawn): (usize, &crate::style::StylePiece)| {
+    let edges_of = |(piece, drawn): (usize, &crate::style::StylePiece)| {
         (0..drawn.edges.len()).map(move |edge| EdgeRef { piece, edge })
     };
-    style.pieces.iter().enumerate().flat_map(of)
+    style.pieces.iter().enumerate().flat_map(edges_of)
 }
 
-/// The parts of both sides that are sewn to each other, in order along the seam.
+/// Pairs of parts of both sides that are sewn to each other, in order along the seam.
 fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
     let (a, b) = (Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards));
     let mut shares: Vec<f64> = a.shares.iter().chain(&b.shares).copied().collect();
     shares.sort_by(f64::total_cmp);
-    // A joint of both sides is one joint, though rounding may tell them apart.
+    // A joint of both sides is a single one, though rounding may tell them apart.
     let shortest = SHORTEST_M / a.length.max(b.length);
     let mut distinct: Vec<f64> = Vec::new();
     for share in shares {
@@ -110,7 +112,7 @@ fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
         .collect()
 }
 
-/// One side of a seam: edges end to end in walking order.
+/// One side of a seam: its edges end to end in walking order.
 struct Side<'a> {
     style: &'a Style,
     chain: &'a [EdgeRef],
@@ -130,7 +132,7 @@ impl<'a> Side<'a> {
         Self { style, chain, is_forwards, length, shares: ends.into_iter().map(|end| end / length).collect() }
     }
 
-    /// The part between two shares, which lies in one edge.
+    /// The part between two shares of the length. It lies in one edge.
     fn part(&self, from: f64, to: f64) -> Part {
         let middle = 0.5 * (from + to);
         let k = self.shares.partition_point(|&share| share <= middle).clamp(1, self.chain.len()) - 1;
@@ -139,7 +141,7 @@ impl<'a> Side<'a> {
         let arc = |share: f64| {
             let along = ((share - self.shares[k]) * self.length).clamp(0.0, length);
             let along = if self.is_forwards { along } else { length - along };
-            // An end of the edge is that end, not a place next to it.
+            // A point next to an end of the edge is snapped to it.
             if along < SHORTEST_M {
                 0.0
             } else if along > length - SHORTEST_M {
@@ -153,19 +155,19 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Parts that are sewn together, halved until each is straight, short or a cubic; `is_opposed` where the second runs
-/// against the first.
+/// Bisects parts that are sewn together until each is straight, short or a cubic. `is_opposed` is true if the second
+/// runs against the first.
 fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
     let is_fine = |part: &Part| {
         let points = samples(style, *part);
-        part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).1 < TOLERANCE_M
+        part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).error_m < TOLERANCE_M
     };
     if together.iter().all(is_fine) {
         return vec![together.to_vec()];
     }
-    // Which half comes first does not matter: parts are sorted along their edges later.
+    // The order of the halves does not matter: parts are sorted along their edges later.
     let half = |k: usize| -> Vec<Part> {
-        let of = |(side, part): (usize, &Part)| {
+        let half_of = |(side, part): (usize, &Part)| {
             let middle = 0.5 * (part.arcs[0] + part.arcs[1]);
             let arcs = if (k + side * usize::from(is_opposed)).is_multiple_of(2) {
                 [part.arcs[0], middle]
@@ -174,7 +176,7 @@ fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> 
             };
             Part { arcs, ..*part }
         };
-        together.iter().enumerate().map(of).collect()
+        together.iter().enumerate().map(half_of).collect()
     };
     [half(0), half(1)].iter().flat_map(|half| fitted(style, half, is_opposed)).collect()
 }
@@ -186,9 +188,16 @@ fn samples(style: &Style, part: Part) -> Vec<V2> {
     (0..SAMPLES).map(|k| line.at(part.arcs[0] + (part.arcs[1] - part.arcs[0]) * share(k))).collect()
 }
 
-/// The cubic curve between the ends of a line that is nearest to it in the least-squares sense, by its inner control
-/// points, and its greatest distance from the line's points.
-fn cubic(points: &[V2]) -> ([V2; 2], f64) {
+/// A cubic Bezier curve fitted to a line.
+struct CubicFit {
+    /// Inner control points.
+    inner: [V2; 2],
+    /// Greatest distance from the points of the line, m.
+    error_m: f64,
+}
+
+/// Least-squares cubic Bezier curve between the ends of a line.
+fn cubic(points: &[V2]) -> CubicFit {
     let (start, end) = (points[0], points[points.len() - 1]);
     let weights = |k: usize| {
         let t = k as f64 / (points.len() - 1) as f64;
@@ -208,10 +217,10 @@ fn cubic(points: &[V2]) -> ([V2; 2], f64) {
         let w = weights(k);
         (start * w[0] + inner[0] * w[1] + inner[1] * w[2] + end * w[3] - point).norm()
     };
-    (inner, points.iter().enumerate().map(off).fold(0.0, f64::max))
+    CubicFit { inner, error_m: points.iter().enumerate().map(off).fold(0.0, f64::max) }
 }
 
-/// The panel of a piece's parts, in the order of the outline; `left` is where the row has come to, m.
+/// Panel of the parts of a piece, in the order of the outline. `left` is the end of the row so far, m.
 fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
     let starts: Vec<V2> = parts.iter().map(|part| style.edge(part.edge).line.at(part.arcs[0])).collect();
     let low = starts.iter().fold(f64::MAX, |low, p| low.min(p.x));
@@ -224,7 +233,7 @@ fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
         let chord = end - start;
         let relative = |p: V2| [(p - start).dot(&chord), chord.perp(&(p - start))].map(|x| x / chord.norm_squared());
         let is_straight = points.iter().all(|p| (relative(*p)[1] * chord.norm()).abs() < 1e-7);
-        let curvature = (!is_straight).then(|| Curvature::Typed(Curve::Cubic(cubic(&points).0.map(relative))));
+        let curvature = (!is_straight).then(|| Curvature::Typed(Curve::Cubic(cubic(&points).inner.map(relative))));
         PanelEdge { endpoints: [k, (k + 1) % parts.len()], curvature, label: None }
     };
     Panel {

@@ -1,16 +1,16 @@
-//! The JSON of a GarmentCode specification, as `pygarment` writes it.
+//! Data model of the JSON of a GarmentCode specification, as `pygarment` writes it.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// The whole file.
+/// Root of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Document {
     /// Panels and stitches.
     pub pattern: Pattern,
-    /// Parameters of the program that made it; not used here.
+    /// Parameters of the program that made the file. They are not used here.
     #[serde(default)]
     pub parameters: Map<String, Value>,
     /// Names of the parameters in the order of that program.
@@ -25,7 +25,7 @@ pub struct Document {
 pub struct Pattern {
     /// Panels by name.
     pub panels: BTreeMap<String, Panel>,
-    /// Stitches: two sides, and `right_wrong` where both run the same way.
+    /// Stitches: two sides, and `right_wrong` if both run in the same direction.
     pub stitches: Vec<Vec<StitchItem>>,
     /// Order in which panels are drawn.
     #[serde(default)]
@@ -35,15 +35,15 @@ pub struct Pattern {
 /// A flat panel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Panel {
-    /// Place in space, file units.
+    /// Position in space, file units.
     pub translation: [f64; 3],
     /// Intrinsic Euler angles `XYZ`, degrees.
     pub rotation: [f64; 3],
-    /// Vertices in the panel's plane, file units, `y` up.
+    /// Vertices in the plane of the panel, file units, `y` up.
     pub vertices: Vec<[f64; 2]>,
     /// Edges in the order of the loop.
     pub edges: Vec<PanelEdge>,
-    /// Part of the body that the panel covers, where the file says it; not used here.
+    /// Part of the body that the panel covers, if the file gives it. It is not used here.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub label: String,
 }
@@ -51,27 +51,28 @@ pub struct Panel {
 /// An edge of a panel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PanelEdge {
-    /// Indices of its start and its end among the panel's vertices.
+    /// Indices of start and end among the vertices of the panel.
     pub endpoints: [usize; 2],
-    /// Its curve; straight without one.
+    /// Curve of the edge. Without one it is straight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curvature: Option<Curvature>,
-    /// Name that the program gives the edge; not used here.
+    /// Name that the program gives the edge. It is not used here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
 }
 
-/// How an edge is curved.
+/// Curve of an edge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Curvature {
-    /// The older way to write a quadratic curve: its control point.
+    /// Older notation of a quadratic curve: its control point.
     Old([f64; 2]),
     /// A curve with its type.
     Typed(Curve),
 }
 
-/// A curve; control points are relative to the edge: along it, and to its left, both in lengths of the edge.
+/// A curve with control points relative to the edge. Their coordinates are along the edge and to its left, in lengths
+/// of the edge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", content = "params", rename_all = "lowercase")]
 pub enum Curve {
@@ -79,7 +80,7 @@ pub enum Curve {
     Quadratic([[f64; 2]; 1]),
     /// Cubic Bezier curve.
     Cubic([[f64; 2]; 2]),
-    /// Circular arc: radius in file units, whether it is the longer one, whether it turns left.
+    /// Circular arc: radius in file units, 1 for the longer of both arcs, 1 for a left turn.
     Circle(f64, u8, u8),
 }
 
@@ -94,21 +95,21 @@ pub enum StitchItem {
         /// Index of the edge.
         edge: usize,
     },
-    /// A word about the stitch, such as `right_wrong`.
+    /// A flag of the stitch, such as `right_wrong`.
     Flag(String),
 }
 
 /// Units and conventions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Properties {
-    /// `relative` is the only one accepted.
+    /// Coordinates of control points. Only `relative` is accepted.
     pub curvature_coords: String,
     /// File units in a metre.
     pub units_in_meter: f64,
-    /// Whether the translations are of normalized panels; not used here.
+    /// True if the translations are those of normalised panels. It is not used here.
     #[serde(default)]
     pub normalize_panel_translation: bool,
-    /// Whether edges are in loop order.
+    /// True if the edges are in loop order.
     #[serde(default)]
     pub normalized_edge_loops: bool,
 }

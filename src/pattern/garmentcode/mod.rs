@@ -1,11 +1,11 @@
-//! GarmentCode JSON: panels with curved edges and stitches, to and from a [`Style`].
+//! GarmentCode JSON, read and written: panels with curved edges and stitches, converted to and from a [`Style`].
 //!
-//! A panel whose loop runs clockwise is drawn as seen from inside the garment (`pygarment` turns every loop so that the
-//! panel's normal looks away from the body); it is mirrored here, so that all pieces are seen from outside. The edges
-//! keep the order of the file, and edge `k` is called `e<k>`.
+//! A panel whose loop runs clockwise is drawn as seen from inside the garment, because `pygarment` orients loops by the
+//! normal that points away from the body. Such a panel is mirrored here, so that all pieces are seen from outside. The
+//! edges keep the order of the file, and edge `k` is named `e<k>`.
 //!
-//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. Panel names say the [`Role`]s, by the
-//! words that proposals know; several panels may have one role.
+//! The format has no sizes, notches and grain lines: the grain is the `y` axis of the panel. The [`Role`]s are read
+//! from the panel names, with the words that proposals know. Several panels may have one role.
 
 mod export;
 pub mod format;
@@ -26,10 +26,10 @@ use geom::units::mm;
 
 /// Greatest coordinate and radius accepted, m.
 const GREATEST_M: f64 = 100.0;
-/// Flag of a stitch whose sides run the same way.
+/// Flag of a stitch whose sides run in the same direction.
 const RIGHT_WRONG: &str = "right_wrong";
 
-/// Why a file is no usable GarmentCode specification.
+/// Error of reading a GarmentCode specification.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
@@ -37,41 +37,42 @@ pub struct GarmentCodeError {
     pub file: String,
     /// Panel, edge or stitch.
     pub place: String,
-    /// What was found.
+    /// Description of what was found.
     pub found: String,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// A specification as read.
+/// Content of a specification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specification {
     /// Name of the file, for messages.
     pub file: String,
-    /// Millimetres in a unit of the file.
+    /// Millimetres in one unit of the file.
     pub mm_per_unit: f64,
-    /// Panels as pieces seen from outside, by name; [`Piece::is_clockwise_in_file`] says which were mirrored.
+    /// Panels as pieces seen from outside, by name. [`Piece::is_clockwise_in_file`] is true for those that were
+    /// mirrored.
     pub pieces: Vec<Piece>,
-    /// The edges of each piece, in the order of the file.
+    /// Edges of each piece, in the order of the file.
     pub edges: Vec<Vec<Polyline>>,
     /// Stitches, in the order of the file.
     pub stitches: Vec<Stitch>,
 }
 
-/// Two edges sewn together; two edges of one panel are a dart.
+/// Two edges that are sewn together. Two edges of one panel are a dart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
-    /// The edges that are sewn together, in the order of the file.
+    /// Both edges, in the order of the file.
     pub sides: [EdgeRef; 2],
-    /// Whether start meets start (`right_wrong`), not end.
+    /// True if start meets start (`right_wrong`). Otherwise start meets end.
     pub same_direction: bool,
 }
 
-/// Reads a specification; `file` is its name for messages.
+/// Reads a specification. `file` is its name for messages.
 ///
 /// # Errors
-/// [`GarmentCodeError`] when the bytes are not such JSON, an edge or a stitch names what is not there, a loop does not
-/// close, a curve is impossible, an outline crosses itself, or an edge is sewn twice.
+/// [`GarmentCodeError`] if the bytes are not such JSON, an edge or stitch refers to something missing, a loop is open,
+/// a curve is impossible, an outline crosses itself, or an edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
     let document: Document = serde_json::from_slice(bytes).map_err(|error| {
@@ -84,7 +85,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError>
     reader.specification(&document)
 }
 
-/// Reads and checks with the file's name at hand.
+/// Reader with the file name for messages.
 struct Reader<'a> {
     file: &'a str,
 }
@@ -183,7 +184,7 @@ impl Reader<'_> {
         let chord = end - start;
         let left = V2::new(-chord.y, chord.x);
         let relative = |[u, v]: [f64; 2]| start + chord * u + left * v;
-        // A quadratic curve is the cubic one with these control points.
+        // A quadratic Bezier curve is the cubic one with these control points.
         let quadratic = |control: [f64; 2]| {
             let control = relative(control);
             bezier([start, start.lerp(&control, 2.0 / 3.0), end.lerp(&control, 2.0 / 3.0), end])
@@ -241,7 +242,7 @@ impl Reader<'_> {
     }
 }
 
-/// An arc from `start` to `end` that turns by `turn` radians, left positive.
+/// Circular arc from `start` to `end` with the turning angle `turn`, radians, positive to the left.
 fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     let chord = end - start;
     let heading = chord.y.atan2(chord.x) - 0.5 * turn;
@@ -255,7 +256,7 @@ fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     points
 }
 
-/// Seen from the other side; runs in the same order, so that a clockwise loop becomes a counter-clockwise one.
+/// Mirrors an edge and keeps its order, so that a clockwise loop becomes counter-clockwise.
 fn mirrored(edge: &Polyline) -> Polyline {
     let points = edge.points().iter().map(|p| V2::new(-p.x, p.y)).collect();
     Polyline::new(points).expect("as many points as before")
@@ -276,7 +277,7 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
 }
 
 impl Specification {
-    /// The panels, sewn as the stitches say. There are no measurements: the format holds none.
+    /// Style of the panels, sewn by the stitches. It has no measurements, because the format holds none.
     #[must_use]
     pub fn style(&self) -> Style {
         let edge = |(k, line): (usize, &Polyline)| Edge {

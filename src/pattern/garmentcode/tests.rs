@@ -7,7 +7,7 @@ use geom::units::from_mm;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns/garmentcode");
 
-/// The specifications beside the checkout, by garment; none where the folder is not there.
+/// Specifications beside the checkout, by garment. There are none without that folder.
 fn specifications() -> BTreeMap<String, Specification> {
     let mut all = BTreeMap::new();
     for folder in [FOLDER.to_owned(), format!("{FOLDER}/upstream")] {
@@ -160,7 +160,7 @@ fn curves_are_what_the_format_says() {
     let check = |edge: &str, expect_mm: f64, bulge_mm: f64| {
         let read = read(square(edge, "", "100").as_bytes(), "square").unwrap_or_else(|error| panic!("{edge}: {error}"));
         let line = &read.edges[0][0];
-        // The chords of an arc that nearly comes round are a little shorter than the arc.
+        // The chords of an arc that is nearly a full circle are a little shorter than the arc.
         assert!((mm(line.length()) / expect_mm - 1.0).abs() < 6e-4, "{edge}: {}", mm(line.length()));
         assert!((mm(line.at(0.5 * line.length()).y) - bulge_mm).abs() < 0.02, "{edge}");
     };

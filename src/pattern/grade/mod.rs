@@ -1,8 +1,8 @@
-//! Grading: the pieces of every size from those of the sample size and a grade rule table.
+//! Grading: derives the pieces of every size from those of the sample size and a grade rule table.
 //!
-//! A text `# n` at a point of the outline gives that point rule `n`. Between two graded points the outline moves by the
-//! mean of both steps, weighted by arc length; what lies inside moves with the nearest place of the outline, unless it
-//! has rules of its own.
+//! A text `# n` at a point of the outline assigns grade rule `n` to it. Between two grade points the displacement of
+//! the outline is interpolated linearly in arc length. Points inside move with the nearest point of the outline, unless
+//! they have rules of their own.
 
 mod table;
 mod ungrade;
@@ -19,15 +19,15 @@ use geom::units::mm;
 
 /// Distance within which a grade point lies on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-3;
-/// Slope of a grade reference line up to which it is horizontal.
+/// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
 
-/// The pieces of all sizes of a table; those of the sample size stay as drawn.
+/// Grades the pieces into all sizes of a table. Those of the sample size stay as drawn.
 ///
-/// A piece that cannot be graded is refused in the file that is returned, with its reason.
+/// A piece that cannot be graded is refused in the returned file, with its reason.
 ///
 /// # Errors
-/// [`GradeError`] where the file holds pieces of another size than the sample size, or no piece has a grade point.
+/// [`GradeError`] if the file holds pieces of another size than the sample size, or no piece has a grade point.
 pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, GradeError> {
     let fail = |found: String, accepted: &str| {
         Err(GradeError { file: file.file.clone(), line: None, found, accepted: accepted.to_owned() })
@@ -61,7 +61,7 @@ pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, Grad
     Ok(graded)
 }
 
-/// One piece in one size.
+/// Grades one piece into one size.
 fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
     if let Some([from, to]) = piece.grade_reference {
         let along = to - from;
@@ -105,21 +105,28 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     })
 }
 
-/// How far each vertex of an outline moves, and each point with a rule of its own.
+/// A grade point inside a piece.
+struct InnerPoint {
+    at: V2,
+    /// Displacement by its rule.
+    step: V2,
+}
+
+/// Displacement field of a piece: of each vertex of the outline, and of each point with a rule of its own.
 struct Field<'a> {
     outline: &'a [V2],
     steps: Vec<V2>,
-    /// Graded points inside the piece.
-    own: Vec<(V2, V2)>,
+    /// Grade points inside the piece.
+    own: Vec<InnerPoint>,
 }
 
 impl<'a> Field<'a> {
     /// # Errors
-    /// A sentence where a rule is missing, two rules meet in one point, or fewer than two points are graded.
+    /// A sentence for messages if a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
-        let mut own: Vec<(V2, V2)> = Vec::new();
+        let mut own: Vec<InnerPoint> = Vec::new();
         for point in &piece.grade_points {
             let Some(steps) = table.rules.get(&point.rule) else {
                 return Err(format!("rule {} at {}, which {} does not hold", point.rule, place(&point.at), table.file));
@@ -128,7 +135,7 @@ impl<'a> Field<'a> {
             let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let on_outline = nearest.filter(|vertex| !point.is_inner && distance(vertex) < ON_OUTLINE_M);
             let Some(vertex) = on_outline else {
-                own.push((point.at, steps[size]));
+                own.push(InnerPoint { at: point.at, step: steps[size] });
                 continue;
             };
             match graded[vertex] {
@@ -147,14 +154,14 @@ impl<'a> Field<'a> {
         Ok(Self { outline, steps: between(outline, &known), own })
     }
 
-    /// How far a point inside moves: as its own rule says, or else as the nearest place of the outline does.
+    /// Displacement of a point inside: by its own rule, otherwise that of the nearest point of the outline.
     fn at_inner(&self, point: &V2) -> V2 {
-        let near = self.own.iter().filter(|(at, _)| (at - point).norm() < ON_OUTLINE_M);
-        let own = near.min_by(|(a, _), (b, _)| (a - point).norm().total_cmp(&(b - point).norm()));
-        own.map_or_else(|| self.at(point), |(_, step)| *step)
+        let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
+        let own = near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm()));
+        own.map_or_else(|| self.at(point), |own| own.step)
     }
 
-    /// How far a point moves with the nearest place of the outline.
+    /// Displacement of the nearest point of the outline.
     fn at(&self, point: &V2) -> V2 {
         let n = self.outline.len();
         let distance = |k: &usize| segment_distance(&self.outline[*k], &self.outline[(*k + 1) % n], point);
@@ -166,7 +173,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Steps of all vertices of a closed outline from those of some, linear in arc length between them.
+/// Displacements of all vertices of a closed outline, interpolated linearly in arc length between those that are known.
 fn between(outline: &[V2], known: &[(usize, V2)]) -> Vec<V2> {
     let n = outline.len();
     let mut steps = vec![V2::zeros(); n];

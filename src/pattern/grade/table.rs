@@ -1,4 +1,4 @@
-//! Grade rule tables (`.rul`) [AAMA-292, ASTM D6673]: how far each numbered point moves in each size.
+//! Grade rule tables (`.rul`) [AAMA-292, ASTM D6673]: the displacement of each numbered point in each size.
 //!
 //! ```text
 //! UNITS: METRIC
@@ -11,8 +11,8 @@
 //! END
 //! ```
 //!
-//! A rule has one pair of x and y for each size of the list, from the sample size, over as many lines as the writer
-//! likes; the pair of the sample size is zero.
+//! A rule has one pair of x and y for each size of the list, relative to the sample size. It may span any number of
+//! lines. The pair of the sample size is zero.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -21,27 +21,27 @@ use crate::dxf::{D6673, Standard, Unit};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Most bytes of a table that is read; a large one has some hundred thousand.
+/// Greatest size of a table, bytes. A large one has some hundred thousand.
 const MOST_BYTES: usize = 8 << 20;
-/// Greatest step of a rule, m.
+/// Greatest displacement by a rule, m.
 const GREATEST_M: f64 = 2.0;
-/// Greatest step of the sample size that is rounding, m.
+/// Greatest displacement of the sample size that counts as rounding, m.
 const ZERO_M: f64 = 1e-6;
 
-/// Pairs of x and y in a line that is written.
+/// Number of pairs of x and y in a written line.
 const PAIRS_A_LINE: usize = 4;
 
-/// Why a grade rule table cannot be read, or not be applied.
+/// Error of reading or applying a grade rule table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct GradeError {
     /// Name of the file, for the message.
     pub file: String,
-    /// Line, where one can be named.
+    /// Line number, if one can be named.
     pub line: Option<usize>,
-    /// What was found.
+    /// Description of what was found.
     pub found: String,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
@@ -50,21 +50,21 @@ pub struct GradeError {
 pub struct GradeTable {
     /// Name of the file, for messages.
     pub file: String,
-    /// Sizes in their order.
+    /// Names of the sizes, in the order of the table.
     pub sizes: Vec<String>,
-    /// Which of them the pieces are drawn in.
+    /// Index of the sample size.
     pub sample: usize,
-    /// Unit of its numbers.
+    /// Unit of the numbers in the file.
     pub unit: Unit,
-    /// Steps of each rule from the sample size, m: one for each size.
+    /// Displacements by each rule relative to the sample size, m, one for each size.
     pub rules: BTreeMap<u32, Vec<V2>>,
 }
 
-/// Reads a grade rule table; `file` is its name for messages.
+/// Reads a grade rule table. `file` is its name for messages.
 ///
 /// # Errors
-/// [`GradeError`] where it is no such table, names no unit, its sizes do not agree, or a rule is there twice or has not
-/// one pair for each size. So it is where the sample size moves (the steps are not from the sample size then).
+/// [`GradeError`] if it is no such table, names no unit, or its sizes do not agree. It is also an error if a rule
+/// occurs twice, has not one pair for each size, or moves the sample size.
 pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     let reader = Reader { file };
     if bytes.len() > MOST_BYTES {
@@ -108,19 +108,19 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     reader.table(head, rules)
 }
 
-/// The text by which a pattern file names its table, as `(key, value)`.
+/// Text by which a pattern file names its table, as `(key, value)`.
 #[must_use]
 pub fn named_in_pattern(name: &str) -> (String, String) {
     ("Grade Rule Table".to_owned(), name.to_owned())
 }
 
-/// Whether a text of a pattern file names its table.
+/// True for the key of a text that names the grade rule table.
 #[must_use]
 pub fn is_name_of_table(key: &str) -> bool {
     key.eq_ignore_ascii_case("grade rule table")
 }
 
-/// Writes a table in millimetres by a standard; `name` is that by which its pattern file calls it.
+/// Writes a table in millimetres by a standard. `name` is its name in the pattern file.
 #[must_use]
 pub fn write(table: &GradeTable, name: &str, standard: Standard) -> String {
     let head = match standard {
@@ -144,7 +144,7 @@ pub fn write(table: &GradeTable, name: &str, standard: Standard) -> String {
     text
 }
 
-/// What a line without a key goes on with.
+/// Entry that a line without a key continues.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Open {
     Head,
@@ -153,7 +153,7 @@ enum Open {
     Nothing,
 }
 
-/// Entries before the rules, with their lines.
+/// Entries before the rules, with their line numbers.
 #[derive(Clone, Debug, Default)]
 struct Head {
     unit: Option<(usize, String)>,
@@ -175,14 +175,14 @@ impl Head {
     }
 }
 
-/// A rule as written.
+/// A rule as read.
 #[derive(Clone, Debug)]
 struct Rule {
     line: usize,
     numbers: Vec<f64>,
 }
 
-/// Reads with the file's name at hand.
+/// Reader with the file name for messages.
 struct Reader<'a> {
     file: &'a str,
 }
@@ -252,7 +252,7 @@ impl Reader<'_> {
         Ok(GradeTable { file: self.file.to_owned(), sizes, sample, unit, rules })
     }
 
-    /// The steps of one rule, m.
+    /// Displacements by one rule, m.
     fn steps(&self, number: u32, rule: &Rule, scale: f64, sizes: usize, sample: usize) -> Result<Vec<V2>, GradeError> {
         if rule.numbers.len() != 2 * sizes {
             let found = format!("{} numbers in rule {number}", rule.numbers.len());
@@ -272,7 +272,7 @@ impl Reader<'_> {
     }
 }
 
-/// Refuses steps that are too long for a garment.
+/// Refuses displacements that are too long for a garment.
 pub(super) fn check_steps(file: &str, line: Option<usize>, number: u32, steps: &[V2]) -> Result<(), GradeError> {
     let Some(step) = steps.iter().find(|step| step.norm() > GREATEST_M) else { return Ok(()) };
     let found = format!("a step of {:.1} m in rule {number}", step.norm());

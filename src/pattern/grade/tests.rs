@@ -77,16 +77,16 @@ fn points_move_by_their_rules_and_between_them_by_arc_length() {
     assert_eq!(graded.sizes(), ["S", "M", "L"]);
     let [small, sample, large] = &graded.pieces[..] else { panic!("{:?}", graded.pieces.len()) };
     assert_eq!(Piece { size: None, ..sample.clone() }, Piece { size: None, ..square().pieces[0].clone() });
-    let at = |piece: &Piece, k: usize| [piece.outline[k].x * 1e3, piece.outline[k].y * 1e3];
+    let vertex_mm = |piece: &Piece, k: usize| [piece.outline[k].x * 1e3, piece.outline[k].y * 1e3];
     let close = |found: [f64; 2], expect: [f64; 2]| {
         assert!(found.iter().zip(expect).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} for {expect:?}");
     };
     for (piece, sign) in [(small, -1.0), (large, 1.0)] {
-        close(at(piece, 0), [0.0, 0.0]);
-        close(at(piece, 2), [100.0 + sign * 5.0, 50.0 + sign * 2.5]);
-        close(at(piece, 3), [100.0 + sign * 10.0, 100.0 + sign * 5.0]);
-        close(at(piece, 4), [0.0, 100.0 + sign * 5.0]);
-        close(at(piece, 5), [0.0, 50.0 + sign * 2.5]);
+        close(vertex_mm(piece, 0), [0.0, 0.0]);
+        close(vertex_mm(piece, 2), [100.0 + sign * 5.0, 50.0 + sign * 2.5]);
+        close(vertex_mm(piece, 3), [100.0 + sign * 10.0, 100.0 + sign * 5.0]);
+        close(vertex_mm(piece, 4), [0.0, 100.0 + sign * 5.0]);
+        close(vertex_mm(piece, 5), [0.0, 50.0 + sign * 2.5]);
         let notch = piece.notches[0].at * 1e3;
         close([notch.x, notch.y], [100.0 + sign * 7.5, 75.0 + sign * 3.75]);
         // Nearest to the middle of the upper side.
@@ -116,8 +116,8 @@ fn what_is_ambiguous_is_refused() {
     assert!(grade(&file, &table()).expect_err("size").found.contains("size `XL`"));
 }
 
-/// A nest holds what a table would make of its sample size: the table made of its vertices gives it back. Sizes and
-/// pieces of which every outline has as many vertices are compared.
+/// Checks that the table made of the vertices of a nest gives the nest back. Sizes and pieces whose outlines all have
+/// equally many vertices are compared.
 #[test]
 fn a_nest_is_what_its_own_rules_make_of_its_sample_size() {
     const SIZES: [&str; 4] = ["34", "36", "38", "40"];
@@ -184,7 +184,7 @@ proptest::proptest! {
     }
 }
 
-/// The nest that the sample size and its table make, read again from what is written.
+/// Nest that the sample size and its table make, read again from the written files.
 fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> PatternFile {
     let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
     let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
@@ -210,7 +210,7 @@ fn a_nest_written_as_rules_is_the_same_nest_again() {
     for model in crate::draft::Model::ALL {
         let mut nest = dxf::read(&dxf::write(&model.drafts()[0]), "a.dxf", None).expect("our own file");
         nest.pieces = model.drafts().into_iter().flat_map(|draft| draft.pieces).collect();
-        // One size has a curve with fewer vertices, as a size of its own drawing has.
+        // One size has a curve with fewer vertices, as if it were drawn separately.
         let turns: Vec<V2> = nest.pieces[0].turn_points.clone();
         let thinned = &mut nest.pieces[0].outline;
         let mut count = 0;

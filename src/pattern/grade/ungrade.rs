@@ -1,8 +1,9 @@
-//! The other way round: from a nest the sample size with grade points, and the rule table that makes the other sizes of it.
+//! The inverse of grading: derives the sample size with grade points, and the grade rule table, from a nest of all
+//! sizes.
 //!
-//! Corners correspond from size to size as those of a seam file do. Between two of them the outlines of all sizes are cut
-//! at the same shares of their length, wherever one of them has a vertex: each size keeps its own vertices, and every
-//! vertex has a rule.
+//! Corners correspond between sizes as those of a seam file do. Between two corners, the outlines of all sizes are
+//! split at equal shares of their length, wherever one of them has a vertex. Each size keeps its own vertices, and
+//! every vertex has a rule.
 
 use std::collections::BTreeMap;
 
@@ -10,30 +11,30 @@ use super::{GradeError, GradeTable};
 use crate::dxf::{PatternFile, Unit};
 use crate::piece::{GradePoint, Piece};
 use crate::style::corners::corner_vertices;
-use crate::style::follow::in_sizes;
+use crate::style::nest_corners::in_sizes;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance along a line within which vertices of two sizes are one, m.
+/// Distance along a line within which vertices of two sizes correspond, m.
 const SAME_PLACE_M: f64 = 0.2e-3;
-/// Steps that differ by less are one rule, m: the last digit of a table.
+/// Difference below which displacements share one rule, m: the last digit of a table.
 const SAME_STEP_M: f64 = 1e-7;
 
-/// A nest as its sample size and rules.
+/// A nest converted into its sample size and grade rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ungraded {
     /// Pieces of the sample size with grade points.
     pub pieces: Vec<Piece>,
     /// Rules of all sizes.
     pub table: GradeTable,
-    /// What has no rules of its own, since not every size has it: it moves with the outline.
+    /// Notes on features that have no rules of their own because not every size has them. They move with the outline.
     pub notes: Vec<String>,
 }
 
-/// The sample size of a nest with grade points, and the table that makes all sizes of it.
+/// Converts a nest into its sample size with grade points and a grade rule table.
 ///
 /// # Errors
-/// [`GradeError`] where the file has no such size, a piece is not there in every size, or is another piece in one.
+/// [`GradeError`] if the file has no such size, or a piece is missing or different in one size.
 pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError> {
     let fail = |found: String, accepted: &str| GradeError {
         file: file.file.clone(),
@@ -45,12 +46,12 @@ pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError>
     if let Some(unnamed) = sizes.iter().find(|size| size.is_empty() || size.contains(char::is_whitespace)) {
         return Err(fail(format!("size `{unnamed}`"), "sizes with names of one word"));
     }
-    let of = |size: &str| -> Vec<&Piece> {
+    let pieces_of = |size: &str| -> Vec<&Piece> {
         file.pieces.iter().filter(|piece| piece.size.as_deref() == Some(size)).collect()
     };
     let index = sizes.iter().position(|size| size.eq_ignore_ascii_case(sample));
     let index = index.ok_or_else(|| fail(format!("no size `{sample}`"), &format!("one of {}", sizes.join(", "))))?;
-    let nest: Vec<Vec<&Piece>> = sizes.iter().map(|size| of(size)).collect();
+    let nest: Vec<Vec<&Piece>> = sizes.iter().map(|size| pieces_of(size)).collect();
     let mut rules = Rules { sizes: sizes.len(), steps: Vec::new() };
     let (mut pieces, mut notes) = (Vec::new(), Vec::new());
     for (k, piece) in nest[index].iter().enumerate() {
@@ -78,7 +79,7 @@ struct Rules {
 }
 
 impl Rules {
-    /// Number of the rule that moves a point of the sample size to its places in all sizes.
+    /// Number of the rule that moves a point of the sample size to its positions in all sizes.
     fn number(&mut self, places: &[V2], sample: usize) -> u32 {
         debug_assert_eq!(places.len(), self.sizes);
         let steps: Vec<V2> = places.iter().map(|place| place - places[sample]).collect();
@@ -108,28 +109,28 @@ fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<Stri
         (0..lines[0].len()).for_each(|k| mark(across(&lines, k), true));
         piece.sew_line = Some(lines[sample].clone());
     }
-    for (what, of) in [
+    for (what, feature) in [
         ("internal lines", (|piece: &Piece| piece.internal_lines.clone()) as fn(&Piece) -> Vec<Vec<V2>>),
         ("cut-outs", |piece| piece.cut_outs.clone()),
     ] {
-        let lines: Vec<Vec<Vec<V2>>> = all.iter().map(|piece| of(piece)).collect();
+        let lines: Vec<Vec<Vec<V2>>> = all.iter().map(|piece| feature(piece)).collect();
         if !is_in_all(&piece.name, what, &lines, notes) {
             continue;
         }
         let mut own = Vec::new();
         for k in 0..lines[sample].len() {
-            let one: Vec<Vec<V2>> = lines.iter().map(|lines| lines[k].clone()).collect();
-            let one = if one.iter().any(|line| line.len() < 2) { one } else { cut_alike(&one) };
-            (0..one[sample].len()).for_each(|k| mark(across(&one, k), true));
-            own.push(one[sample].clone());
+            let line: Vec<Vec<V2>> = lines.iter().map(|lines| lines[k].clone()).collect();
+            let line = if line.iter().any(|sized| sized.len() < 2) { line } else { cut_alike(&line) };
+            (0..line[sample].len()).for_each(|k| mark(across(&line, k), true));
+            own.push(line[sample].clone());
         }
         if what == "cut-outs" { piece.cut_outs = own } else { piece.internal_lines = own }
     }
-    for (what, of) in [
+    for (what, feature) in [
         ("drill holes", (|piece: &Piece| piece.drill_holes.clone()) as fn(&Piece) -> Vec<V2>),
         ("notches", |piece| piece.notches.iter().map(|notch| notch.at).collect()),
     ] {
-        let places: Vec<Vec<V2>> = all.iter().map(|piece| of(piece)).collect();
+        let places: Vec<Vec<V2>> = all.iter().map(|piece| feature(piece)).collect();
         if !is_in_all(&piece.name, what, &places, notes) {
             continue;
         }
@@ -147,21 +148,22 @@ fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<Stri
     Ok(piece)
 }
 
-/// Whether all sizes have as many of something; a note where not.
+/// True if all sizes have equally many of something. Otherwise a note is added.
 fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>) -> bool {
-    let is_same = all.iter().all(|one| one.len() == all[0].len());
+    let is_same = all.iter().all(|sized| sized.len() == all[0].len());
     if !is_same {
         notes.push(format!("piece `{piece}`: not every size has its {what}: they move with the outline"));
     }
     is_same
 }
 
-/// A closed line of all sizes, with as many vertices in each, the corners of the sample size among them.
-fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result<Vec<Vec<V2>>, String> {
+/// A closed line of each size, with equally many vertices, among them the corners of the sample size. `line_of` gives
+/// the line of a piece.
+fn ring(all: &[&Piece], sample: usize, line_of: impl Fn(&Piece) -> Vec<V2>) -> Result<Vec<Vec<V2>>, String> {
     let pieces: Vec<Piece> =
-        all.iter().map(|piece| Piece { outline: of(piece), sew_line: None, ..(*piece).clone() }).collect();
+        all.iter().map(|piece| Piece { outline: line_of(piece), sew_line: None, ..(*piece).clone() }).collect();
     let own = corner_vertices(&pieces[sample]);
-    // A line without corners begins where the sample size does.
+    // A line without corners begins at the first vertex of the sample size.
     let own = if own.is_empty() { vec![0] } else { own };
     let corners = in_sizes(&pieces, sample, &own)
         .map_err(|(size, _)| format!("another outline in size {:?}", pieces[size].size))?;
@@ -181,7 +183,7 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
     Ok(rings)
 }
 
-/// Open lines of all sizes with a vertex at every share of their length at which one of them has one.
+/// Open lines of all sizes, each with a vertex at every share of its length at which one of them has one.
 fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
     if lines.iter().all(|line| line.len() == lines[0].len()) {
         return lines.to_vec();
@@ -206,8 +208,9 @@ fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
         }
     }
     let cut = |(size, curve): (usize, &Polyline)| {
-        // Between its own vertices a size has those of others at the shares that lie between as theirs do: never upon its own.
-        let own = |group: &Vec<(f64, usize)>| Some([group[0].0, group.iter().find(|(_, of)| *of == size)?.0]);
+        // The vertices of other sizes are interpolated between its own at the corresponding shares. They never coincide
+        // with its own.
+        let own = |group: &Vec<(f64, usize)>| Some([group[0].0, group.iter().find(|(_, owner)| *owner == size)?.0]);
         let known: Vec<[f64; 2]> =
             [[0.0; 2]].into_iter().chain(groups.iter().filter_map(own)).chain([[1.0; 2]]).collect();
         let place = |group: &Vec<(f64, usize)>| {

@@ -1,22 +1,23 @@
-//! The unit of a grade rule table beside its pattern. Tables know only METRIC and ENGLISH, and programs that draw in centimetres write their
-//! numbers under METRIC as well.
+//! Unit of a grade rule table beside its pattern. Tables know only METRIC and ENGLISH. Programs that draw in
+//! centimetres write their numbers under METRIC as well.
 
 use super::super::dxf::Unit;
 use super::table::{GradeError, GradeTable, check_steps};
 use geom::units::{from_mm, mm};
 
-/// Least step from one size to the next that some point of a garment makes, m: sizes lie at least an inch of girth apart, of which a
-/// quarter, 6 mm, moves each side seam.
+/// Least grade step between neighbouring sizes, m, that some point of a garment makes. Sizes differ by at least an inch
+/// of girth. A quarter of it, 6 mm, moves each side seam.
 const LEAST_STEP_M: f64 = 0.004;
 
-/// Longest step from one size to the next, m: letter sizes lie up to 0.1 m of girth apart, and less of length.
+/// Greatest grade step between neighbouring sizes, m. Letter sizes differ by up to 0.1 m of girth, and by less of
+/// length.
 const MOST_STEP_M: f64 = 0.1;
 
-/// The table in the unit that is given; else in that of its head, or in that of the pattern where the head's would make no grade. What is to
-/// be said of it.
+/// Converts the table into the given unit, or without one into that of its head. The unit of the pattern is taken if
+/// that of the head would make no plausible grade. Returns a note for the user too.
 ///
 /// # Errors
-/// [`GradeError`] where steps are too long in that unit.
+/// [`GradeError`] if displacements are too long in that unit.
 pub fn in_unit_of(
     table: GradeTable,
     drawn: Unit,
@@ -65,13 +66,13 @@ pub fn in_unit_of(
     Ok((scaled(table, unit)?, note))
 }
 
-/// Longest step of a rule from one size to the next, m.
+/// Longest grade step of a rule between neighbouring sizes, m.
 fn longest_step_m(table: &GradeTable) -> f64 {
     let steps = table.rules.values().flat_map(|steps| steps.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
     steps.fold(0.0, f64::max)
 }
 
-/// The table with its numbers in another unit.
+/// Converts the numbers of the table to another unit.
 fn scaled(mut table: GradeTable, unit: Unit) -> Result<GradeTable, GradeError> {
     if unit == table.unit {
         return Ok(table);

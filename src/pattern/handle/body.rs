@@ -1,7 +1,7 @@
-//! The parts of a garment that handles move: side seams with their levels, armholes, sleeves, legs, darts, bands.
+//! Parts of a garment that handles move: side seams with their levels, armholes, sleeves, legs, darts.
 
 use super::Handle;
-use super::plan::{along, end, start};
+use super::plan::{Span, along, end, start};
 use crate::pom::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part};
 use crate::pom::legs::Legs;
 use crate::pom::skirt;
@@ -12,88 +12,99 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance within which two levels of a seam are one, and a point lies at a corner, m.
+/// Distance within which two levels of a seam coincide, and within which a point is a corner, m.
 pub const NEAR_M: f64 = 3e-3;
 
-/// Least distance of a waist within a side seam from its ends, m: nearer, the girth is narrowest where the seam ends, and there is no waist.
+/// Least distance of a waist from the ends of its side seam, m. Nearer, the girth is narrowest at the end of the seam,
+/// and there is no waist.
 const WAIST_FROM_ENDS_M: f64 = 85e-3;
 
-/// Least length of an underarm seam below the bicep for it to bend there, m: in less, 10 mm more width would be a corner.
+/// Least length of an underarm seam below the bicep for it to bend there, m. In a shorter seam, 10 mm more width would
+/// make a corner.
 const LEAST_BELOW_BICEP_M: f64 = 60e-3;
 
-/// What a side seam belongs to.
+/// Part of the garment that a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
     /// Trunk or bodice.
     Trunk,
     /// Skirt of a skirt or a dress.
     Skirt,
-    /// The outseam of a leg.
+    /// Outseam of a leg.
     Outer(Hand),
-    /// The inseam of a leg.
+    /// Inseam of a leg.
     Inner(Hand),
 }
 
-/// One side of a side seam, outseam or inseam, from above.
+/// A level of a side seam.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    /// Distance from the beginning of the seam, m.
+    pub at_m: f64,
+    /// Handle that moves it.
+    pub handle: Handle,
+}
+
+/// One side of a side seam, outseam or inseam, directed downwards.
 pub struct Side {
-    /// What it belongs to.
+    /// Part that it belongs to.
     pub limb: Limb,
-    /// Its edges, from above.
+    /// Edges, directed downwards.
     pub chain: Chain,
-    /// Levels along it with their distances from its start, m.
-    pub levels: Vec<(f64, Handle)>,
-    /// Unit vector out of the piece, level.
+    /// Levels along it, from the top.
+    pub levels: Vec<Level>,
+    /// Unit vector out of the piece, horizontal.
     pub out: V2,
 }
 
-/// One face's part of an armhole.
+/// The part of an armhole on one face.
 pub struct Armhole {
-    /// Its edges, from the shoulder point to the underarm.
+    /// Edges from the shoulder point to the underarm.
     pub edges: Vec<EdgeRef>,
-    /// Its upper end, the shoulder point; none without a shoulder.
+    /// Upper end: the shoulder point. `None` without a shoulder.
     pub tip: Option<EdgeEnd>,
-    /// Its lower end.
+    /// Lower end.
     pub underarm: EdgeEnd,
-    /// The side seam's edges from there down.
+    /// Edges of the side seam from there downwards.
     pub side: Chain,
-    /// Half of the sleeve's cap that is sewn to it; none where nothing or something else is.
+    /// Half of the sleeve cap that is sewn to it. `None` if nothing or something else is.
     pub cap: Option<HalfCap>,
 }
 
-/// Half a sleeve: from the underarm up to the shoulder point, and the underarm seam on its side.
+/// Half of a sleeve cap, from the underarm up to the shoulder point, and the underarm seam on its side.
 pub struct HalfCap {
-    /// Index of the sleeve's piece.
+    /// Index of the sleeve piece.
     pub piece: usize,
-    /// The corner at the underarm.
+    /// Corner at the underarm.
     pub underarm: EdgeEnd,
     /// Parts of edges from the underarm to the top.
-    pub spans: Vec<(EdgeRef, [f64; 2])>,
-    /// The point that is sewn to the shoulder point.
+    pub spans: Vec<Span>,
+    /// Point that is sewn to the shoulder point.
     pub top: EdgePoint,
-    /// The underarm seam from above.
+    /// Underarm seam, directed downwards.
     pub seam: Chain,
-    /// Unit vectors down the arm and out of the piece at the underarm.
+    /// Unit vector down the arm.
     pub down: V2,
-    /// Across the arm, out of the piece.
+    /// Unit vector across the arm, out of the piece at the underarm.
     pub out: V2,
 }
 
-/// A garment as handles see it: the parts that they move.
+/// The parts of a garment that handles move.
 pub struct Body<'a> {
-    /// What its seams are.
+    /// Identification of its seams.
     pub anatomy: &'a Anatomy<'a>,
-    /// Its trunk; `None` without side seams between a front and a back.
+    /// Trunk. `None` without side seams between a front and a back.
     pub trunk: Option<Trunk<'a>>,
-    /// Its legs, the right one first; empty where it has none.
+    /// Legs, the right one first. Empty if it has none.
     pub legs: Vec<Legs<'a>>,
-    /// Its side seams.
+    /// Side seams.
     pub sides: Vec<Side>,
-    /// Its armholes, a face each.
+    /// Armholes, one for each face.
     pub armholes: Vec<Armhole>,
 }
 
 impl<'a> Body<'a> {
-    /// Finds the parts that handles move; `points` are the style's points of measure.
+    /// Finds the parts that handles move. `points` are the points of measure of the style.
     pub fn of(anatomy: &'a Anatomy<'a>, points: &[PointOfMeasure]) -> Self {
         let trunk = Trunk::of(anatomy);
         let legs: Vec<Legs<'a>> = Hand::BOTH.into_iter().filter_map(|hand| Legs::of(anatomy, hand)).collect();
@@ -102,12 +113,13 @@ impl<'a> Body<'a> {
         Self { anatomy, trunk, legs, sides, armholes }
     }
 
-    /// Darts as their legs: a seam of two neighbouring edges of one piece, whose common corner is the tip.
+    /// Darts as pairs of legs: two neighbouring edges of one piece that are sewn to each other. Their common corner is
+    /// the tip.
     pub fn darts(&self) -> Vec<[EdgeRef; 2]> {
         let style = self.anatomy.style();
         let dart = |[a, b]: [EdgeRef; 2]| {
             let n = style.pieces[a.piece].edges.len();
-            let follows = |one: EdgeRef, other: EdgeRef| (one.edge + 1) % n == other.edge;
+            let follows = |edge: EdgeRef, next: EdgeRef| (edge.edge + 1) % n == next.edge;
             let is_dart = a.piece == b.piece && n > 2;
             (is_dart && follows(a, b)).then_some([a, b]).or_else(|| (is_dart && follows(b, a)).then_some([b, a]))
         };
@@ -118,21 +130,21 @@ impl<'a> Body<'a> {
         seams.collect()
     }
 
-    /// The half caps of all sleeves.
+    /// Half caps of all sleeves.
     pub fn caps(&self) -> impl Iterator<Item = &HalfCap> {
         self.armholes.iter().filter_map(|armhole| armhole.cap.as_ref())
     }
 
-    /// Corners of a piece's outline at the end of an edge as its point.
+    /// End of an edge as an edge point.
     pub fn point(&self, end: EdgeEnd) -> EdgePoint {
         self.anatomy.point(end)
     }
 }
 
-/// Distance along a chain of the end of a path that lies on it, m.
+/// Distance along a chain, m, of the end of a path that lies on it.
 pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
     let mut before_m = 0.0;
-    for &(edge, is_forwards) in chain {
+    for &EdgeEnd { edge, is_last: is_forwards } in chain {
         let length_m = anatomy.length_m(&[edge]);
         let ends = path.iter().filter_map(|part| match part {
             PathPart::Line(ends) => Some(ends),
@@ -146,9 +158,9 @@ pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f6
     None
 }
 
-/// Level vector out of the piece of a chain.
+/// Horizontal unit vector out of the piece of a chain.
 fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
-    let outline = anatomy.style().pieces[chain[0].0.piece].outline();
+    let outline = anatomy.style().pieces[chain[0].edge.piece].outline();
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
     let middle = 0.5 * (anatomy.place(start(chain)).x + anatomy.place(end(chain)).x);
     V2::x() * (middle - 0.5 * (low + high)).signum()
@@ -157,23 +169,25 @@ fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
 fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], points: &[PointOfMeasure]) -> Vec<Side> {
     use Handle::{Chest, Fork, Hem, Hip, Knee, LegOpening, Thigh, Waist};
     let path = |points: &[PointOfMeasure], point: Point| {
-        points.iter().find(|one| one.point == point).map(|one| one.path.clone()).unwrap_or_default()
+        points.iter().find(|measure| measure.point == point).map(|measure| measure.path.clone()).unwrap_or_default()
     };
     let side =
         |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
-            let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
-            let mut levels: Vec<(f64, Handle)> = within
+            let length_m: f64 = chain.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
+            let mut levels: Vec<Level> = within
                 .iter()
-                .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
-                .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
+                .filter_map(|(point, handle)| {
+                    Some(Level { at_m: met(anatomy, chain, &path(own, *point))?, handle: *handle })
+                })
+                .filter(|level| (NEAR_M..length_m - NEAR_M).contains(&level.at_m))
                 .collect();
-            levels.retain(|(at, handle)| {
-                *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at)
+            levels.retain(|level| {
+                level.handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(&level.at_m)
             });
-            levels.extend(ends[0].map(|handle| (0.0, handle)));
-            levels.extend(ends[1].map(|handle| (length_m, handle)));
-            levels.sort_by(|one, other| one.0.total_cmp(&other.0));
-            levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
+            levels.extend(ends[0].map(|handle| Level { at_m: 0.0, handle }));
+            levels.extend(ends[1].map(|handle| Level { at_m: length_m, handle }));
+            levels.sort_by(|level, other| level.at_m.total_cmp(&other.at_m));
+            levels.dedup_by(|later, earlier| later.at_m - earlier.at_m < NEAR_M);
             Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
         };
     let mut found = Vec::new();
@@ -200,7 +214,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
     found
 }
 
-/// Both sides of each side seam of a skirt from its upper edge down, front and back.
+/// Both sides of each side seam of a skirt, front and back, directed downwards from its upper edge.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let all = skirt::side_seams(anatomy);
     // A side seam may be sewn in several parts.
@@ -212,7 +226,7 @@ fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
 }
 
 fn hand_of(anatomy: &Anatomy<'_>, leg: &Legs<'_>) -> Option<Hand> {
-    match anatomy.parts[leg.inner[0].seam[0].0.piece] {
+    match anatomy.parts[leg.inner[0].seam[0].edge.piece] {
         Part::Leg(hand, _) => Some(hand),
         _ => None,
     }
@@ -239,12 +253,12 @@ fn armholes(anatomy: &Anatomy<'_>, trunk: &Trunk<'_>) -> Vec<Armhole> {
     found
 }
 
-/// The half of a sleeve that is sewn to a face's part of an armhole; `None` where it is not in one piece.
+/// Half of the sleeve cap that is sewn to one face of an armhole. `None` if it is not in one piece.
 fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: EdgeEnd) -> Option<HalfCap> {
     let style = anatomy.style();
-    // A little way into the armhole: what is sewn on beyond its ends may be another piece.
+    // The partner is looked up a little inside the armhole, because another piece may be sewn on beyond its ends.
     let inside = |corner: EdgeEnd, in_m: f64| {
-        let (edge, is_last) = style.over_corner(corner);
+        let EdgeEnd { edge, is_last } = style.over_corner(corner);
         let arc_m = if is_last { anatomy.length_m(&[edge]) - in_m } else { in_m };
         armhole.contains(&edge).then(|| anatomy.ways.across(EdgePoint { edge, arc_m })).flatten()
     };
@@ -255,11 +269,11 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
         return None;
     }
     let corner_near = |at: EdgePoint| {
-        let ends = [false, true].map(|is_last| (at.edge, is_last));
+        let ends = [false, true].map(|is_last| EdgeEnd::new(at.edge, is_last));
         ends.into_iter().find(|end| (anatomy.point(*end).arc_m - at.arc_m).abs() < NEAR_M)
     };
     let corner = corner_near(low)?;
-    // A sleeve in two panels has its shoulder point at the end of the panel's cap.
+    // The shoulder point of a sleeve in two panels lies at the end of the cap of the panel.
     let high = inside(tip, BESIDE_M).filter(|high| high.edge.piece == piece);
     let top = match high {
         Some(high) => match corner_near(high) {
@@ -270,73 +284,74 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     };
     let spans = spans(anatomy, corner, top)?;
     let seam = own_seam(anatomy, style.over_corner(corner))?;
-    // Out of the piece: against the direction from the underarm to the rest of it.
+    // The vector out of the piece points away from the rest of it.
     let across = V2::new(-down.y, down.x);
     let inwards = (style.place(top) - anatomy.place(corner)).dot(&across);
     Some(HalfCap { piece, underarm: corner, spans, top, seam, down, out: across * -inwards.signum() })
 }
 
-/// From the underarm corner of a sleeve along its cap to where the trunk's armhole leaves it.
+/// End of the cap of a sleeve piece, opposite its underarm corner: where the armhole of the trunk ends.
 fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     let is_cap = |edge: EdgeRef| {
         anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
     };
-    let mut at = (corner.0, !corner.1);
-    for _ in 0..anatomy.style().pieces[corner.0.piece].edges.len() {
+    let mut at = corner.other();
+    for _ in 0..anatomy.style().pieces[corner.edge.piece].edges.len() {
         let next = anatomy.style().over_corner(at);
-        if !is_cap(next.0) {
+        if !is_cap(next.edge) {
             return Some(at);
         }
-        at = (next.0, !next.1);
+        at = next.other();
     }
     None
 }
 
-/// Parts of the outline from an end of an edge along it to a point.
-fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<(EdgeRef, [f64; 2])>> {
+/// Parts of the outline from an end of an edge to a point.
+fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span>> {
     let mut found = Vec::new();
-    let (mut edge, mut is_last) = from;
+    let EdgeEnd { mut edge, mut is_last } = from;
     for _ in 0..anatomy.style().pieces[edge.piece].edges.len() {
         let length_m = anatomy.length_m(&[edge]);
         if edge == to.edge {
-            found.push((edge, if is_last { [to.arc_m, length_m] } else { [0.0, to.arc_m] }));
+            found.push(Span { edge, arcs_m: if is_last { [to.arc_m, length_m] } else { [0.0, to.arc_m] } });
             return Some(found);
         }
-        found.push((edge, [0.0, length_m]));
-        (edge, is_last) = anatomy.style().over_corner((edge, !is_last));
+        found.push(Span { edge, arcs_m: [0.0, length_m] });
+        EdgeEnd { edge, is_last } = anatomy.style().over_corner(EdgeEnd::new(edge, !is_last));
     }
     None
 }
 
-/// The edges from an end on that are sewn within the same sleeve.
-fn own_seam(anatomy: &Anatomy<'_>, (first, is_last): EdgeEnd) -> Option<Chain> {
-    let part = anatomy.parts[first.piece];
+/// Chain of edges from an end of an edge that are sewn within the same sleeve.
+fn own_seam(anatomy: &Anatomy<'_>, from: EdgeEnd) -> Option<Chain> {
+    let part = anatomy.parts[from.edge.piece];
     let is_own = |edge: EdgeRef| {
         let partners = anatomy.ways.partners(edge);
         !partners.is_empty() && partners.iter().all(|other| anatomy.parts[other.piece] == part)
     };
     let mut chain: Chain = Vec::new();
-    let mut at = (first, !is_last);
-    while is_own(at.0) && !chain.iter().any(|(edge, _)| *edge == at.0) {
+    let mut at = from.other();
+    while is_own(at.edge) && !chain.iter().any(|step| step.edge == at.edge) {
         chain.push(at);
         let next = anatomy.style().over_corner(at);
-        at = (next.0, !next.1);
+        at = next.other();
     }
     (!chain.is_empty()).then_some(chain)
 }
 
 impl HalfCap {
     fn seam_m(&self, anatomy: &Anatomy<'_>) -> f64 {
-        self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum()
+        self.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum()
     }
 
-    /// The point of the underarm seam where the bicep is measured; none of a short sleeve, whose seam stays straight.
+    /// Point of the underarm seam at the bicep level. `None` for a short sleeve, whose seam stays straight.
     pub fn bicep(&self, anatomy: &Anatomy<'_>) -> Option<EdgePoint> {
         let is_long = self.seam_m(anatomy) > BELOW_ARMHOLE_M + LEAST_BELOW_BICEP_M;
         is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
     }
 
-    /// How far the underarm point moves for the sleeve to widen by one where the bicep is measured; none of a sleeve that ends above.
+    /// Displacement of the underarm point per unit of sleeve width at the bicep level. `None` for a sleeve that ends
+    /// above it.
     pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
         let seam_m = self.seam_m(anatomy);
         match self.bicep(anatomy) {

@@ -1,4 +1,4 @@
-//! Pieces as drawn, changed by handles: so that a changed style can be written, and its seam file holds as before.
+//! Handles applied to pieces as drawn, so that a changed style can be written and its seam file stays valid.
 
 use std::collections::BTreeMap;
 
@@ -8,34 +8,36 @@ use super::{Handle, HandleError};
 use crate::piece::{Beside, Piece};
 use crate::seams::{SeamFile, StyleError};
 use crate::style::correspond::shares;
-use crate::style::follow::corners_of;
 use crate::style::named::called;
+use crate::style::nest_corners::corners_of;
 use crate::style::{Style, StylePiece};
 use geom::V2;
 use geom::units::mm;
 use toml_edit::{Array, DocumentMut, Value, value};
 
-/// Greatest distance of a line as it is carried from where all its points go, m: a hundredth of a seam's tolerance.
+/// Greatest deviation of a displaced line from the displaced positions of all its points, m: a hundredth of the
+/// tolerance of a seam.
 const CARRIED_M: f64 = 5e-6;
-/// Segments up to this length are not parted for it, m.
+/// Length up to which segments are not subdivided for it, m.
 const SHORT_M: f64 = 1e-3;
-/// By how much two uses of one drawn piece may change it differently, m.
+/// Greatest difference of the changes that two uses of one drawn piece ask for, m.
 const ALIKE_M: f64 = 0.05e-3;
 
 /// Changed pieces, and the seam file that makes the changed style of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redrawn {
-    /// Pieces as drawn, in the order of the file, their outlines changed.
+    /// Pieces as drawn, with changed outlines, in the order of the file.
     pub pieces: Vec<Piece>,
-    /// Bytes of the seam file: as they were, but for where corners lie on their pieces.
+    /// Bytes of the seam file. Only the positions of corners on their pieces change.
     pub seams: Vec<u8>,
 }
 
-/// Changes pieces as drawn by handles with their amounts, m, of the style that they make with the bytes of a seam file; `file` is its name
-/// for messages.
+/// Applies handles with their amounts, m, to pieces as drawn. The handles are those of the style that the pieces make
+/// with a seam file. `file` is its name for messages.
 ///
 /// # Errors
-/// [`HandleError`] where they make no style, a handle cannot be applied, or a piece that is drawn once would change in two ways.
+/// [`HandleError`] if they make no style, a handle cannot be applied, or a block is worn twice and would have to change
+/// in two ways.
 pub fn redrawn(
     pieces: &[Piece],
     seam_bytes: &[u8],
@@ -46,9 +48,9 @@ pub fn redrawn(
     let style = Style::of(pieces, &entries, file)?;
     let (mut after, mut steps) = (style.clone(), Vec::new());
     for &(handle, amount_m) in handles {
-        let (moved, fields) = after.moved_in_steps(handle, amount_m, HALVINGS)?;
-        steps.extend(fields);
-        after = moved;
+        let course = after.moved_in_steps(handle, amount_m, HALVINGS)?;
+        steps.extend(course.steps);
+        after = course.style;
     }
     let mut redrawn: BTreeMap<usize, Carrier<'_>> = BTreeMap::new();
     for (number, (worn, entry)) in style.pieces.iter().zip(entries.piece.values()).enumerate() {
@@ -75,7 +77,7 @@ pub fn redrawn(
         let (before, after) = (pieces[drawn].seam_outline(), changed[drawn].seam_outline());
         let nearest = |place: V2| {
             let away = |k: &usize| (after[*k] - place).norm_squared();
-            (0..after.len()).min_by(|one, other| away(one).total_cmp(&away(other))).unwrap_or(0)
+            (0..after.len()).min_by(|vertex, other| away(vertex).total_cmp(&away(other))).unwrap_or(0)
         };
         let moved: Vec<usize> = vertices.into_iter().map(|vertex| nearest(by.carried(before[vertex]))).collect();
         corners.insert(name.clone(), shares(after, &moved));
@@ -83,7 +85,7 @@ pub fn redrawn(
     Ok(Redrawn { pieces: changed, seams: with_corners(seam_bytes, file, &corners)? })
 }
 
-/// The bytes of a seam file with other places of the corners of some pieces, the rest of its text as it is.
+/// Bytes of a seam file with changed `corners_at` of some pieces. The rest of its text stays.
 fn with_corners(
     seam_bytes: &[u8],
     file: &str,
@@ -102,7 +104,7 @@ fn with_corners(
     Ok(document.to_string().into_bytes())
 }
 
-/// How a piece is worn: mirrored as a seam file says, then turned upright.
+/// Transform of a piece from drawn to worn: mirrored by the seam file, then turned upright.
 struct Pose {
     is_mirrored: bool,
     /// Cosine and sine of the turn.
@@ -110,7 +112,7 @@ struct Pose {
 }
 
 impl Pose {
-    /// Of a drawn piece that is worn as a style's piece: the grain tells the turn.
+    /// Transform of a drawn piece to a piece of the style. The grain gives the rotation.
     fn of(drawn: &Piece, worn: &StylePiece, is_mirrored: bool) -> Self {
         let grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
         let grain = if is_mirrored { V2::new(-grain.x, grain.y) } else { grain };
@@ -128,7 +130,7 @@ impl Pose {
     }
 }
 
-/// Carries what is drawn of a piece along with the piece as worn, one handle after the other.
+/// Displaces the drawing of a piece by the fields of all handles, one after the other.
 struct Carrier<'a> {
     pose: Pose,
     fields: Vec<&'a Field>,
@@ -142,7 +144,7 @@ impl Carrier<'_> {
         self.pose.drawn(self.fields.iter().fold(self.pose.worn(p), |p, field| field.carried(p)))
     }
 
-    /// A line with vertices enough to go where all its points go.
+    /// Displaces a line, with enough vertices to follow the field.
     fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
         let Some(&first) = points.first() else { return Vec::new() };
         let mut carried = vec![self.carried(first)];
@@ -156,7 +158,7 @@ impl Carrier<'_> {
         carried
     }
 
-    /// Adds what a segment becomes, without its first point.
+    /// Appends a displaced segment without its first point.
     fn segment(&self, [from, to]: [V2; 2], carried: &mut Vec<V2>) {
         let middle = from.lerp(&to, 0.5);
         let bend = self.carried(middle) - self.carried(from).lerp(&self.carried(to), 0.5);
@@ -186,7 +188,7 @@ impl Carrier<'_> {
             piece.curve_points = piece.outline.iter().filter(is_curve).copied().collect();
         }
         piece.mirror_line = drawn.mirror_line.map(|line| line.map(|p| self.carried(p)));
-        // Grain and reference keep their directions.
+        // Grain line and grade reference line are translated, and keep their directions.
         for line in [&mut piece.grain, &mut piece.grade_reference].into_iter().flatten() {
             let middle = line[0].lerp(&line[1], 0.5);
             let by = self.carried(middle) - middle;

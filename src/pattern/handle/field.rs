@@ -1,30 +1,31 @@
-//! The displacement of an outline carried to any place of its plane, by mean value coordinates.
+//! Displacement field of a piece: that of its outline, interpolated over the plane by mean value coordinates.
 
 use geom::V2;
 use geom::polyline::segment_distance;
 
-/// Distance from the outline within which a place is on it, m.
+/// Distance from the outline within which a point is on it, m.
 const ON_OUTLINE_M: f64 = 1e-6;
 
-/// Displacement of an outline and of what lies inside or beside it.
+/// Displacement field given by the vertices of an outline.
 pub struct Field {
     outline: Vec<V2>,
     by: Vec<V2>,
 }
 
 impl Field {
-    /// Of an outline and the places where its vertices go.
+    /// Makes the field of an outline and the new positions of its vertices.
     pub fn new(outline: Vec<V2>, moved: &[V2]) -> Self {
         let by = outline.iter().zip(moved).map(|(from, to)| to - from).collect();
         Self { outline, by }
     }
 
-    /// Where a place goes.
+    /// Displaced position of a point.
     pub fn carried(&self, place: V2) -> V2 {
         place + self.by_at(place)
     }
 
-    /// Displacement at a place: on the outline its own, elsewhere the mean of its vertices' by their mean value coordinates.
+    /// Displacement at a point. On the outline it is that of its segment, elsewhere the mean of those of all vertices,
+    /// weighted by mean value coordinates.
     pub fn by_at(&self, place: V2) -> V2 {
         let n = self.outline.len();
         let next = |k: usize| (k + 1) % n;
@@ -36,10 +37,10 @@ impl Field {
                 let share = ((place - from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
                 return self.by[k].lerp(&self.by[next(k)], share);
             }
-            let (one, other) = (from - place, to - place);
-            let cross = one.perp(&other);
-            // Tangent of half the angle that the side is seen under.
-            tangents[k] = if cross == 0.0 { 0.0 } else { (one.norm() * other.norm() - one.dot(&other)) / cross };
+            let (near, far) = (from - place, to - place);
+            let cross = near.perp(&far);
+            // Tangent of half the angle that the segment subtends.
+            tangents[k] = if cross == 0.0 { 0.0 } else { (near.norm() * far.norm() - near.dot(&far)) / cross };
         }
         let (mut total, mut sum) = (0.0, V2::zeros());
         for k in 0..n {
@@ -59,12 +60,12 @@ mod tests {
     fn a_field_is_exact_for_what_is_linear_and_on_the_outline() {
         let outline: Vec<V2> =
             [(0.0, 0.0), (0.4, 0.1), (0.5, 0.6), (0.2, 0.3), (-0.1, 0.5)].map(|(u, v)| V2::new(u, v)).to_vec();
-        let at = |p: V2| V2::new(1.1 * p.x + 0.2 * p.y, 0.9 * p.y - 0.1 * p.x + 0.01);
-        let moved: Vec<V2> = outline.iter().copied().map(at).collect();
+        let image = |p: V2| V2::new(1.1 * p.x + 0.2 * p.y, 0.9 * p.y - 0.1 * p.x + 0.01);
+        let moved: Vec<V2> = outline.iter().copied().map(image).collect();
         let field = Field::new(outline, &moved);
         for (u, v) in [(0.2, 0.1), (0.0, 0.0), (0.2, 0.05), (0.2, 0.6), (-0.3, 0.1), (0.45, 0.35)] {
             let p = V2::new(u, v);
-            assert!((field.carried(p) - at(p)).norm() < 1e-9, "{p:?}");
+            assert!((field.carried(p) - image(p)).norm() < 1e-9, "{p:?}");
         }
     }
 }

@@ -1,9 +1,8 @@
-//! Handles of lengths: pieces slashed straight across and spread, and lower edges that fall.
+//! Handles of lengths: pieces are slashed straight across and spread, and lower edges fall.
 
 use std::collections::BTreeMap;
 
 use super::body::{Body, Limb, Side};
-use super::girths;
 use super::plan::{Condition, Move, Plan, along, corners, end, start};
 use crate::pom::anatomy::{Anatomy, BELOW_ARMHOLE_M, Part};
 use crate::propose::Face;
@@ -11,7 +10,7 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, PathPart};
 use geom::V2;
 
-/// Part of a piece that is lengthened: from a level down to where all moves as one.
+/// Part of a piece that is lengthened. Above it nothing moves, and below it all moves by the same.
 struct Slash {
     down: V2,
     /// Distances along `down`, m.
@@ -19,20 +18,22 @@ struct Slash {
     to_m: f64,
 }
 
-/// Trunk lengthened below the armhole, front and back alike.
+/// Lengthens the trunk below the armhole, front and back alike.
 pub fn body_length(body: &Body<'_>) -> Option<Plan> {
     body.trunk.as_ref()?;
     slashed(body, |side| side.limb == Limb::Trunk, BELOW_ARMHOLE_M)
 }
 
-/// Skirt lengthened below its waist, or below its hip where it has one.
+/// Lengthens a skirt below its waist, or below its hip if it has that level.
 pub fn skirt_length(body: &Body<'_>) -> Option<Plan> {
-    let hip = |side: &Side| side.levels.iter().find(|(_, level)| *level == super::Handle::Hip).map_or(0.0, |(m, _)| *m);
+    let hip = |side: &Side| {
+        side.levels.iter().find(|level| level.handle == super::Handle::Hip).map_or(0.0, |level| level.at_m)
+    };
     let from_m = body.sides.iter().filter(|side| side.limb == Limb::Skirt).map(hip).fold(0.0, f64::max);
     slashed(body, |side| side.limb == Limb::Skirt, from_m)
 }
 
-/// Legs lengthened between fork and lower edge; the inseam by the amount.
+/// Lengthens legs between fork and lower edge, the inseam by the amount.
 pub fn leg_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = slashed(body, |side| matches!(side.limb, Limb::Inner(_)), 0.0)?;
     for side in &body.sides {
@@ -45,31 +46,31 @@ pub fn leg_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Pieces with some sides slashed below a distance under the sides' upper ends.
+/// Slashes the pieces of some sides at a distance below the upper ends of the sides.
 fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
     let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
     let pieces: Vec<usize> =
-        body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].0.piece).collect();
+        body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].edge.piece).collect();
     let limbs: Vec<Part> = pieces.iter().map(|piece| anatomy.parts[*piece]).collect();
     let openings = anatomy.style().openings(&|piece| limbs.contains(&anatomy.parts[piece]));
     for side in body.sides.iter().filter(|side| is_meant(side)) {
         let down = -V2::y();
         let [top, low] = [start(&side.chain), end(&side.chain)];
         let reach = |at: EdgeEnd| anatomy.place(at).dot(&down);
-        for ((edge, _), is_top) in [(top, true), (low, false)] {
+        for (EdgeEnd { edge, .. }, is_top) in [(top, true), (low, false)] {
             let slash = slashes.entry(edge.piece).or_insert(Slash { down, from_m: f64::MIN, to_m: f64::MAX });
             if is_top {
                 slash.from_m = slash.from_m.max(reach(top) + below_m);
             } else {
-                let opening = openings.iter().find(|opening| opening.contains(&anatomy.style().over_corner(low).0));
+                let opening = openings.iter().find(|opening| opening.contains(&anatomy.style().over_corner(low).edge));
                 let own = opening.into_iter().flatten().filter(|own| own.piece == edge.piece);
-                let ends = own.flat_map(|edge| [false, true].map(|is_last| reach((*edge, is_last))));
+                let ends = own.flat_map(|edge| [false, true].map(|is_last| reach(EdgeEnd::new(*edge, is_last))));
                 slash.to_m = ends.fold(slash.to_m.min(reach(low)), f64::min);
             }
         }
-        girths::yield_ends(body, &mut plan, &side.chain);
+        plan.yield_ends(anatomy, &side.chain);
     }
     if slashes.is_empty() {
         return None;
@@ -80,7 +81,7 @@ fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> O
     Some(plan)
 }
 
-/// Moves a piece's corners: not above a slash, alike below it, evenly between.
+/// Moves the corners of a piece: not above a slash, by the same below it, linearly between.
 fn spread(anatomy: &Anatomy<'_>, plan: &mut Plan, piece: usize, slash: &Slash) {
     for corner in corners(anatomy, piece) {
         let at_m = anatomy.place(corner).dot(&slash.down);
@@ -89,7 +90,7 @@ fn spread(anatomy: &Anatomy<'_>, plan: &mut Plan, piece: usize, slash: &Slash) {
     }
 }
 
-/// Sleeves lengthened between underarm and lower edge.
+/// Lengthens sleeves between underarm and lower edge.
 pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
@@ -109,8 +110,8 @@ pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// The lower edge of a face lower, from the centre to below the high point of the shoulder, and from there on less and less to the side
-/// seams, which stay.
+/// Lowers the lower edge of a face from the centre to below the high point of the shoulder. From there the displacement
+/// falls to zero at the side seams.
 pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     let openings = anatomy.style().openings(&|_| true);
@@ -118,20 +119,21 @@ pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     let mut moved: Vec<EdgePoint> = Vec::new();
     for high in trunk.high_points(face) {
-        let (path, _) = trunk.down_from(high)?;
+        let path = trunk.down_from(high)?.path;
         let Some(PathPart::Line([_, below])) = path.last() else { return None };
         let hem = openings.iter().find(|opening| opening.contains(&below.edge))?;
         plan.moves.push(Move::new(*below, -V2::y()));
         let own = hem.iter().filter(|edge| edge.piece == below.edge.piece);
-        for corner in own.flat_map(|edge| [false, true].map(|is_last| (*edge, is_last))) {
+        for corner in own.flat_map(|edge| [false, true].map(|is_last| EdgeEnd::new(*edge, is_last))) {
             let place = anatomy.place(corner);
-            let is_at = |at: &EdgePoint| at.edge.piece == corner.0.piece && anatomy.style().place(*at) == place;
+            let is_at = |at: &EdgePoint| at.edge.piece == corner.edge.piece && anatomy.style().place(*at) == place;
             if !sides.iter().chain(&moved).any(is_at) {
                 moved.push(anatomy.point(corner));
             }
         }
     }
     plan.moves.extend(moved.iter().map(|at| Move::new(*at, -V2::y())));
-    let is_face = |m: &Move| matches!(anatomy.parts[m.at.edge.piece], Part::Trunk(of) | Part::Skirt(of) if of == face);
+    let is_face =
+        |m: &Move| matches!(anatomy.parts[m.at.edge.piece], Part::Trunk(own) | Part::Skirt(own) if own == face);
     (!plan.moves.is_empty() && plan.moves.iter().all(is_face)).then_some(plan)
 }

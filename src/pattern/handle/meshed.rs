@@ -1,17 +1,17 @@
-//! A mesh of a style taken along by a handle.
+//! Handles applied to a mesh of a style.
 
 use super::{Handle, HandleError};
 use crate::garment::Garment;
 use crate::style::Style;
 
 impl Style {
-    /// A mesh of the style as a handle changes it by an amount, m: the same vertices, triangles and seams on the changed outlines. For small
-    /// amounts: triangles are stretched and not made anew.
+    /// Mesh of the style changed by a handle with an amount, m. It has the same vertices, triangles and seams on the
+    /// changed outlines. Amounts should be small, because triangles are stretched and not made anew.
     ///
     /// # Errors
     /// As of [`Style::moved`].
     pub fn moved_mesh(&self, garment: &Garment, handle: Handle, amount_m: f64) -> Result<Garment, HandleError> {
-        let (_, fields) = self.moved_by(handle, amount_m)?;
+        let fields = self.moved_by(handle, amount_m)?.fields;
         let mut rest = garment.rest.clone();
         for (piece, field) in fields {
             for place in &mut rest[garment.pieces[piece].vertices.clone()] {

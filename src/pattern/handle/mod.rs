@@ -1,13 +1,15 @@
-//! Handles: what a fit technologist takes hold of to change a pattern, such as a side seam at the waist or the depth of the neck.
+//! Handles: parametric changes of a pattern as a fit technologist makes them, such as moving a side seam at the waist
+//! or the depth of the neck.
 //!
-//! No seam file has to name them: `body` finds by the roles of the pieces what there is to take hold of. Each handle is a `Plan`: places
-//! that move with the amount (`girths`, `lengths`, `upper`, `sleeve`, `seat`), places that give way, and lengths that hold. `rig` carries
-//! the outlines along, `solve` finds how far what gives way moves, `follow` takes darts and bands along, and `field` what lies inside.
+//! No seam file has to name them: `body` finds the movable parts by the roles of the pieces. Each handle is a `Plan`
+//! (`girths`, `lengths`, `upper`, `sleeve`, `seat`): points that move with the amount, points that give way, and
+//! lengths that are kept. `rig` interpolates along the outlines, and `solve` finds the displacement of the points that
+//! give way. `darts_and_bands` moves darts and bands along, and `field` the inside of the pieces.
 
 mod body;
+mod darts_and_bands;
 mod drawn;
 mod field;
-mod follow;
 mod girths;
 mod lengths;
 mod meshed;
@@ -36,26 +38,37 @@ use crate::seams::StyleError;
 use crate::style::Style;
 use geom::units::mm;
 
-/// Greatest amount of a handle either way, m: more is another garment.
+/// Greatest amount of a handle either way, m. More would be another garment.
 const MOST_M: f64 = 0.3;
-/// By how much more than before the sides of a seam may differ, and a length that holds may change, m.
+/// Greatest change of the length difference of seam partners, and of a length that is kept, m.
 const PAIRED_M: f64 = 0.1e-3;
 
-/// How near to its amount a handle changes the point of measure that it aims at, m, and most tries.
+/// Tolerance on the change of the point of measure that a handle aims at, m, and greatest number of iterations.
 const AIMED_M: f64 = 1e-6;
 const MOST_AIMS: usize = 8;
-/// Ratios of an amount to what it changes within which it is aimed: beyond, the point of measure lies elsewhere after the change.
+/// Range of the ratio of an amount to the resulting change within which a handle is corrected. Beyond it, the point of
+/// measure lies elsewhere after the change.
 const AIM_RATIOS: Range<f64> = 0.5..2.0;
 
-/// How often a way is halved at most on which the sides of a seam part.
+/// Greatest number of bisections of a change whose seam partners come apart.
 const HALVINGS: u32 = 2;
 
-/// How each piece that changed did.
+/// Displacement fields of the changed pieces.
 type Fields = BTreeMap<usize, Field>;
-/// A style changed by a handle, and how.
-type Change = (Style, Fields);
+/// A style changed by a handle.
+struct Change {
+    style: Style,
+    fields: Fields,
+}
 
-/// A handle by its name.
+/// A style changed by a handle in steps.
+struct Course {
+    style: Style,
+    /// Displacement fields of each step.
+    steps: Vec<Fields>,
+}
+
+/// Name of a handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Handle {
     /// Half of the girth at the chest.
@@ -80,7 +93,7 @@ pub enum Handle {
     BackRise,
     /// Length of the inseam.
     LegLength,
-    /// Height of the shoulder point.
+    /// Slope of the shoulder: the depth of the shoulder point.
     ShoulderSlope,
     /// Length of the shoulder.
     ShoulderLength,
@@ -96,22 +109,22 @@ pub enum Handle {
     Bicep,
     /// Half of the lower edge of the sleeve.
     Cuff,
-    /// Height of the sleeve's cap.
+    /// Height of the sleeve cap.
     CapHeight,
     /// Length of the sleeve.
     SleeveLength,
     /// Length of front and back.
     BodyLength,
-    /// Length of the front in its middle.
+    /// Length of the front at its centre.
     FrontLength,
-    /// Length of the back in its middle.
+    /// Length of the back at its centre.
     BackLength,
     /// Length of the skirt.
     SkirtLength,
 }
 
 impl Handle {
-    /// All, in the order of a list.
+    /// All handles, in the order of a list.
     pub const ALL: [Self; 25] = [
         Self::Chest,
         Self::Waist,
@@ -140,7 +153,7 @@ impl Handle {
         Self::SkirtLength,
     ];
 
-    /// Name, and what a positive amount does.
+    /// Name, and definition of a positive amount.
     const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Chest => (
@@ -225,29 +238,30 @@ impl Handle {
         self.words().0
     }
 
-    /// What a positive amount does.
+    /// Definition of a positive amount.
     #[must_use]
     pub const fn definition(self) -> &'static str {
         self.words().1
     }
 
-    /// Whether the amount is that of half of a girth: the girth changes by twice as much.
+    /// True if the amount is that of half of a girth, which changes by twice as much.
     #[must_use]
     pub const fn is_half_girth(self) -> bool {
         use Handle::*;
         matches!(self, Chest | Waist | Hip | Hem | Thigh | Knee | LegOpening | Fork | Bicep | Cuff)
     }
 
-    /// The handle of a name.
+    /// Handle with a given name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }
 
-    /// The point of measure that changes by just the amount, of a handle whose places alone do not tell it.
+    /// Point of measure that is corrected to change by exactly the amount, because the moved points alone do not
+    /// determine it.
     fn aim(self, body: &Body<'_>) -> Option<Point> {
         match self {
-            // The waist of a top is where it is narrowest, and that goes elsewhere.
+            // The waist of a top is at its narrowest girth, whose level shifts.
             Self::Waist if body.trunk.is_none() => Some(Point::HalfWaist),
             Self::Hip => Some(Point::HalfHip),
             Self::Hem => Some(Point::HalfHem),
@@ -261,7 +275,7 @@ impl Handle {
         }
     }
 
-    /// The point of measure that changes by the amount, of a handle that changes one by just that.
+    /// Point of measure that changes by exactly the amount, if there is one.
     #[must_use]
     pub const fn changes(self) -> Option<Point> {
         Some(match self {
@@ -314,46 +328,46 @@ impl Handle {
     }
 }
 
-/// Why a style cannot be changed by a handle.
+/// Error of changing a style by a handle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HandleError {
-    /// An amount that is no such length.
+    /// The amount is out of range.
     #[error("handle `{handle}`: {amount_mm:.1} mm; accepted: -{most_mm} to {most_mm} mm", handle = .handle.as_str())]
     Amount {
-        /// Handle that was to be moved.
+        /// Requested handle.
         handle: Handle,
-        /// Amount asked for, mm.
+        /// Requested amount, mm.
         amount_mm: f64,
-        /// Greatest accepted either way, mm.
+        /// Greatest accepted amount either way, mm.
         most_mm: f64,
     },
-    /// A handle that the style does not have.
+    /// The style does not have the handle.
     #[error("style `{style}`: there is no handle `{handle}`; there is: {accepted}", handle = .handle.as_str())]
     Absent {
         /// Name of the style.
         style: String,
-        /// Handle that was asked for.
+        /// Requested handle.
         handle: Handle,
-        /// Handles that it has.
+        /// Handles of the style.
         accepted: String,
     },
-    /// A partner that cannot follow, or a length that cannot hold.
+    /// A seam partner cannot follow, or a length cannot be kept.
     #[error(
         "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
     )]
     Length {
         /// Handle that was moved.
         handle: Handle,
-        /// Amount asked for, mm.
+        /// Requested amount, mm.
         amount_mm: f64,
         /// Seam with its edges, or edges.
         place: String,
-        /// By how much it is off.
+        /// Description of the deviation.
         found: String,
-        /// What would be accepted, mm.
+        /// Accepted deviation, mm.
         within_mm: f64,
     },
-    /// An outline that would cross itself.
+    /// An outline would cross itself.
     #[error(
         "handle `{handle}` by {amount_mm:.1} mm: the outline of piece `{piece}` crosses itself at ({u_mm:.0}, {v_mm:.0}) mm; accepted: an \
          amount that leaves it free of crossings", handle = .handle.as_str()
@@ -361,32 +375,32 @@ pub enum HandleError {
     Crossing {
         /// Handle that was moved.
         handle: Handle,
-        /// Amount asked for, mm.
+        /// Requested amount, mm.
         amount_mm: f64,
         /// Identifier of the piece whose outline crosses itself.
         piece: String,
-        /// First coordinate of the crossing in the piece's plane, mm.
+        /// First coordinate of the crossing in the plane of the piece, mm.
         u_mm: f64,
-        /// Second coordinate of the crossing in the piece's plane, mm.
+        /// Second coordinate of the crossing in the plane of the piece, mm.
         v_mm: f64,
     },
-    /// A piece that is drawn once and worn twice, and would have to change in two ways.
+    /// A piece is drawn once and worn twice, and would have to change in two ways.
     #[error(
         "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
     )]
     Drawn {
         /// Name of the block in the pattern file.
         block: String,
-        /// How far apart both changes are, mm.
+        /// Distance between both changes, mm.
         apart_mm: f64,
     },
-    /// Pieces and a seam file that make no style.
+    /// Pieces and seam file make no style.
     #[error(transparent)]
     Style(#[from] StyleError),
 }
 
 impl HandleError {
-    /// The handle that cannot be applied, where it is one.
+    /// Handle that cannot be applied, if the error is about one.
     #[must_use]
     pub const fn handle(&self) -> Option<Handle> {
         match self {
@@ -400,7 +414,8 @@ impl HandleError {
 }
 
 impl Style {
-    /// The handles that the style has, in the order of [`Handle::ALL`]. What cannot be told by the roles of its pieces is left out.
+    /// Handles of the style, in the order of [`Handle::ALL`]. Those that the roles of its pieces do not show are left
+    /// out.
     #[must_use]
     pub fn handles(&self) -> Vec<Handle> {
         let anatomy = Anatomy::of(self);
@@ -408,10 +423,10 @@ impl Style {
         Handle::ALL.into_iter().filter(|handle| handle.plan(&body).is_some()).collect()
     }
 
-    /// The style changed by handles with their amounts, m, one after the other.
+    /// Applies handles with their amounts, m, one after the other.
     ///
     /// # Errors
-    /// [`HandleError`] of a handle that the style does not have, of a seam whose other side cannot follow, and of an outline that would
+    /// [`HandleError`] if the style does not have a handle, the other side of a seam cannot follow, or an outline would
     /// cross itself.
     ///
     /// # Examples
@@ -428,27 +443,27 @@ impl Style {
     pub fn moved(&self, handles: &[(Handle, f64)]) -> Result<Self, HandleError> {
         let mut style = self.clone();
         for &(handle, amount_m) in handles {
-            style = style.moved_in_steps(handle, amount_m, HALVINGS)?.0;
+            style = style.moved_in_steps(handle, amount_m, HALVINGS)?.style;
         }
         Ok(style)
     }
 
-    /// The style changed by one handle, and how each piece that changed did, step by step: where the sides of a seam part over a long way,
-    /// they may not over two halves of it.
-    fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<(Self, Vec<Fields>), HandleError> {
-        let halves = || -> Result<(Self, Vec<Fields>), HandleError> {
-            let (style, mut fields) = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
-            let (style, others) = style.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
-            fields.extend(others);
-            Ok((style, fields))
+    /// Applies one handle, in several steps if necessary. If the sides of a seam come apart over the whole amount, they
+    /// may not over two halves of it.
+    fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<Course, HandleError> {
+        let halves = || -> Result<Course, HandleError> {
+            let Course { style, mut steps } = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
+            let rest = style.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
+            steps.extend(rest.steps);
+            Ok(Course { style: rest.style, steps })
         };
         match self.moved_by(handle, amount_m) {
             Err(parted @ HandleError::Length { .. }) if halvings > 0 => halves().map_err(|_| parted),
-            other => other.map(|(style, fields)| (style, vec![fields])),
+            other => other.map(|Change { style, fields }| Course { style, steps: vec![fields] }),
         }
     }
 
-    /// The style changed by one handle, and how each piece that changed did.
+    /// Applies one handle in a single step.
     fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<Change, HandleError> {
         if !(-MOST_M..=MOST_M).contains(&amount_m) {
             return Err(HandleError::Amount { handle, amount_mm: mm(amount_m), most_mm: mm(MOST_M) });
@@ -461,19 +476,22 @@ impl Style {
             return Err(HandleError::Absent { style: self.name.clone(), handle, accepted: accepted.join(", ") });
         };
         if amount_m == 0.0 {
-            return Ok((self.clone(), BTreeMap::new()));
+            return Ok(Change { style: self.clone(), fields: BTreeMap::new() });
         }
-        follow::darts(&body, &mut plan);
-        follow::bands(&body, &mut plan);
+        darts_and_bands::darts(&body, &mut plan);
+        darts_and_bands::bands(&body, &mut plan);
         let fine = solve::refined(self, &plan);
         let length_m = |points: &[PointOfMeasure]| {
-            handle.aim(&body).and_then(|aim| points.iter().find(|one| one.point == aim)).map(|one| one.length_m)
+            handle
+                .aim(&body)
+                .and_then(|aim| points.iter().find(|measure| measure.point == aim))
+                .map(|measure| measure.length_m)
         };
         let before_m = length_m(&points);
         let mut driven_m = amount_m;
         let mut change = self.driven(&fine, &plan, handle, [amount_m, driven_m])?;
         for _ in 0..MOST_AIMS {
-            let after_m = length_m(&change.0.points_of_measure());
+            let after_m = length_m(&change.style.points_of_measure());
             let Some(changed_m) = after_m.zip(before_m).map(|(after, before)| after - before) else { break };
             let ratio = amount_m / changed_m;
             if (changed_m - amount_m).abs() < AIMED_M || !AIM_RATIOS.contains(&ratio) {
@@ -485,7 +503,7 @@ impl Style {
         Ok(change)
     }
 
-    /// The style changed by a plan that moves its places by `driven_m` for a handle's amount, m.
+    /// Applies a plan with the displacement `driven_m` for the amount of a handle, m.
     fn driven(
         &self,
         fine: &Self,
@@ -503,26 +521,26 @@ impl Style {
             within_mm: mm(PAIRED_M),
         };
         let not_held = |off_m: f64| off_m.is_nan() || off_m.abs() > PAIRED_M;
-        let worst = solved.seams_m.iter().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()));
-        if let Some((number, off_m)) = worst.filter(|(_, off_m)| not_held(*off_m)) {
+        let worst = solved.seams.iter().max_by(|seam, other| seam.off_m.abs().total_cmp(&other.off_m.abs()));
+        if let Some(worst) = worst.filter(|seam| not_held(seam.off_m)) {
             return Err(off(
-                self.seam_words(*number),
-                *off_m,
+                self.seam_words(worst.seam),
+                worst.off_m,
                 "what is sewn on does not follow: its sides come apart by",
             ));
         }
         if let Some((number, off_m)) = solved.conditions_m.iter().enumerate().find(|(_, off_m)| not_held(**off_m)) {
-            let edges = plan.conditions[number].spans.iter().map(|(span, _)| self.edge_name(span.edge));
+            let edges = plan.conditions[number].terms.iter().map(|term| self.edge_name(term.span.edge));
             return Err(off(edges.collect::<Vec<_>>().join(", "), *off_m, "the length cannot be kept: it is off by"));
         }
-        let (style, fields) = restyle::with_lines(fine, solved.lines);
+        let Change { style, fields } = restyle::with_lines(fine, solved.lines);
         if let Some((piece, at)) = restyle::new_crossing(self, &style) {
             return Err(HandleError::Crossing { handle, amount_mm, piece, u_mm: mm(at.x), v_mm: mm(at.y) });
         }
-        Ok((style, fields))
+        Ok(Change { style, fields })
     }
 
-    /// A seam with its edges, for messages.
+    /// Text of a seam with its edges, for messages.
     fn seam_words(&self, number: usize) -> String {
         let seam = &self.seams[number];
         let side = |edges: &[crate::style::EdgeRef]| {

@@ -1,15 +1,17 @@
-//! A style with other outlines: everything on them goes along.
+//! Replacement of the outlines of a style: everything on them moves along.
 
 use std::collections::BTreeMap;
 
+use super::Change;
 use super::field::Field;
 use super::solve::carried;
 use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::{Polyline, self_crossing};
 
-/// The style with other lines of the edges of some pieces, each with as many vertices as before; and how each of these pieces changed.
-pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> (Style, BTreeMap<usize, Field>) {
+/// Replaces the lines of the edges of some pieces. Each has as many vertices as before. Returns the style and the
+/// displacement fields of these pieces.
+pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> Change {
     let (mut moved, mut fields) = (style.clone(), BTreeMap::new());
     for (piece, lines) in lines {
         let outline = style.pieces[piece].outline();
@@ -32,7 +34,7 @@ pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> (Styl
     }
     let lengths_m: Vec<f64> = moved.measurements.iter().map(|m| moved.path_length_m(&m.path)).collect();
     moved.measurements.iter_mut().zip(lengths_m).for_each(|(m, length_m)| m.l2d_m = length_m);
-    (moved, fields)
+    Change { style: moved, fields }
 }
 
 fn carried_point(style: &Style, pieces: &[crate::style::StylePiece], at: EdgePoint) -> EdgePoint {
@@ -40,7 +42,7 @@ fn carried_point(style: &Style, pieces: &[crate::style::StylePiece], at: EdgePoi
     EdgePoint { arc_m: carried(&style.edge(at.edge).line, &pieces[piece].edges[edge].line, at.arc_m), ..at }
 }
 
-/// A piece whose outline crosses itself and did not before, and where.
+/// First piece whose outline crosses itself and did not before, with the point of the crossing.
 pub fn new_crossing(before: &Style, after: &Style) -> Option<(String, V2)> {
     let pairs = before.pieces.iter().zip(&after.pieces).filter(|(before, after)| before.edges != after.edges);
     let mut crossings = pairs.filter_map(|(before, after)| {

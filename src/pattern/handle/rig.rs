@@ -1,7 +1,9 @@
-//! Outlines displaced by knots: places whose displacement is told. Every sharp corner is one, and stays where nothing is told of it.
+//! Displacement of outlines by knots: points whose displacement is given. Every sharp corner is a knot, which stays
+//! unless it is moved.
 //!
-//! Between two knots the displacement goes from the one to the other: evenly along the edge, smoothly across it. So an edge keeps its
-//! direction at every knot, and with it its right angles and its smooth joints; only a straight edge from corner to corner stays straight.
+//! Between two knots the displacement is interpolated: linearly along the edge, and by the smooth cubic step across it.
+//! An edge so keeps its direction at every knot, and with it its right angles and smooth joints. Only a straight edge
+//! from corner to corner stays straight.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -12,74 +14,75 @@ use crate::style::{Edge, EdgeRef, Style};
 use geom::V2;
 use geom::polyline::{Polyline, segment_distance};
 
-/// Distance within which two knots of an edge are one, m.
+/// Distance within which two knots of an edge coincide, m.
 const SAME_M: f64 = 1e-6;
-/// Greatest distance of a straight edge from its chord, m: what a flattened curve has beside it is more.
+/// Greatest distance of a straight edge from its chord, m. A flattened curve departs further.
 const STRAIGHT_M: f64 = 0.2e-3;
-/// Turn of an outline up to which two edges join smoothly, rad: 10 degrees.
+/// Turning angle of an outline up to which two edges join smoothly, radians: 10 degrees.
 const SMOOTH_RAD: f64 = 0.175;
-/// Part of a stretch over which its direction at an end is taken.
+/// Share of a section over which its direction at an end is taken.
 const END_SHARE: f64 = 0.01;
-/// Least ratio of the chord of a stretch to its length for places on it to go by the chord.
+/// Least ratio of the chord of a section to its length for points on it to be parametrised by the chord.
 const ALONG_CHORD: f64 = 0.5;
-/// Greatest length of a segment of what bends, m: a seam of 100 mm that is moved by 10 turns by less than 2 degrees from one to the next.
+/// Greatest length of a segment of an edge that bends, m. A seam of 100 mm that is moved by 10 mm turns by less than 2
+/// degrees from one segment to the next.
 const SEGMENT_M: f64 = 5e-3;
-/// Distance from a vertex within which a knot needs none of its own, m.
+/// Distance from a vertex within which a knot needs no vertex of its own, m.
 const BESIDE_M: f64 = 0.5e-3;
 
-/// Displacement of the vertices of each edge of the pieces that are touched.
+/// Displacements of the vertices of each edge of the affected pieces.
 pub type Displacement = BTreeMap<usize, Vec<Vec<V2>>>;
 
-/// Knots of the outlines of the pieces that are touched.
+/// Outlines of the affected pieces with their knots.
 pub struct Rig<'a> {
     style: &'a Style,
-    rings: BTreeMap<usize, Ring>,
+    outlines: BTreeMap<usize, Outline>,
 }
 
-/// The outline of a piece with its knots.
-struct Ring {
-    /// Vertices, the first one again at the end, and their arc lengths.
+/// Outline of a piece with its knots.
+struct Outline {
+    /// Vertices, the first one repeated at the end, and their arc lengths.
     line: Polyline,
-    /// Number of the first vertex of each edge, and of the last one of the last.
+    /// Index of the first vertex of each edge, and of the last vertex of the last.
     firsts: Vec<usize>,
-    /// Arc lengths of the knots in rising order.
+    /// Arc lengths of the knots in increasing order.
     knots: Vec<f64>,
 }
 
-/// Whether the outline turns at the end of an edge.
-pub fn is_sharp(style: &Style, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> bool {
+/// True if the outline has a corner at the end of an edge.
+pub fn is_sharp(style: &Style, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> bool {
     let vertex = edge + usize::from(is_last);
-    Ring::new(&style.pieces[piece].edges).is_some_and(|ring| ring.is_sharp(ring.firsts[vertex]))
+    Outline::new(&style.pieces[piece].edges).is_some_and(|outline| outline.is_sharp(outline.firsts[vertex]))
 }
 
 impl<'a> Rig<'a> {
-    /// Knots of the places that some moves tell.
+    /// Makes knots at the points of some moves.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
-        let mut rings: BTreeMap<usize, Ring> = BTreeMap::new();
-        for one in moves {
-            let piece = one.at.edge.piece;
-            let ring = match rings.entry(piece) {
+        let mut outlines: BTreeMap<usize, Outline> = BTreeMap::new();
+        for moved in moves {
+            let piece = moved.at.edge.piece;
+            let outline = match outlines.entry(piece) {
                 Entry::Occupied(known) => known.into_mut(),
-                Entry::Vacant(new) => match Ring::new(&style.pieces[piece].edges) {
-                    Some(ring) => new.insert(ring),
+                Entry::Vacant(new) => match Outline::new(&style.pieces[piece].edges) {
+                    Some(outline) => new.insert(outline),
                     None => continue,
                 },
             };
-            ring.add(ring.arc_m(one));
+            outline.add(outline.arc_m(moved));
         }
-        Self { style, rings }
+        Self { style, outlines }
     }
 
-    /// The style with vertices enough on the edges that some moves bend.
+    /// The style with enough vertices on the edges that some moves bend.
     pub fn refined(&self, moves: &[Move]) -> Style {
         let mut style = self.style.clone();
-        for (piece, ring) in &self.rings {
+        for (piece, outline) in &self.outlines {
             let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
-            let bent = ring.bent(&own);
+            let bent = outline.bent(&own);
             for (k, edge) in style.pieces[*piece].edges.iter_mut().enumerate() {
-                let ends = [ring.firsts[k], ring.firsts[k + 1]].map(|vertex| ring.line.arcs()[vertex]);
+                let ends = [outline.firsts[k], outline.firsts[k + 1]].map(|vertex| outline.line.arcs()[vertex]);
                 if bent.iter().any(|[from, to]| *from < ends[1] - SAME_M && *to > ends[0] + SAME_M) {
-                    let knots: Vec<f64> = ring.knots.iter().map(|arc| arc - ends[0]).collect();
+                    let knots: Vec<f64> = outline.knots.iter().map(|arc| arc - ends[0]).collect();
                     edge.line = refined(&edge.line, &knots);
                 }
             }
@@ -89,19 +92,19 @@ impl<'a> Rig<'a> {
 
     /// Displacement of every vertex by some moves, per metre of amount.
     pub fn displacement(&self, moves: &[Move]) -> Displacement {
-        let edges = |(piece, ring): (&usize, &Ring)| {
+        let edges = |(piece, outline): (&usize, &Outline)| {
             let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
-            let moved = ring.moved(&own);
+            let moved = outline.moved(&own);
             let n = moved.len();
             let edge = |ends: &[usize]| (ends[0]..=ends[1]).map(|vertex| moved[vertex % n]).collect();
-            (*piece, ring.firsts.windows(2).map(edge).collect())
+            (*piece, outline.firsts.windows(2).map(edge).collect())
         };
-        self.rings.iter().map(edges).collect()
+        self.outlines.iter().map(edges).collect()
     }
 }
 
-impl Ring {
-    /// Of the edges of a piece, with their sharp corners as knots.
+impl Outline {
+    /// Outline of the edges of a piece, with their sharp corners as knots.
     fn new(edges: &[Edge]) -> Option<Self> {
         let mut points = Vec::new();
         let mut firsts = vec![0];
@@ -110,33 +113,33 @@ impl Ring {
             firsts.push(points.len());
         }
         points.push(*points.first()?);
-        let mut ring = Self { line: Polyline::new(points)?, firsts, knots: Vec::new() };
+        let mut outline = Self { line: Polyline::new(points)?, firsts, knots: Vec::new() };
         for k in 0..edges.len() {
-            if ring.is_sharp(ring.firsts[k]) {
-                ring.add(ring.line.arcs()[ring.firsts[k]]);
+            if outline.is_sharp(outline.firsts[k]) {
+                outline.add(outline.line.arcs()[outline.firsts[k]]);
             }
         }
-        Some(ring)
+        Some(outline)
     }
 
     fn length_m(&self) -> f64 {
         self.line.length()
     }
 
-    /// Whether the outline turns at a vertex.
+    /// True if the outline has a corner at a vertex.
     fn is_sharp(&self, vertex: usize) -> bool {
         let (points, n) = (self.line.points(), self.line.points().len() - 1);
         let at = points[vertex % n];
         (at - points[(vertex + n - 1) % n]).angle(&(points[vertex % n + 1] - at)) > SMOOTH_RAD
     }
 
-    /// Arc length of a place that moves; that of the first vertex for the last.
-    fn arc_m(&self, one: &Move) -> f64 {
-        let arc_m = self.line.arcs()[self.firsts[one.at.edge.edge]] + one.at.arc_m;
+    /// Arc length of a point that moves. The end of the outline counts as its beginning.
+    fn arc_m(&self, moved: &Move) -> f64 {
+        let arc_m = self.line.arcs()[self.firsts[moved.at.edge.edge]] + moved.at.arc_m;
         if arc_m > self.length_m() - SAME_M { 0.0 } else { arc_m }
     }
 
-    /// Number of the knot at an arc length, or of the place where it would be.
+    /// Index of the knot at an arc length, or the one at which it would be inserted.
     fn knot(&self, arc_m: f64) -> usize {
         self.knots.partition_point(|knot| *knot < arc_m - SAME_M)
     }
@@ -148,33 +151,32 @@ impl Ring {
         }
     }
 
-    /// What some moves tell of each knot.
+    /// Displacement of each knot: the sum of some moves.
     fn told(&self, moves: &[Move]) -> Vec<V2> {
         let mut told = vec![V2::zeros(); self.knots.len()];
-        for one in moves {
-            told[self.knot(self.arc_m(one))] += one.by;
+        for moved in moves {
+            told[self.knot(self.arc_m(moved))] += moved.by;
         }
         told
     }
 
-    /// Stretches between neighbouring knots, the last one over the first vertex.
-    fn stretches(&self) -> impl Iterator<Item = (Stretch, [usize; 2])> + '_ {
+    /// Sections between neighbouring knots, with the indices of these. The last section passes the first vertex.
+    fn sections(&self) -> impl Iterator<Item = (Section, [usize; 2])> + '_ {
         let n = self.knots.len();
         (0..n).map(move |k| {
             let next = (k + 1) % n;
             let to = if next > k { self.knots[next] } else { self.knots[next] + self.length_m() };
-            (Stretch::new(self, [self.knots[k], to]), [k, next])
+            (Section::new(self, [self.knots[k], to]), [k, next])
         })
     }
 
-    /// Arc lengths between which moves bend the outline: where they move it, and it does not stay straight.
+    /// Intervals of arc length in which moves bend the outline.
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
-        let bent =
-            self.stretches().filter(|(stretch, ends)| !stretch.is_stiff && ends.iter().any(|end| is_moved(*end)));
-        let arcs = bent.flat_map(|(stretch, _)| {
-            let [from, to] = stretch.arcs_m;
+        let bent = self.sections().filter(|(section, ends)| !section.is_stiff && ends.iter().any(|end| is_moved(*end)));
+        let arcs = bent.flat_map(|(section, _)| {
+            let [from, to] = section.arcs_m;
             [[from, to], [from - self.length_m(), to - self.length_m()]]
         });
         arcs.collect()
@@ -185,14 +187,14 @@ impl Ring {
         let told = self.told(moves);
         let n = self.line.points().len() - 1;
         let mut moved = vec![V2::zeros(); n];
-        for (stretch, [from, to]) in self.stretches() {
+        for (section, [from, to]) in self.sections() {
             for (vertex, moved) in moved.iter_mut().enumerate() {
                 let arcs = [0.0, self.length_m()].map(|round_m| self.line.arcs()[vertex] + round_m);
                 let within = arcs
                     .into_iter()
-                    .find(|arc| (stretch.arcs_m[0] - SAME_M..=stretch.arcs_m[1] + SAME_M).contains(arc));
+                    .find(|arc| (section.arcs_m[0] - SAME_M..=section.arcs_m[1] + SAME_M).contains(arc));
                 if let Some(arc_m) = within {
-                    *moved = stretch.between(stretch.share(self.line.points()[vertex], arc_m), [told[from], told[to]]);
+                    *moved = section.between(section.share(self.line.points()[vertex], arc_m), [told[from], told[to]]);
                 }
             }
         }
@@ -200,7 +202,7 @@ impl Ring {
     }
 }
 
-/// A line with vertices at some of its arc lengths, and no long segment.
+/// Refines a line: it gets vertices at some arc lengths, and no long segment.
 fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     let mut ends = line.arcs().to_vec();
     for knot in knots.iter().filter(|knot| (0.0..line.length()).contains(*knot)) {
@@ -217,31 +219,32 @@ fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     Polyline::new(points).unwrap_or_else(|| line.clone())
 }
 
-/// The part of an outline between two knots.
-struct Stretch {
-    /// Arc lengths of its ends; beyond the outline's length where it goes over the first vertex.
+/// Section of an outline between two knots.
+struct Section {
+    /// Arc lengths of its ends. The second exceeds the length of the outline if the section passes the first vertex.
     arcs_m: [f64; 2],
     ends: [V2; 2],
     /// Unit vectors along the outline at both ends.
     along: [V2; 2],
-    /// Whether places on it go by its chord; by arc length where it turns back on that.
+    /// True if points on it are parametrised by its chord. Otherwise, where it turns back, they are parametrised by arc
+    /// length.
     by_chord: bool,
-    /// Whether it is straight from corner to corner, and stays so.
+    /// True if it is straight from corner to corner, and stays so.
     is_stiff: bool,
 }
 
-impl Stretch {
-    fn new(ring: &Ring, arcs_m: [f64; 2]) -> Self {
-        let length_m = ring.length_m();
-        let at = |arc: f64| ring.line.at(if arc > length_m { arc - length_m } else { arc });
-        let ends = arcs_m.map(at);
+impl Section {
+    fn new(outline: &Outline, arcs_m: [f64; 2]) -> Self {
+        let length_m = outline.length_m();
+        let point_at = |arc: f64| outline.line.at(if arc > length_m { arc - length_m } else { arc });
+        let ends = arcs_m.map(point_at);
         let step = END_SHARE * (arcs_m[1] - arcs_m[0]);
         let unit = |way: V2| way.try_normalize(0.0).unwrap_or_else(V2::zeros);
-        let along = [unit(at(arcs_m[0] + step) - ends[0]), unit(ends[1] - at(arcs_m[1] - step))];
-        let arcs = ring.line.arcs();
+        let along = [unit(point_at(arcs_m[0] + step) - ends[0]), unit(ends[1] - point_at(arcs_m[1] - step))];
+        let arcs = outline.line.arcs();
         let rounds = [0.0, length_m].into_iter().flat_map(|round_m| arcs.iter().map(move |arc| arc + round_m));
         let inner: Vec<V2> =
-            rounds.filter(|arc| (arcs_m[0] + SAME_M..arcs_m[1] - SAME_M).contains(arc)).map(at).collect();
+            rounds.filter(|arc| (arcs_m[0] + SAME_M..arcs_m[1] - SAME_M).contains(arc)).map(point_at).collect();
         let chord = ends[1] - ends[0];
         let axis = unit(chord);
         let mut places = vec![ends[0].dot(&axis)];
@@ -251,7 +254,7 @@ impl Stretch {
         let is_straight = inner.iter().all(|p| segment_distance(&ends[0], &ends[1], p) < STRAIGHT_M);
         let is_corner = |arc: f64| {
             let arc = if arc > length_m - SAME_M { arc - length_m } else { arc };
-            ring.firsts.iter().any(|first| (arcs[*first] - arc).abs() < SAME_M && ring.is_sharp(*first))
+            outline.firsts.iter().any(|first| (arcs[*first] - arc).abs() < SAME_M && outline.is_sharp(*first))
         };
         Self {
             arcs_m,
@@ -262,7 +265,7 @@ impl Stretch {
         }
     }
 
-    /// How far a place lies along the stretch, from 0 to 1.
+    /// Position along the section, from 0 to 1.
     fn share(&self, place: V2, arc_m: f64) -> f64 {
         let chord = self.ends[1] - self.ends[0];
         if self.by_chord {
@@ -272,7 +275,7 @@ impl Stretch {
         }
     }
 
-    /// The displacement at a share of the stretch.
+    /// Displacement at a position along the section.
     fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
         let change = to - from;
         if self.is_stiff {

@@ -9,7 +9,7 @@ use crate::propose::Face;
 use crate::style::EdgeRef;
 use geom::V2;
 
-/// The upper edge higher at the seat seam of a face, as before at the outseam, and as long.
+/// Raises the upper edge at the seat seam of a face. It stays at the outseam and keeps its length.
 pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for leg in &body.legs {
@@ -19,7 +19,7 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
         plan.give(top, V2::y());
         plan.give(top, V2::x());
         plan.conditions.push(Condition::chain(crotch, 1.0));
-        let piece = crotch[0].0.piece;
+        let piece = crotch[0].edge.piece;
         let waist: Vec<EdgeRef> = leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
         plan.conditions.push(Condition::edges(&waist, 0.0));
     }
@@ -27,7 +27,8 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths, and the seat its hip.
+/// Moves the forks of front and back outwards, and the inseams at the thigh with them. The inseams keep their lengths,
+/// and the seat its hip.
 pub fn fork(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {
@@ -40,11 +41,12 @@ pub fn fork(body: &Body<'_>) -> Option<Plan> {
     (!body.legs.is_empty()).then_some(plan)
 }
 
-/// The seat seams stay where they are at the hip.
+/// Holds the seat seams at the hip level.
 fn hold_hip(body: &Body<'_>, plan: &mut Plan) {
     for leg in &body.legs {
         let points = leg.points();
-        let hip = points.iter().find(|one| one.point == Point::HalfHip).map_or(&[][..], |one| &one.path);
+        let hip =
+            points.iter().find(|measure| measure.point == Point::HalfHip).map_or(&[][..], |measure| &measure.path);
         for run in &leg.inner {
             let at = met(body.anatomy, &run.crotch, hip).and_then(|at_m| body.anatomy.along(&run.crotch, at_m));
             plan.moves.extend(at.map(|at| Move::new(at, V2::zeros())));

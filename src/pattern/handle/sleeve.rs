@@ -2,10 +2,10 @@
 
 use super::body::Body;
 use super::plan::{Condition, Move, Plan, end};
-use super::upper::{cap_spans, hold_sleeve, move_underarm};
+use super::upper::{cap_terms, hold_sleeve, move_underarm};
 use geom::V2;
 
-/// Half of the bicep wider: underarm points outwards, and up until the cap is as long as before.
+/// Widens half of the bicep: underarm points move outwards, and upwards until the cap keeps its length.
 pub fn bicep(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
@@ -15,12 +15,12 @@ pub fn bicep(body: &Body<'_>) -> Option<Plan> {
         move_underarm(body, &mut give, cap, -cap.down);
         plan.gives.push(give);
         plan.give(body.point(end(&cap.seam)), cap.down);
-        plan.conditions.push(Condition { spans: cap_spans(cap), change: 0.0 });
+        plan.conditions.push(Condition { terms: cap_terms(cap), change: 0.0 });
     }
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// The cap higher: underarm points down the arm, and inwards until the cap is as long as before.
+/// Raises the cap: underarm points move down the arm, and inwards until the cap keeps its length.
 pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
@@ -30,12 +30,12 @@ pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
         move_underarm(body, &mut give, cap, -cap.out);
         plan.gives.push(give);
         plan.give(body.point(end(&cap.seam)), cap.down);
-        plan.conditions.push(Condition { spans: cap_spans(cap), change: 0.0 });
+        plan.conditions.push(Condition { terms: cap_terms(cap), change: 0.0 });
     }
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// Half of the lower edge wider: lower ends of the underarm seam out across the arm.
+/// Widens half of the lower edge: the lower ends of the underarm seam move outwards across the arm.
 pub fn cuff(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {

@@ -1,32 +1,41 @@
-//! How far what gives way must move for lengths to hold: Newton's method, by the least displacement.
+//! Solver for the displacements of points that give way, so that the conditions on lengths hold: Newton's method with
+//! the least-norm step.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::plan::{Condition, Move, Plan, Span};
+use super::plan::{Condition, Move, Plan, Span, Term};
 use super::rig::{Displacement, Rig};
 use crate::style::{EdgeRef, Style};
 use geom::polyline::Polyline;
 
-/// Step of the differences by which lengths are differentiated, m.
+/// Step of the finite differences of lengths, m.
 const DIFFERENCE_M: f64 = 1e-6;
-/// Residual at which lengths hold, m: a thousandth of what a seam may be off.
+/// Residual at which the conditions hold, m: a thousandth of the accepted change of a seam or length.
 const HOLDS_M: f64 = 1e-7;
-/// Most steps; two or three are the rule.
+/// Greatest number of Newton steps. Two or three are usual.
 const MOST_STEPS: usize = 12;
-/// What is added to the squares of the conditions, so that those that say the same twice do no harm.
+/// Regularisation of the normal matrix, for conditions that are linearly dependent.
 const REGULAR: f64 = 1e-9;
 
-/// A style whose outlines are displaced.
+/// Residual of a seam.
+pub struct SeamResidual {
+    /// Index of the seam.
+    pub seam: usize,
+    /// Change of the difference of the lengths of its sides, m.
+    pub off_m: f64,
+}
+
+/// Solution: displaced outlines, and the residuals.
 pub struct Solved {
-    /// Lines of all edges of the pieces that are touched.
+    /// Lines of all edges of the affected pieces.
     pub lines: BTreeMap<usize, Vec<Polyline>>,
-    /// By how much each seam's sides differ more than before, m, by the seam's number.
-    pub seams_m: Vec<(usize, f64)>,
-    /// By how much each of the plan's conditions is missed, m.
+    /// Residuals of the seams.
+    pub seams: Vec<SeamResidual>,
+    /// Residual of each condition of the plan, m.
     pub conditions_m: Vec<f64>,
 }
 
-/// The style with vertices enough on the edges that a plan bends.
+/// The style with enough vertices on the edges that a plan bends.
 pub fn refined(style: &Style, plan: &Plan) -> Style {
     let moves: Vec<Move> = all_moves(plan).copied().collect();
     Rig::new(style, moves.iter()).refined(&moves)
@@ -36,11 +45,11 @@ fn all_moves(plan: &Plan) -> impl Iterator<Item = &Move> {
     plan.moves.iter().chain(plan.gives.iter().flatten())
 }
 
-/// Moves a plan's places by an amount, m, and what gives way as far as its conditions ask.
+/// Moves the points of a plan by an amount, m, and those that give way as far as the conditions require.
 pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
-    // What gives way has knots of its own, and does not hold what moves beside it.
+    // Points that give way have knots of their own, which do not hold the points that move.
     let displacement = |moves: &[Move]| Rig::new(style, plan.moves.iter().chain(moves)).displacement(moves);
-    let touched: Vec<usize> = all_moves(plan).map(|one| one.at.edge.piece).collect();
+    let touched: Vec<usize> = all_moves(plan).map(|moved| moved.at.edge.piece).collect();
     let seams = seam_conditions(style, &touched);
     let conditions: Vec<&Condition> = plan.conditions.iter().chain(seams.iter().map(|(_, c)| c)).collect();
     let system = System {
@@ -64,22 +73,26 @@ pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
     let (conditions_m, of_seams) = missed.split_at(plan.conditions.len());
     Solved {
         lines: system.lines(&given),
-        seams_m: seams.iter().map(|(seam, _)| *seam).zip(of_seams.iter().copied()).collect(),
+        seams: seams
+            .iter()
+            .zip(of_seams)
+            .map(|((seam, _), off_m)| SeamResidual { seam: *seam, off_m: *off_m })
+            .collect(),
         conditions_m: conditions_m.to_vec(),
     }
 }
 
-/// Of every seam with a piece that is touched: its sides differ as before.
+/// Conditions that the length difference of both sides of a seam stays, for every seam with an affected piece.
 fn seam_conditions(style: &Style, touched: &[usize]) -> Vec<(usize, Condition)> {
     let is_touched = |edge: &EdgeRef| touched.contains(&edge.piece);
     let seams = style.seams.iter().enumerate().filter(|(_, seam)| seam.a.iter().chain(&seam.b).any(is_touched));
     seams
         .map(|(number, seam)| {
-            let side = |chain: &[EdgeRef], sign: f64| -> Vec<(Span, f64)> {
-                chain.iter().map(|edge| (Span::whole(*edge), sign)).collect()
+            let side = |chain: &[EdgeRef], factor: f64| -> Vec<Term> {
+                chain.iter().map(|edge| Term::whole(*edge, factor)).collect()
             };
-            let spans = [side(&seam.a, 1.0), side(&seam.b, -1.0)].concat();
-            (number, Condition { spans, change: 0.0 })
+            let terms = [side(&seam.a, 1.0), side(&seam.b, -1.0)].concat();
+            (number, Condition { terms, change: 0.0 })
         })
         .collect()
 }
@@ -94,7 +107,7 @@ struct System<'a> {
 }
 
 impl System<'_> {
-    /// The edges of the touched pieces, displaced.
+    /// Displaced edges of the affected pieces.
     fn lines(&self, given: &[f64]) -> BTreeMap<usize, Vec<Polyline>> {
         let edges = |piece: usize| (0..self.style.pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
         let lines =
@@ -116,7 +129,7 @@ impl System<'_> {
         Polyline::new(points).unwrap_or_else(|| line.clone())
     }
 
-    /// By how much each condition is missed, m.
+    /// Residual of each condition, m.
     fn missed(&self, given: &[f64]) -> Vec<f64> {
         let mut kept = BTreeMap::new();
         let mut change_m = |span: &Span| {
@@ -126,13 +139,13 @@ impl System<'_> {
             carried(before, after, to) - carried(before, after, from) - (to - from)
         };
         let mut miss = |condition: &&Condition| {
-            let changed: f64 = condition.spans.iter().map(|(span, sign)| sign * change_m(span)).sum();
+            let changed: f64 = condition.terms.iter().map(|term| term.factor * change_m(&term.span)).sum();
             changed - condition.change * self.amount_m
         };
         self.conditions.iter().map(&mut miss).collect()
     }
 
-    /// Change of what is missed with each give; one row a condition.
+    /// Jacobian of the residuals by finite differences: one row for each condition, one column for each give.
     fn slopes(&self, given: &[f64], missed: &[f64]) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; given.len()]; missed.len()];
         for k in 0..given.len() {
@@ -146,7 +159,7 @@ impl System<'_> {
     }
 }
 
-/// Arc length, m, on a line whose vertices moved, of the point that had another before.
+/// Arc length, m, on a displaced line, of the point that had the arc length `arc_m` before.
 pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
     let arcs = before.arcs();
     let next = arcs.partition_point(|arc| *arc <= arc_m).clamp(1, arcs.len() - 1);
@@ -155,11 +168,11 @@ pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
     after.arcs()[next - 1] + share * (after.arcs()[next] - after.arcs()[next - 1])
 }
 
-/// The least change of the gives that takes away what is missed, as far as they can.
+/// Least-norm change of the gives that removes the residuals, in the sense of regularised least squares.
 fn least_step(rows: &[Vec<f64>], missed: &[f64]) -> Vec<f64> {
     let n = missed.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    // Cholesky factor of the products of the rows, a lower triangle.
+    // Cholesky factor of the matrix of products of the rows, lower triangular.
     let mut factor = vec![vec![0.0; n]; n];
     for i in 0..n {
         for j in 0..=i {

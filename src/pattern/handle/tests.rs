@@ -24,39 +24,39 @@ fn styles() -> Vec<(String, Style)> {
 }
 
 fn points_mm(style: &Style) -> Vec<(Point, f64)> {
-    style.points_of_measure().iter().map(|one| (one.point, mm(one.length_m))).collect()
+    style.points_of_measure().iter().map(|measure| (measure.point, mm(measure.length_m))).collect()
 }
 
-/// Length of each seam's first side less that of its second, mm.
+/// Length of the first side of each seam minus that of its second, mm.
 fn gaps_mm(style: &Style) -> Vec<f64> {
     let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum::<f64>();
     style.seams.iter().map(|seam| mm(length(&seam.a) - length(&seam.b))).collect()
 }
 
 /// Greatest distance of a vertex of one outline from the other, m.
-fn farthest_m(one: &[V2], other: &[V2]) -> f64 {
+fn farthest_m(outline: &[V2], other: &[V2]) -> f64 {
     let off = |from: &[V2], to: &[V2]| from.iter().map(|p| boundary_distance(to, p)).fold(0.0, f64::max);
-    off(one, other).max(off(other, one))
+    off(outline, other).max(off(other, outline))
 }
 
-fn styles_apart_mm(one: &Style, other: &Style) -> f64 {
-    let pairs = one.pieces.iter().zip(&other.pieces);
-    mm(pairs.map(|(one, other)| farthest_m(&one.outline(), &other.outline())).fold(0.0, f64::max))
+fn styles_apart_mm(style: &Style, other: &Style) -> f64 {
+    let pairs = style.pieces.iter().zip(&other.pieces);
+    mm(pairs.map(|(piece, other)| farthest_m(&piece.outline(), &other.outline())).fold(0.0, f64::max))
 }
 
-/// Greatest turn within each edge of a piece that is no corner, degrees, and the number of corners within it.
+/// Greatest turning angle inside each edge of a piece that is no corner, degrees, and the number of corners inside it.
 fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
     const CORNER_DEG: f64 = 20.0;
     let turns =
         |line: &[V2]| line.windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees()).collect::<Vec<_>>();
-    let of = |turns: Vec<f64>| {
+    let parted = |turns: Vec<f64>| {
         let (smooth, corners): (Vec<f64>, Vec<f64>) = turns.into_iter().partition(|turn| *turn < CORNER_DEG);
         (smooth.into_iter().fold(0.0, f64::max), corners.len())
     };
-    piece.edges.iter().map(|edge| of(turns(edge.line.points()))).collect()
+    piece.edges.iter().map(|edge| parted(turns(edge.line.points()))).collect()
 }
 
-/// Angles at the ends of a piece's edges, degrees.
+/// Angles at the corners between the edges of a piece, degrees.
 fn angles_deg(piece: &StylePiece) -> Vec<f64> {
     let n = piece.edges.len();
     let corner = |k: usize| {
@@ -70,7 +70,7 @@ fn mirrored(outline: &[V2], about: f64) -> Vec<V2> {
     outline.iter().map(|p| V2::new(2.0 * about - p.x, p.y)).collect()
 }
 
-/// What holds of every changed style: seams are paired, outlines free of crossings and new kinks, and it meshes.
+/// Checks that hold for every changed style: seams are paired, outlines have no crossings and new kinks, and it meshes.
 fn sound(what: &str, before: &Style, after: &Style) {
     for (gap, (was, seam)) in gaps_mm(after).iter().zip(gaps_mm(before).iter().zip(&before.seams)) {
         assert!((gap - was).abs() < 0.1, "{what}: seam {} is {gap} apart, was {was}", seam.name);
@@ -93,7 +93,8 @@ fn sound(what: &str, before: &Style, after: &Style) {
     after.mesh(0.03).unwrap_or_else(|error| panic!("{what}: {error}"));
 }
 
-/// The points of measure that a handle is about, each with its change for one of the handle; and what geometry changes besides.
+/// Points of measure that a handle changes, each with its change per unit of the handle. The second list has those that
+/// change as a consequence.
 #[rustfmt::skip]
 fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
     use Point::*;
@@ -109,7 +110,7 @@ fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
         Handle::FrontRise => (vec![(FrontRise, 1.0)], &[]),
         Handle::BackRise => (vec![(BackRise, 1.0)], &[]),
         Handle::LegLength => (vec![(Inseam, 1.0), (Outseam, 1.0)], &[]),
-        // The widths are measured half-way up an armhole that sinks, and along a shoulder that turns.
+        // The widths are measured half-way up an armhole that sinks, and along a shoulder that rotates.
         Handle::ShoulderSlope => (vec![(Shoulder, 0.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder, HalfChest]),
         Handle::ShoulderLength => (vec![(Shoulder, 1.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder]),
         Handle::FrontNeckDepth => (vec![(FrontNeckDrop, 1.0), (CentreFrontLength, -1.0)], &[Neck]),
@@ -181,13 +182,14 @@ fn drafted_styles_have_the_handles_of_their_parts() {
 
 #[test]
 fn corners_go_as_far_as_the_handle_says() {
-    // Model, handle, piece, edge, whether its end, displacement for 10 mm; none of a direction that what gives way decides.
+    // Model, handle, piece, edge, true for its end, and displacement for 10 mm. `None` for a direction in which the
+    // point gives way.
     let check = |model: Model, handle: Handle, piece: &str, edge: &str, is_end: bool, expect_mm: [Option<f64>; 2]| {
         let style = drafted(model, 0);
         let moved = style.moved(&[(handle, 0.010)]).expect("it has it");
         let place = |style: &Style| {
-            let piece = style.pieces.iter().find(|one| one.id == piece).expect("it is drafted");
-            let line = &piece.edges.iter().find(|one| one.name.as_deref() == Some(edge)).expect("it is named").line;
+            let piece = style.pieces.iter().find(|worn| worn.id == piece).expect("it is drafted");
+            let line = &piece.edges.iter().find(|named| named.name.as_deref() == Some(edge)).expect("it is named").line;
             if is_end { line.at(line.length()) } else { line.at(0.0) }
         };
         let by = place(&moved) - place(&style);
@@ -215,7 +217,7 @@ fn corners_go_as_far_as_the_handle_says() {
 
 #[test]
 fn right_and_left_stay_alike_and_square_corners_square() {
-    // The underarm seam of a short sleeve and the side of a straight skirt stay straight, and so turn.
+    // The underarm seam of a short sleeve and the side of a straight skirt stay straight, and so rotate.
     let turned = [Handle::ShoulderSlope, Handle::ShoulderLength, Handle::Fork, Handle::FrontRise, Handle::BackRise];
     for (name, style) in styles() {
         for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 10.0), (handle, -10.0)]) {
@@ -275,14 +277,14 @@ fn nothing_is_nothing_and_back_is_back() {
 fn styles_change_smoothly_with_the_amount() {
     for (model, style) in Model::ALL.map(|model| (model, drafted(model, 0))) {
         for handle in style.handles() {
-            let at = |amount_mm: f64| {
+            let outline_at = |amount_mm: f64| {
                 let moved = style.moved(&[(handle, from_mm(amount_mm))]).expect("it has it");
                 moved.pieces.iter().flat_map(StylePiece::outline).collect::<Vec<V2>>()
             };
-            let [one, two, three] = [0.5, 1.0, 1.5].map(at);
-            assert!(one.len() == two.len() && two.len() == three.len(), "{model:?} {handle:?}");
-            for k in 0..one.len() {
-                let bend_mm = mm((one[k] - two[k] * 2.0 + three[k]).norm());
+            let [low, middle, high] = [0.5, 1.0, 1.5].map(outline_at);
+            assert!(low.len() == middle.len() && middle.len() == high.len(), "{model:?} {handle:?}");
+            for k in 0..low.len() {
+                let bend_mm = mm((low[k] - middle[k] * 2.0 + high[k]).norm());
                 assert!(bend_mm < 0.03, "{model:?} {handle:?}: vertex {k} bends by {bend_mm}");
             }
         }
@@ -348,7 +350,7 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
 }
 
-/// Corners are told as shares of their piece, which a handle changes.
+/// The seam file has corners as shares of their piece, which a handle changes.
 #[test]
 fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
     let draft = Model::Tshirt.drafts().swap_remove(0);
@@ -382,8 +384,9 @@ fn a_mesh_goes_along_with_its_style() {
             assert!((is.l2d_m - expect.l2d_m).abs() < 1e-3, "{handle:?} {}: {} {}", is.name, is.l2d_m, expect.l2d_m);
         }
         let flat: Vec<geom::V3> = along.rest.iter().map(|p| p.push(0.0)).collect();
-        for one in &along.measurements {
-            assert!((one.length_m(&along.rest, &flat) - one.l2d_m).abs() < 1e-9, "{handle:?} {}", one.name);
+        for measured in &along.measurements {
+            let off_m = measured.length_m(&along.rest, &flat) - measured.l2d_m;
+            assert!(off_m.abs() < 1e-9, "{handle:?} {}", measured.name);
         }
     }
 }
@@ -400,7 +403,7 @@ fn what_lies_inside_goes_along() {
     let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
     let by: Vec<V2> =
         moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();
-    // Near the hem with the hem, half-way up by less.
+    // Points near the hem move with it, those half-way up by less.
     assert!((by[0].y + 0.02).abs() < 0.004 && by[0].x.abs() < 1e-9, "{by:?}");
     assert!((-0.017..-0.005).contains(&by[1].y), "{by:?}");
     let line = &moved.internal_lines[0];
@@ -412,7 +415,7 @@ fn shared(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// The style of a file of another program, sewn as proposed where it holds no seams.
+/// Style of a file of another program, sewn as proposed if it holds no seams.
 fn foreign(path: &Path) -> Style {
     let bytes = std::fs::read(path).expect("readable");
     let name = path.display().to_string();
@@ -426,7 +429,7 @@ fn foreign(path: &Path) -> Style {
 
 #[test]
 fn foreign_patterns_change_by_their_handles() {
-    // File, number of handles, those that are refused.
+    // File, number of handles, and the handles that are refused.
     let check = |file: &str, handles: usize, refused: &[Handle]| {
         let Some(path) = shared(file) else { return eprintln!("skipped: {file} is not there") };
         let style = foreign(&path);
@@ -442,8 +445,11 @@ fn foreign_patterns_change_by_their_handles() {
                         || (file.contains("paco") && handle == Handle::LegLength);
                     let (before, after) = (points_mm(&style), points_mm(&moved));
                     for (point, of_one) in promised(handle).0.into_iter().filter(|_| !is_odd) {
-                        let of = |points: &[(Point, f64)]| points.iter().find(|one| one.0 == point).map(|one| one.1);
-                        let change = of(&after).zip(of(&before)).map(|(is, was)| is - was - of_one * amount_mm);
+                        let length_mm = |points: &[(Point, f64)]| {
+                            points.iter().find(|measure| measure.0 == point).map(|measure| measure.1)
+                        };
+                        let change =
+                            length_mm(&after).zip(length_mm(&before)).map(|(is, was)| is - was - of_one * amount_mm);
                         assert!(
                             change.is_none_or(|off| off.abs() < 0.2),
                             "{what}: {} is off by {change:?}",

@@ -1,46 +1,47 @@
-//! Handles of shoulder, neck and armhole, and of the sleeve sewn to it.
+//! Handles of shoulder, neck and armhole, and of the sleeve that is sewn to it.
 
 use super::body::{Armhole, Body, HalfCap, NEAR_M};
-use super::girths;
-use super::plan::{Condition, Move, Plan, Span, along, end, start};
+use super::plan::{Condition, Move, Plan, Term, along, end, start};
 use crate::pom::anatomy::Chain;
 use crate::pom::top::Centre;
 use crate::propose::Face;
+use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Shoulder points lower, front and back: the shoulder keeps its length, the armhole too and sinks with it.
+/// Lowers the shoulder points, front and back. The shoulder keeps its length, and the armhole its own, so that it sinks
+/// too.
 pub fn shoulder_slope(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
-    for (shoulder, outwards) in shoulders(body)? {
-        let tip = body.point(end(&shoulder));
+    for Shoulder { seam, outwards } in shoulders(body)? {
+        let tip = body.point(end(&seam));
         plan.drive(tip, -V2::y());
         plan.give(tip, V2::x() * outwards.x.signum());
-        plan.conditions.push(Condition::chain(&shoulder, 0.0));
+        plan.conditions.push(Condition::chain(&seam, 0.0));
     }
     armholes_keep(body, &mut plan);
     Some(plan)
 }
 
-/// Shoulder points outwards along the shoulder, front and back; the armhole keeps its length.
+/// Moves the shoulder points outwards along the shoulder, front and back. The armhole keeps its length.
 pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
-    for (shoulder, outwards) in shoulders(body)? {
-        let tip = body.point(end(&shoulder));
+    for Shoulder { seam, outwards } in shoulders(body)? {
+        let tip = body.point(end(&seam));
         plan.drive(tip, outwards);
         plan.give(tip, outwards);
-        plan.conditions.push(Condition::chain(&shoulder, 1.0));
+        plan.conditions.push(Condition::chain(&seam, 1.0));
     }
     hold_across(body, &mut plan);
     armholes_keep(body, &mut plan);
     Some(plan)
 }
 
-/// High points of the shoulder outwards along it, each by half; the centres of the neck stay.
+/// Moves the high points of the shoulder outwards along it, each by half of the amount. The centres of the neck stay.
 pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
-    for (shoulder, outwards) in shoulders(body)? {
-        let high = body.point(start(&shoulder));
+    for Shoulder { seam, outwards } in shoulders(body)? {
+        let high = body.point(start(&seam));
         plan.drive(high, outwards * (0.5 / outwards.x.abs()));
         plan.give(high, outwards);
     }
@@ -50,7 +51,7 @@ pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// The neckline lower at the centre of a face.
+/// Lowers the neckline at the centre of a face.
 pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for at in neck_centres(body, face)? {
@@ -59,11 +60,11 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Where the neckline meets the centre of a face: of halves one place each.
+/// Points of the neckline at the centre of a face. Halves have one each.
 fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
-        let ends = [false, true].map(|is_last| anatomy.point((at.edge, is_last)));
+        let ends = [false, true].map(|is_last| anatomy.point(EdgeEnd::new(at.edge, is_last)));
         let corner = ends.into_iter().find(|end| (end.arc_m - at.arc_m).abs() < NEAR_M);
         return Some(vec![corner.unwrap_or(at)]);
     }
@@ -72,7 +73,8 @@ fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     Some(centres.collect())
 }
 
-/// Underarm points lower along the side seam; the sleeve's underarm points go as far down the arm, and outwards until its cap fits.
+/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and across it until
+/// the cap fits.
 pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     if body.armholes.is_empty() {
         return None;
@@ -81,13 +83,13 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     for armhole in &body.armholes {
         let down = armhole.down(body);
         plan.drive(body.point(armhole.underarm), down / down.y.abs());
-        girths::hold(body, &mut plan, &armhole.side);
+        plan.hold(body.anatomy, &armhole.side);
         if let Some(cap) = &armhole.cap {
             move_underarm(body, &mut plan.moves, cap, cap.down);
         }
     }
     for faces in body.armholes.chunks(Face::BOTH.len()) {
-        // Edges of the side seam that run otherwise than their partners.
+        // Both sides of the side seam may differ in direction, so their underarm points may move apart.
         let apart = faces.iter().zip([0.5, -0.5]);
         plan.gives.push(apart.map(|(face, by)| Move::new(body.point(face.underarm), face.down(body) * by)).collect());
     }
@@ -96,16 +98,25 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Shoulder seams' sides from the neck outwards, with their directions at the outer end; `None` of a garment without.
-fn shoulders(body: &Body<'_>) -> Option<Vec<(Chain, V2)>> {
-    let trunk = body.trunk.as_ref().filter(|trunk| !trunk.shoulders.is_empty())?;
-    let sides = trunk.shoulders.iter().flatten();
-    let found: Vec<(Chain, V2)> = sides.map(|chain| (chain.clone(), along(body.anatomy, chain))).collect();
-    found.iter().all(|(_, outwards)| outwards.x != 0.0).then_some(found)
+/// One side of a shoulder seam.
+struct Shoulder {
+    /// Its edges, directed outwards from the neck.
+    seam: Chain,
+    /// Unit vector from its beginning to its end.
+    outwards: V2,
 }
 
-/// Every armhole keeps its length: its underarm points give way along the side seam, front and back alike, and a free lower end for the
-/// little that both sides differ in.
+/// Sides of the shoulder seams, directed outwards. `None` for a garment without any.
+fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
+    let trunk = body.trunk.as_ref().filter(|trunk| !trunk.shoulders.is_empty())?;
+    let sides = trunk.shoulders.iter().flatten();
+    let shoulder = |seam: &Chain| Shoulder { seam: seam.clone(), outwards: along(body.anatomy, seam) };
+    let found: Vec<Shoulder> = sides.map(shoulder).collect();
+    found.iter().all(|shoulder| shoulder.outwards.x != 0.0).then_some(found)
+}
+
+/// Keeps the length of every armhole: its underarm points give way along the side seam, front and back alike. A free
+/// lower end gives way for the small difference of both sides.
 fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     for faces in body.armholes.chunks(Face::BOTH.len()) {
         let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
@@ -113,10 +124,10 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
         let down = |face: &Armhole| face.down(body);
         plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
         for face in faces {
-            girths::hold(body, plan, &face.side);
+            plan.hold(body.anatomy, &face.side);
             slide_joints(body, plan, face);
             let low = end(&face.side);
-            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).0) {
+            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).edge) {
                 plan.give(body.point(low), down(face));
             }
         }
@@ -124,12 +135,12 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     sleeves_follow(body, plan);
 }
 
-/// Joints within an armhole slide along it.
+/// Lets joints within an armhole slide along it.
 fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
     for edge in &face.edges {
-        let corner = body.anatomy.style().over_corner((*edge, true));
-        if face.edges.contains(&corner.0) {
-            plan.give(body.point(corner), along(body.anatomy, &vec![(*edge, true)]));
+        let corner = body.anatomy.style().over_corner(EdgeEnd::new(*edge, true));
+        if face.edges.contains(&corner.edge) {
+            plan.give(body.point(corner), along(body.anatomy, &vec![EdgeEnd::new(*edge, true)]));
         }
     }
 }
@@ -141,28 +152,29 @@ impl Armhole {
     }
 }
 
-/// The armholes stay where they are half-way up, where the widths across front and back are measured.
+/// Holds the armholes half-way up, where the widths across front and back are measured.
 pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
     plan.moves.extend(
         body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())),
     );
 }
 
-/// The point of an armhole half-way up.
+/// Point of an armhole half-way up.
 fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
     let (tip, low) = (body.anatomy.place(armhole.tip?).y, body.anatomy.place(armhole.underarm).y);
     body.anatomy.meeting(&armhole.edges, |p| p.y - 0.5 * (tip + low))
 }
 
-/// Half caps become as much longer as the armholes they are sewn to: the sleeve's underarm points give way across the arm.
+/// Lengthens half caps by as much as the armholes that they are sewn to: the underarm points of the sleeve give way
+/// across the arm.
 pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     for armhole in &body.armholes {
         let Some(cap) = &armhole.cap else { continue };
-        let mut spans = cap_spans(cap);
+        let mut terms = cap_terms(cap);
         let is_sewn_on =
             |edge: &&EdgeRef| body.anatomy.ways.partners(**edge).iter().any(|other| other.piece == cap.piece);
-        spans.extend(armhole.edges.iter().filter(is_sewn_on).map(|edge| (Span::whole(*edge), -1.0)));
-        plan.conditions.push(Condition { spans, change: 0.0 });
+        terms.extend(armhole.edges.iter().filter(is_sewn_on).map(|edge| Term::whole(*edge, -1.0)));
+        plan.conditions.push(Condition { terms, change: 0.0 });
         hold_sleeve(body, plan, cap);
         let mut give = Vec::new();
         move_underarm(body, &mut give, cap, cap.out);
@@ -171,18 +183,18 @@ pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     }
 }
 
-/// The length of a half cap.
-pub fn cap_spans(cap: &HalfCap) -> Vec<(Span, f64)> {
-    cap.spans.iter().map(|(edge, arcs_m)| (Span { edge: *edge, arcs_m: *arcs_m }, 1.0)).collect()
+/// Length of a half cap as terms of a condition.
+pub fn cap_terms(cap: &HalfCap) -> Vec<Term> {
+    cap.spans.iter().map(|span| Term { span: *span, factor: 1.0 }).collect()
 }
 
-/// The sleeve stays where it is at the top.
+/// Holds the sleeve at the top of its cap and at the bicep.
 pub fn hold_sleeve(body: &Body<'_>, plan: &mut Plan, cap: &HalfCap) {
     plan.drive(cap.top, V2::zeros());
     plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
 }
 
-/// Moves a sleeve's underarm point, and the place below it where the bicep is measured.
+/// Moves the underarm point of a sleeve, and the point below it where the bicep is measured.
 pub fn move_underarm(body: &Body<'_>, moves: &mut Vec<Move>, cap: &HalfCap, by: V2) {
     moves.push(Move::new(body.point(cap.underarm), by));
     moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, by)));

@@ -1,9 +1,9 @@
-//! Piece information from a table beside the pattern (CSV or XLSX): quantity, material, grain, role and whatever else
-//! a tech pack says of each piece.
+//! Piece information from a table beside the pattern (CSV or XLSX): quantity, material, grain, role and any other
+//! columns of a tech pack.
 //!
-//! The first row names the columns. `piece` (or `name`, `piece name`, `block`) says which piece a row is about, and
-//! `size`, where there is such a column, of which size; `quantity` is taken for the piece's own, `grain_deg` for its
-//! grain line where it has none; every other column becomes a text of the piece. An empty cell says nothing.
+//! The first row names the columns. `piece` (or `name`, `piece name`, `block`) names the piece of a row, and `size`, if
+//! there is such a column, its size. `quantity` replaces that of the piece. `grain_deg` gives a grain line to a piece
+//! without one. Every other column becomes a text of the piece. An empty cell changes nothing.
 
 mod xlsx;
 
@@ -13,14 +13,14 @@ use super::piece::Piece;
 use super::table;
 use geom::V2;
 
-/// Names of the column that says which piece a row is about.
+/// Names of the column that identifies the piece of a row.
 const PIECE: [&str; 4] = ["piece", "name", "piece name", "block"];
-/// Most bytes of a table that is read.
+/// Greatest size of a table, bytes.
 const MOST_BYTES: usize = 16 << 20;
-/// Share of a piece's extent along its grain that the grain line of a table takes.
+/// Length of a grain line from a table, as a share of the extent of the piece along it.
 const GRAIN_SHARE: f64 = 0.5;
 
-/// Why a table of piece information cannot be used.
+/// Error of using a table of piece information.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}{}: found {found}; accepted: {accepted}",
     row.map(|row| format!(", row {row}")).unwrap_or_default(),
@@ -28,17 +28,17 @@ const GRAIN_SHARE: f64 = 0.5;
 pub struct InfoError {
     /// Name of the file, for the message.
     pub file: String,
-    /// Row, from 1 for the row of column names.
+    /// Row number. The row of column names is 1.
     pub row: Option<usize>,
-    /// Heading of the column, where one can be named.
+    /// Heading of the column, if one can be named.
     pub column: Option<String>,
-    /// What was found.
+    /// Description of what was found.
     pub found: String,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// The cells of a row, with the row's number in the file.
+/// Cells of a row, with its number in the file.
 type Row = (usize, Vec<String>);
 
 /// A table of piece information.
@@ -49,10 +49,11 @@ pub struct PieceTable {
     rows: Vec<Row>,
 }
 
-/// Reads a table, XLSX (its first sheet) or CSV (comma, semicolon or tab; UTF-8); `file` is its name for messages.
+/// Reads a table: the first sheet of an XLSX file, or CSV in UTF-8 with commas, semicolons or tabs. `file` is its name
+/// for messages.
 ///
 /// # Errors
-/// [`InfoError`] where it is no such table, or has no column for the piece.
+/// [`InfoError`] if it is no such table, or has no column for the piece.
 pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     let fail = |row: Option<usize>, found: String, accepted: &str| InfoError {
         file: file.to_owned(),
@@ -88,7 +89,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     Ok(table)
 }
 
-/// Rows of CSV with their numbers, or the number of the row that is wrong and why.
+/// Rows of CSV with their numbers. The error is the number of a malformed row and its description.
 fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (usize, String)> {
     let text = table::text(bytes).map_err(|line| (line, "a byte that is no UTF-8".to_owned()))?;
     let rows = table::rows(text);
@@ -114,10 +115,11 @@ impl PieceTable {
         }
     }
 
-    /// Adds what the table says to the pieces of a pattern; what the pattern says itself gives way.
+    /// Adds the information of the table to the pieces of a pattern. It overrides that of the pattern, except for a
+    /// grain line.
     ///
     /// # Errors
-    /// [`InfoError`] for a row about no piece of the pattern, two rows about the same one, and a cell that cannot be.
+    /// [`InfoError`] for a row without a matching piece, two rows for one piece, or an invalid cell.
     pub fn merge(&self, pattern: &mut PatternFile) -> Result<(), InfoError> {
         let Some(by) = self.column(&PIECE) else { return Ok(()) };
         let size_by = self.column(&["size"]);
@@ -137,7 +139,7 @@ impl PieceTable {
         Ok(())
     }
 
-    /// The pieces that a row is about, of one size where it names one.
+    /// Indices of the pieces of a row, of one size if the row names one.
     fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
         let is_of =
             |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));
@@ -153,7 +155,7 @@ impl PieceTable {
         Ok(meant)
     }
 
-    /// Takes one cell over into a piece.
+    /// Applies one cell to a piece.
     fn tell(&self, piece: &mut Piece, row: usize, column: usize, value: &str) -> Result<(), InfoError> {
         let key = self.columns[column].trim();
         if value.is_empty() || key.is_empty() {
@@ -192,7 +194,7 @@ impl PieceTable {
     }
 }
 
-/// The names that serde lists for a role that is none.
+/// Accepted names, from the message of serde for an unknown role.
 fn accepted_roles(error: &serde_json::Error) -> String {
     let text = error.to_string();
     text.split_once("expected one of ").map_or(text.clone(), |(_, names)| names.replace('`', ""))
@@ -203,7 +205,7 @@ fn set_text(piece: &mut Piece, key: &str, value: &str) {
     piece.texts.push((key.to_owned(), value.to_owned()));
 }
 
-/// A grain line through the middle of an outline.
+/// Grain line at a given angle through the centre of an outline.
 fn grain(outline: &[V2], angle_deg: f64) -> [V2; 2] {
     let (sine, cosine) = angle_deg.to_radians().sin_cos();
     let along = V2::new(cosine, sine);

@@ -1,7 +1,7 @@
-//! The cells of the first sheet of an XLSX workbook [ECMA-376]: a ZIP archive of XML.
+//! Cells of the first sheet of an XLSX workbook [ECMA-376], which is a ZIP archive of XML.
 //!
-//! Numbers and texts are read (shared, inline, and results of formulas), styles are not: a date is its number. ZIP64,
-//! encryption and compression other than deflate are refused.
+//! Numbers and texts are read: shared, inline, and results of formulas. Styles are ignored, so a date is its number.
+//! ZIP64, encryption and compression other than deflate are refused.
 
 use std::io::Read;
 
@@ -10,9 +10,9 @@ use roxmltree::{Document, Node};
 
 use super::Row;
 
-/// Most bytes of an unpacked part.
+/// Greatest size of an unpacked part, bytes.
 const MOST_UNPACKED: u64 = 64 << 20;
-/// Most columns of a table.
+/// Greatest number of columns of a table.
 const MOST_COLUMNS: usize = 200;
 /// Local header, central entry and end of central directory of a ZIP archive [PKWARE APPNOTE].
 const LOCAL: [u8; 4] = *b"PK\x03\x04";
@@ -22,7 +22,7 @@ const END: [u8; 4] = *b"PK\x05\x06";
 /// Rows with their numbers in the sheet.
 ///
 /// # Errors
-/// A sentence that says what is wrong with the workbook.
+/// A sentence for messages on the fault of the workbook.
 pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     let archive = Archive::open(bytes)?;
     let shared = match archive.find("xl/sharedStrings.xml") {
@@ -48,7 +48,7 @@ pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// Looking at names without their namespace.
+/// Comparison of element names without their namespace.
 trait Named {
     fn has_tag_name_in(&self, name: &str) -> bool;
 }
@@ -63,7 +63,7 @@ fn parse(text: &str) -> Result<Document<'_>, String> {
     Document::parse(text).map_err(|error| format!("a part that is no XML: {error}"))
 }
 
-/// All text below a node, phonetic readings left out.
+/// Text below a node, without phonetic readings.
 fn text_below(node: &Node<'_, '_>) -> String {
     let is_text = |inner: &Node<'_, '_>| {
         inner.has_tag_name_in("t") && !inner.ancestors().any(|above| above.has_tag_name_in("rPh"))
@@ -76,7 +76,7 @@ fn shared_strings(text: &str) -> Result<Vec<String>, String> {
     Ok(document.descendants().filter(|node| node.has_tag_name_in("si")).map(|node| text_below(&node)).collect())
 }
 
-/// Index of the column of a cell called `AB12`.
+/// Index of the column of a cell name such as `AB12`.
 fn column_of(name: &str) -> usize {
     let letters = name.bytes().take_while(u8::is_ascii_alphabetic).take(4);
     letters.fold(0, |index, letter| 26 * index + usize::from(letter.to_ascii_uppercase() - b'A') + 1).saturating_sub(1)
@@ -105,7 +105,7 @@ struct Entry {
     offset: usize,
 }
 
-/// A ZIP archive, by its central directory.
+/// A ZIP archive, read by its central directory.
 struct Archive<'a> {
     bytes: &'a [u8],
     entries: Vec<Entry>,
@@ -143,7 +143,7 @@ impl<'a> Archive<'a> {
         self.entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name))
     }
 
-    /// The sheet that the workbook lists first.
+    /// First sheet in the list of the workbook.
     fn first_sheet(&self) -> Result<&Entry, String> {
         let none = || "an archive without a worksheet".to_owned();
         let workbook = self.text(self.find("xl/workbook.xml").ok_or_else(none)?)?;
@@ -168,7 +168,7 @@ impl<'a> Archive<'a> {
         if header != Some(&LOCAL[..]) {
             return Err(broken("is not where the archive says"));
         }
-        // The local header has lengths of its own for name and extra field.
+        // The local header has its own lengths of name and extra field.
         let field = |offset: usize| number(self.bytes, entry.offset + offset, 2).unwrap_or_default();
         let start = entry.offset + 30 + field(26) + field(28);
         let packed = self.bytes.get(start..start.saturating_add(entry.packed)).ok_or_else(|| broken("is cut off"))?;
@@ -186,7 +186,7 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// A little-endian number of some bytes.
+/// Little-endian number of `size` bytes.
 fn number(bytes: &[u8], at: usize, size: usize) -> Option<usize> {
     let field = bytes.get(at..at.checked_add(size)?)?;
     Some(field.iter().rev().fold(0, |value, &byte| value << 8 | usize::from(byte)))

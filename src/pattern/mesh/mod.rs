@@ -1,4 +1,4 @@
-//! From a style to a garment mesh: near-uniform triangles, seam partners matched vertex by vertex.
+//! Meshing of a style into a garment: near-uniform triangles, seam partners matched vertex by vertex.
 
 mod paths;
 mod sampling;
@@ -6,62 +6,62 @@ mod triangulate;
 
 use std::ops::Range;
 
-use self::sampling::{EdgeSamples, sample};
+use self::sampling::{EdgeSample, EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
 use super::garment::{FitLevel, Garment, MaterialLine, Measurement, PieceMesh, Reinforcement, SeamMesh};
 use super::scale;
-use super::style::{EdgeRef, PathPart, Style, StylePiece};
+use super::style::{PathPart, Style, StylePiece};
 use geom::V2;
 use geom::polyline::signed_area;
 use geom::units::mm;
 
-/// Least and greatest edge length that can be asked for, m.
+/// Range of accepted edge lengths, m.
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
 
-/// Most triangles of a mesh: a coat at 5 mm has a quarter of them, and no drape of so many ends in a day.
+/// Greatest number of triangles of a mesh. A coat at 5 mm has a quarter of them, and no drape of so many ends in a day.
 const MOST_TRIANGLES: f64 = 400_000.0;
 
-/// Why a style cannot be meshed.
+/// Error of meshing a style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// An edge length out of range.
+    /// The edge length is out of range.
     #[error("edge length {found_mm} mm; accepted: {least_mm} to {greatest_mm} mm")]
     EdgeLength {
-        /// Length asked for, mm.
+        /// Requested length, mm.
         found_mm: f64,
         /// Least accepted, mm.
         least_mm: f64,
         /// Greatest accepted, mm.
         greatest_mm: f64,
     },
-    /// A mesh of more triangles than can be draped.
+    /// The mesh would have more triangles than can be draped.
     #[error(
         "about {thousands} thousand triangles at edge length {edge_length_mm} mm (pieces of {area_m2:.1} m2, the longest {longest_m:.1} m \
          long); accepted: at most 400 thousand; is the unit of the pattern right?"
     )]
     TooFine {
-        /// Edge length asked for, mm.
+        /// Requested edge length, mm.
         edge_length_mm: f64,
-        /// Number of triangles that it would have, in thousands.
+        /// Number of triangles that the mesh would have, in thousands.
         thousands: u64,
         /// Area of all pieces, m2.
         area_m2: f64,
         /// Length of the longest piece, m.
         longest_m: f64,
     },
-    /// The outline, sampled at the edge length, is no simple polygon or could not be filled.
+    /// The outline, sampled at the edge length, is no simple polygon or cannot be triangulated.
     #[error(
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
     Piece {
         /// Identifier of the piece.
         piece: String,
-        /// Edge length asked for, mm.
+        /// Requested edge length, mm.
         edge_length_mm: f64,
-        /// What is wrong.
+        /// Reason.
         reason: String,
     },
-    /// A straight measurement that leaves its piece.
+    /// A straight measurement leaves its piece.
     #[error(
         "{place}: the line from {from} to {to} (mm) leaves piece `{piece}`; accepted: points that see each other across the cloth"
     )]
@@ -70,14 +70,14 @@ pub enum MeshError {
         place: String,
         /// Identifier of the piece.
         piece: String,
-        /// First end of the line in the piece's plane, as text, mm.
+        /// First end of the line in the plane of the piece, as text, mm.
         from: String,
-        /// Second end of the line in the piece's plane, as text, mm.
+        /// Second end of the line in the plane of the piece, as text, mm.
         to: String,
     },
 }
 
-/// How good a garment's triangles are.
+/// Quality of the triangles of a garment.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MeshQuality {
     /// Least angle of any triangle, degrees.
@@ -86,12 +86,12 @@ pub struct MeshQuality {
     pub min_edge_m: f64,
     /// Greatest edge length, m.
     pub max_edge_m: f64,
-    /// Mean edge length (each edge once a triangle), m.
+    /// Mean edge length, m. An edge counts once for each of its triangles.
     pub mean_edge_m: f64,
 }
 
 impl MeshQuality {
-    /// Quality of a garment's triangles at rest; `None` where there are none.
+    /// Quality of the triangles of a garment at rest. `None` without triangles.
     #[must_use]
     pub fn of(garment: &Garment) -> Option<Self> {
         let mut lengths = Vec::new();
@@ -111,11 +111,11 @@ impl MeshQuality {
 }
 
 impl Style {
-    /// Refuses what nothing could be done with, before anything is done.
+    /// Refuses meshes with too many triangles before any work is done.
     fn check_bounds(&self, edge_length_m: f64) -> Result<(), MeshError> {
         let outlines: Vec<Vec<V2>> = self.pieces.iter().map(StylePiece::outline).collect();
         let area_m2: f64 = outlines.iter().map(|outline| signed_area(outline).abs()).sum();
-        // Equilateral triangles of that edge.
+        // Number of equilateral triangles with that edge length.
         let triangles = area_m2 / (0.25 * 3.0_f64.sqrt() * edge_length_m * edge_length_m);
         if triangles <= MOST_TRIANGLES {
             return Ok(());
@@ -131,8 +131,8 @@ impl Style {
     /// Meshes the style with edges of about `edge_length_m`.
     ///
     /// # Errors
-    /// [`MeshError`] when the edge length is out of [`EDGE_LENGTH_RANGE_M`], an outline crosses itself once sampled, or a
-    /// straight measurement leaves its piece.
+    /// [`MeshError`] if the edge length is out of [`EDGE_LENGTH_RANGE_M`], there would be too many triangles, a sampled
+    /// outline crosses itself, or a straight measurement leaves its piece.
     pub fn mesh(&self, edge_length_m: f64) -> Result<Garment, MeshError> {
         if !EDGE_LENGTH_RANGE_M.contains(&edge_length_m) {
             return Err(MeshError::EdgeLength {
@@ -149,7 +149,7 @@ impl Style {
         }
         let seams = self.seams.iter().zip(&samples.seams).map(|(seam, pairs)| SeamMesh {
             name: seam.name.clone(),
-            pairs: pairs.iter().map(|[a, b]| [assembly.vertex(a.0, a.1), assembly.vertex(b.0, b.1)]).collect(),
+            pairs: pairs.iter().map(|[a, b]| [assembly.vertex(*a), assembly.vertex(*b)]).collect(),
         });
         let seams = seams.collect();
         let mut garment = Garment {
@@ -182,7 +182,7 @@ impl Style {
         let fit_level = |(level, path): &(String, Vec<PathPart>)| FitLevel {
             level: level.clone(),
             girth_m: self.path_length_m(path),
-            // A line that leaves its piece has a length all the same.
+            // A line that leaves its piece still has a length.
             runs: layer.runs(level, path).unwrap_or_default(),
         };
         let fit_levels = self.fit_levels.iter().map(fit_level).collect();
@@ -201,7 +201,7 @@ impl Style {
         Ok(garment)
     }
 
-    /// Paths across the pieces, laid on one of the style's meshes; `None` of one that leaves the cloth.
+    /// Traces paths across the pieces on a mesh of the style. `None` for a path that leaves the cloth.
     #[must_use]
     pub fn laid(&self, garment: &Garment, paths: &[&[PathPart]]) -> Vec<Option<Vec<MaterialLine>>> {
         let samples = sample(self, garment.edge_length_m);
@@ -249,8 +249,8 @@ impl Style {
     }
 }
 
-/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is
-/// the first of the next.
+/// Garment vertices of every edge of a piece with this first vertex. Boundary vertices come first, and the last of an
+/// edge is the first of the next.
 fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
     let mut start = 0;
@@ -273,8 +273,8 @@ struct Assembly {
 }
 
 impl Assembly {
-    fn vertex(&self, edge: EdgeRef, sample: usize) -> usize {
-        self.boundary[edge.piece][edge.edge][sample]
+    fn vertex(&self, EdgeSample { edge, index }: EdgeSample) -> usize {
+        self.boundary[edge.piece][edge.edge][index]
     }
 }
 

@@ -1,4 +1,4 @@
-//! Laying measurement paths on the mesh.
+//! Tracing of measurement paths on the mesh.
 
 use super::MeshError;
 use super::sampling::EdgeSamples;
@@ -7,12 +7,19 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::segment_meeting;
 
-/// Points of a straight path closer than this share of its length are one.
+/// Distance below which points of a straight path coincide, as a share of its length.
 const SAME_SHARE: f64 = 1e-6;
-/// Farthest that a drawn curve lies from the sides of the mesh along it, m, where no vertex was asked for.
+/// Greatest distance of a drawn curve from the mesh boundary along it, m, at points without a vertex.
 const OFF_CURVE_M: f64 = 3e-3;
 
-/// Lays paths on the mesh of a style.
+/// Intersection of a segment with the side of a triangle.
+struct Crossing {
+    /// Parameter along the segment, 0 to 1.
+    share: f64,
+    point: MaterialPoint,
+}
+
+/// Tracer of paths on the mesh of a style.
 pub struct Layer<'a> {
     style: &'a Style,
     samples: &'a [Vec<EdgeSamples>],
@@ -23,7 +30,7 @@ pub struct Layer<'a> {
 }
 
 impl<'a> Layer<'a> {
-    /// `samples` and `boundary` hold arc lengths and garment vertices of every edge of every piece.
+    /// Makes a tracer. `samples` and `boundary` hold the arc lengths and garment vertices of every edge of every piece.
     pub fn new(
         style: &'a Style,
         samples: &'a [Vec<EdgeSamples>],
@@ -39,10 +46,10 @@ impl<'a> Layer<'a> {
         Self { style, samples, boundary, garment, triangle_of }
     }
 
-    /// The runs of a path; `place` names it in messages.
+    /// Lines of a path on the mesh. `place` names it in messages.
     ///
     /// # Errors
-    /// [`MeshError::LineLeavesPiece`].
+    /// [`MeshError::LineLeavesPiece`] if a straight part leaves its piece.
     pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {
@@ -52,7 +59,7 @@ impl<'a> Layer<'a> {
             .collect()
     }
 
-    /// Along an edge, from vertex to vertex, with the arcs of the drawn curve.
+    /// Line along an edge, from vertex to vertex, with the arc lengths of the drawn curve.
     fn edge_run(&self, edge: EdgeRef) -> MaterialLine {
         let arcs = &self.samples[edge.piece][edge.edge].arcs;
         let vertices = &self.boundary[edge.piece][edge.edge];
@@ -67,8 +74,8 @@ impl<'a> Layer<'a> {
         MaterialPoint { vertices, weights: vertices.map(|v| if v == vertex { 1.0 } else { 0.0 }) }
     }
 
-    /// The runs of a path for whose ends no vertex was asked, so that they lie a little off the mesh: on it as far as it goes, with
-    /// the lengths of the pattern. `None` where a line leaves the cloth between its ends.
+    /// Lines of a path without vertices at its ends, which therefore lie a little off the mesh. The lines end at the
+    /// boundary of the mesh and have the lengths of the pattern. `None` if a line leaves the cloth between its ends.
     pub fn near_runs(&self, path: &[PathPart]) -> Option<Vec<MaterialLine>> {
         let run = |part: &PathPart| match *part {
             PathPart::Edge(edge) => Some(self.edge_run(edge)),
@@ -83,7 +90,7 @@ impl<'a> Layer<'a> {
         let reach = (to - from) * (OFF_CURVE_M / length);
         let triangles = self.garment.pieces[ends[0].edge.piece].triangles.clone();
         let crossings = self.crossings(triangles.clone(), (from - reach, to + reach));
-        let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
+        let places: Vec<V2> = crossings.iter().map(|crossing| crossing.point.at_rest(&self.garment.rest)).collect();
         let is_near = |place: Option<&V2>, end: V2| place.is_some_and(|p| (p - end).norm() <= OFF_CURVE_M);
         let is_whole = is_near(places.first(), from)
             && is_near(places.last(), to)
@@ -92,13 +99,13 @@ impl<'a> Layer<'a> {
         let found: f64 = chords.iter().sum();
         (is_whole && found > 0.0).then(|| MaterialLine {
             arc_m: chords.into_iter().map(|chord| chord * length / found).collect(),
-            points: crossings.into_iter().map(|(_, point)| point).collect(),
+            points: crossings.into_iter().map(|crossing| crossing.point).collect(),
         })
     }
 
-    /// Where a segment crosses the sides of some triangles, by share of its length.
-    fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<(f64, MaterialPoint)> {
-        let mut crossings: Vec<(f64, MaterialPoint)> = Vec::new();
+    /// Intersections of a segment with the sides of some triangles, in their order along it.
+    fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<Crossing> {
+        let mut crossings: Vec<Crossing> = Vec::new();
         for &triangle in &self.garment.triangles[triangles] {
             for k in 0..3 {
                 let side = (self.garment.rest[triangle[k]], self.garment.rest[triangle[(k + 1) % 3]]);
@@ -106,24 +113,24 @@ impl<'a> Layer<'a> {
                     let mut weights = [0.0; 3];
                     weights[k] = 1.0 - along;
                     weights[(k + 1) % 3] = along;
-                    crossings.push((share, MaterialPoint { vertices: triangle, weights }));
+                    crossings.push(Crossing { share, point: MaterialPoint { vertices: triangle, weights } });
                 }
             }
         }
-        crossings.sort_by(|p, q| p.0.total_cmp(&q.0));
-        crossings.dedup_by(|later, earlier| later.0 - earlier.0 < SAME_SHARE);
+        crossings.sort_by(|p, q| p.share.total_cmp(&q.share));
+        crossings.dedup_by(|later, earlier| later.share - earlier.share < SAME_SHARE);
         crossings
     }
 
-    /// Straight across a piece, from mesh edge to mesh edge.
+    /// Line straight across a piece, from mesh edge to mesh edge.
     fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
         let piece = &self.garment.pieces[ends[0].edge.piece];
         let [from, to] = ends.map(|end| self.style.place(end));
         let length = (to - from).norm();
-        // A little longer than it is, so that its own end points are found in spite of rounding.
+        // The segment is extended a little, so that its own end points are found in spite of rounding.
         let reach = (to - from) * (0.5 * SAME_SHARE);
         let crossings = self.crossings(piece.triangles.clone(), (from - reach, to + reach));
-        let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
+        let places: Vec<V2> = crossings.iter().map(|crossing| crossing.point.at_rest(&self.garment.rest)).collect();
         let is_whole = places.first().is_some_and(|p| (p - from).norm() < 10.0 * SAME_SHARE * length)
             && places.last().is_some_and(|p| (p - to).norm() < 10.0 * SAME_SHARE * length)
             && places.windows(2).all(|ends| self.is_on_cloth(piece.triangles.clone(), &ends[0].lerp(&ends[1], 0.5)));
@@ -138,7 +145,7 @@ impl<'a> Layer<'a> {
         }
         Ok(MaterialLine {
             arc_m: places.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect(),
-            points: crossings.into_iter().map(|(_, point)| point).collect(),
+            points: crossings.into_iter().map(|crossing| crossing.point).collect(),
         })
     }
 

@@ -1,13 +1,13 @@
-//! Where the vertices of the outlines lie: seam partners get as many, at the same shares of their lengths.
+//! Sampling of the outlines: both sides of a seam get equally many vertices, at equal shares of their lengths.
 //!
-//! An edge must have a vertex at each of its corners and wherever a straight measurement ends (its *marks*). The marks
-//! of one side of a seam are carried over to the other, and each stretch between marks is divided evenly [T 5.1].
+//! An edge must have a vertex at each of its corners and at each end of a straight measurement (its *marks*). The marks
+//! of one side of a seam are transferred to the other. Each interval between marks is divided evenly [T 5.1].
 
-use crate::style::{EdgeRef, PathPart, Seam, Style};
+use crate::style::{EdgePoint, EdgeRef, PathPart, Seam, Style};
 
-/// Two marks from different sides of a seam closer than this share of the edge length become one vertex pair.
+/// Distance, as a share of the edge length, below which marks of different sides of a seam become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
-/// Arc lengths closer than this are one, m.
+/// Difference below which arc lengths are equal, m.
 const SAME_M: f64 = 1e-9;
 
 /// Vertices along one edge.
@@ -20,13 +20,22 @@ pub struct EdgeSamples {
 /// Vertices along all edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// By piece and edge.
+    /// Vertices by piece and edge.
     pub edges: Vec<Vec<EdgeSamples>>,
-    /// By seam: pairs of (edge, index of the sample), in order along the seam.
-    pub seams: Vec<Vec<[(EdgeRef, usize); 2]>>,
+    /// Vertex pairs by seam, in order along the seam.
+    pub seams: Vec<Vec<[EdgeSample; 2]>>,
 }
 
-/// Divides all edges of a style into lengths of about `h` metres.
+/// One vertex along an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EdgeSample {
+    /// Edge that it lies on.
+    pub edge: EdgeRef,
+    /// Index into [`EdgeSamples::arcs`].
+    pub index: usize,
+}
+
+/// Divides all edges of a style into segments of about `h` metres.
 pub fn sample(style: &Style, h: f64) -> Samples {
     let marks = marks(style);
     let mut edges: Vec<Vec<EdgeSamples>> =
@@ -34,8 +43,8 @@ pub fn sample(style: &Style, h: f64) -> Samples {
     let mut placed_seams = Vec::new();
     for seam in &style.seams {
         let pairs = seam_pairs(style, seam, &marks, h);
-        for &(edge, arc) in pairs.iter().flatten() {
-            edges[edge.piece][edge.edge].arcs.push(arc);
+        for &EdgePoint { edge, arc_m } in pairs.iter().flatten() {
+            edges[edge.piece][edge.edge].arcs.push(arc_m);
         }
         placed_seams.push(pairs);
     }
@@ -48,11 +57,12 @@ pub fn sample(style: &Style, h: f64) -> Samples {
             samples.arcs.dedup_by(|later, earlier| *later - *earlier < SAME_M);
         }
     }
-    let index = |(edge, arc): (EdgeRef, f64)| {
+    let sample_at = |EdgePoint { edge, arc_m }: EdgePoint| {
         let arcs = &edges[edge.piece][edge.edge].arcs;
-        (edge, arcs.partition_point(|&a| a < arc - SAME_M))
+        EdgeSample { edge, index: arcs.partition_point(|&arc| arc < arc_m - SAME_M) }
     };
-    let seams = placed_seams.into_iter().map(|pairs| pairs.into_iter().map(|pair| pair.map(index)).collect()).collect();
+    let seams =
+        placed_seams.into_iter().map(|pairs| pairs.into_iter().map(|pair| pair.map(sample_at)).collect()).collect();
     Samples { edges, seams }
 }
 
@@ -84,7 +94,7 @@ fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     marks
 }
 
-/// Even division of the stretches between marks.
+/// Even division of the intervals between marks.
 fn divide(marks: &[f64], h: f64) -> Vec<f64> {
     let mut arcs = vec![marks[0]];
     for ends in marks.windows(2) {
@@ -98,7 +108,7 @@ fn parts(length: f64, h: f64) -> usize {
     ((length / h).round() as usize).max(1)
 }
 
-/// One side of a seam as one line: edges laid end to end in walking order.
+/// One side of a seam as one line: its edges end to end in walking order.
 struct Side<'a> {
     style: &'a Style,
     chain: &'a [EdgeRef],
@@ -135,41 +145,42 @@ impl<'a> Side<'a> {
         all
     }
 
-    /// The edge that holds the stretch about `middle`, and the arc length on it of each distance along the side.
-    fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<(EdgeRef, f64)> {
+    /// Points at some distances along the side, on the edge that holds the distance `middle`.
+    fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<EdgePoint> {
         let k = self.joints.partition_point(|&joint| joint <= middle).clamp(1, self.chain.len()) - 1;
         let edge = self.chain[k];
         let length = self.style.edge(edge).line.length();
-        let arc = |distance: f64| {
+        let arc_at = |distance: f64| {
             let along = (distance - self.joints[k]).clamp(0.0, length);
             if self.is_forwards { along } else { length - along }
         };
-        distances.iter().map(|&distance| (edge, arc(distance))).collect()
+        distances.iter().map(|&distance| EdgePoint { edge, arc_m: arc_at(distance) }).collect()
     }
 }
 
-/// A place where both sides of a seam have a vertex: distances along them, and whose mark it is.
+/// A position at which both sides of a seam have a vertex: the distances along them, and whether it is a mark of
+/// either.
 #[derive(Clone, Copy)]
 struct Mark {
     on: [f64; 2],
     is_of: [bool; 2],
 }
 
-/// Vertex pairs of a seam as (edge, arc length).
-fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Vec<[(EdgeRef, f64); 2]> {
+/// Vertex pairs of a seam.
+fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Vec<[EdgePoint; 2]> {
     let sides = [Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards)];
-    let mut pairs: Vec<[(EdgeRef, f64); 2]> = Vec::new();
+    let mut pairs: Vec<[EdgePoint; 2]> = Vec::new();
     let common = common_marks(&sides, marks, h);
     for ends in common.windows(2) {
         let stretch = |side: usize| ends[1].on[side] - ends[0].on[side];
         let parts = parts(stretch(0).max(stretch(1)), h);
         let placed = [0, 1].map(|side| {
-            let at = |share: f64| ends[0].on[side] + stretch(side) * share;
-            let distances: Vec<f64> = (0..=parts).map(|k| at(k as f64 / parts as f64)).collect();
-            sides[side].on_edge(at(0.5), &distances)
+            let distance_at = |share: f64| ends[0].on[side] + stretch(side) * share;
+            let distances: Vec<f64> = (0..=parts).map(|k| distance_at(k as f64 / parts as f64)).collect();
+            sides[side].on_edge(distance_at(0.5), &distances)
         });
         for (&a, &b) in placed[0].iter().zip(&placed[1]) {
-            // The end of one stretch is the start of the next, unless an edge ends there too.
+            // The end of one interval is the start of the next, unless an edge ends there too.
             if pairs.last().is_none_or(|&[last_a, last_b]| !(is_same(last_a, a) && is_same(last_b, b))) {
                 pairs.push([a, b]);
             }
@@ -178,11 +189,11 @@ fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Ve
     pairs
 }
 
-fn is_same(p: (EdgeRef, f64), q: (EdgeRef, f64)) -> bool {
-    p.0 == q.0 && (p.1 - q.1).abs() < SAME_M
+fn is_same(p: EdgePoint, q: EdgePoint) -> bool {
+    p.edge == q.edge && (p.arc_m - q.arc_m).abs() < SAME_M
 }
 
-/// Marks of both sides, in order; marks of different sides that nearly meet become one.
+/// Marks of both sides, in order. Marks of different sides that nearly coincide are merged.
 fn common_marks(sides: &[Side<'_>; 2], marks: &[Vec<Vec<f64>>], h: f64) -> Vec<Mark> {
     let ratio = sides[1].length() / sides[0].length();
     let of_a = sides[0].marks(marks).into_iter().map(|s| Mark { on: [s, s * ratio], is_of: [true, false] });

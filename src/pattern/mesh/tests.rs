@@ -140,8 +140,8 @@ fn meshing_is_deterministic() {
     assert_eq!(style(TshirtSize::M).mesh(0.02), style(TshirtSize::M).mesh(0.02));
 }
 
-/// Whether the outline itself forces a bad triangle: a sharp corner, a side much shorter than the edge length, or a strip
-/// too narrow for a vertex inside.
+/// True if the outline itself forces a bad triangle: a sharp corner, a side much shorter than the edge length, or a
+/// strip too narrow for a vertex inside.
 fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
     let h = garment.edge_length_m;
     let sides_of = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
@@ -154,18 +154,18 @@ fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
     let is_on = |vertex: usize| boundary.iter().any(|side| side.contains(&vertex));
     let has_short = |vertex: usize| boundary.iter().any(|side| side.contains(&vertex) && length(side) < 0.5 * h);
     let inner_angle = |vertex: usize| {
-        let of = |t: &[usize; 3]| {
+        let angle_of = |t: &[usize; 3]| {
             let k = t.iter().position(|&v| v == vertex)?;
             let [p, q, r] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]].map(|v| garment.rest[v]);
             Some((q - p).angle(&(r - p)).to_degrees())
         };
-        garment.triangles.iter().filter_map(of).sum::<f64>()
+        garment.triangles.iter().filter_map(angle_of).sum::<f64>()
     };
     triangle.iter().all(|&vertex| is_on(vertex))
         || triangle.iter().any(|&vertex| has_short(vertex) || (is_on(vertex) && inner_angle(vertex) < 45.0))
 }
 
-/// Pieces drawn by other programs, with an arbitrary edge named: all mesh, and well wherever the outline allows.
+/// Pieces drawn by other programs, with an arbitrary edge named. All are meshed, and well if the outline allows it.
 #[test]
 fn pieces_of_other_programs_mesh() {
     let mut angles = Vec::new();

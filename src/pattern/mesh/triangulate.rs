@@ -1,8 +1,9 @@
-//! Filling an outline with near-equilateral triangles.
+//! Triangulation of an outline into near-equilateral triangles.
 //!
-//! A hexagonal grid of points inside the outline and the vertices on it go into a constrained Delaunay triangulation
-//! (spade). Then the inner points move to the area-weighted mean of the centroids about them and are triangulated
-//! again, a few times over. No vertex is ever added on the outline: seam partners stay matched.
+//! The points of a hexagonal grid inside the outline, and the vertices on it, are triangulated by constrained Delaunay
+//! triangulation (spade). Then the inner points move to the area-weighted mean of the centroids of their triangles, and
+//! all are triangulated again. This is repeated a few times. No vertex is ever added on the outline, so that seam
+//! partners stay matched.
 
 use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
@@ -11,7 +12,7 @@ use geom::V2;
 use geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
 use geom::triangle::sorted;
 
-/// Rounds of moving the inner points.
+/// Number of smoothing rounds.
 const SMOOTHING_ROUNDS: usize = 12;
 /// Least distance of the grid points from the outline, in edge lengths.
 const SEED_CLEARANCE: f64 = 0.62;
@@ -20,19 +21,19 @@ const MOVED_CLEARANCE: f64 = 0.4;
 /// Relative difference allowed between the areas of triangles and outline.
 const AREA_TOLERANCE: f64 = 1e-9;
 
-/// Points (outline first, in its order) and counter-clockwise triangles.
+/// A triangulated polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangulation {
-    /// Points, m: the outline first, in its order.
+    /// Points, m: those of the outline first, in its order.
     pub points: Vec<V2>,
-    /// Points of each triangle, by their index.
+    /// Triangles as indices of points, counter-clockwise.
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Fills a counter-clockwise polygon with triangles of edge length about `h`.
+/// Triangulates a counter-clockwise polygon with edges of length about `h`.
 ///
 /// # Errors
-/// A sentence that says what is wrong with the polygon.
+/// A sentence for messages on the fault of the polygon.
 pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if let Some(place) = self_crossing(outline) {
         return Err(format!("its sampled outline crosses itself at ({:.1}, {:.1}) mm", place.x * 1e3, place.y * 1e3));
@@ -50,7 +51,8 @@ pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if (covered - area).abs() > AREA_TOLERANCE * area {
         return Err(format!("its triangles cover {covered:.6} m2 of {area:.6} m2"));
     }
-    // In the order of their last vertices, which follow each other row by row: whatever goes by triangles then reads on through memory.
+    // Triangles are sorted by their greatest vertex, because vertices follow each other row by row. Loops over
+    // triangles then read memory in order.
     triangles.sort_unstable_by_key(|triangle| {
         let [first, second, last] = sorted(*triangle);
         [last, second, first]
@@ -58,12 +60,12 @@ pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     Ok(Triangulation { points, triangles })
 }
 
-/// Points of a hexagonal grid that lie well inside a polygon; rows run along `u` from its lowest point.
+/// Points of a hexagonal grid that lie well inside a polygon. Rows run along `u`, from its lowest point.
 fn hexagonal_seed(outline: &[V2], h: f64) -> Vec<V2> {
     let first = outline[0];
     let (low, high) = outline.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let row_height = h * 0.75_f64.sqrt();
-    // Symmetric about the middle, so that a symmetric piece gets a symmetric mesh.
+    // The grid is symmetric about the middle, so that a symmetric piece gets a symmetric grid.
     let middle = 0.5 * (low.x + high.x);
     let half_count = ((high.x - middle) / h).ceil() as i64 + 1;
     let rows = ((high.y - low.y) / row_height).ceil() as i64;
@@ -80,7 +82,7 @@ fn hexagonal_seed(outline: &[V2], h: f64) -> Vec<V2> {
     seeds
 }
 
-/// Inner points moved to the area-weighted mean of the centroids of their triangles.
+/// Moves inner points to the area-weighted mean of the centroids of their triangles.
 fn smoothed(points: &[V2], triangles: &[[usize; 3]], outline: &[V2], h: f64) -> Vec<V2> {
     let mut sums = vec![(V2::zeros(), 0.0); points.len()];
     for &triangle in triangles {
@@ -103,7 +105,7 @@ fn smoothed(points: &[V2], triangles: &[[usize; 3]], outline: &[V2], h: f64) -> 
     points.iter().enumerate().map(moved).collect()
 }
 
-/// Constrained Delaunay triangles within the first `outline_len` points, taken as a closed polygon.
+/// Constrained Delaunay triangles inside the closed polygon of the first `outline_len` points.
 fn delaunay(points: &[V2], outline_len: usize) -> Result<Vec<[usize; 3]>, String> {
     let vertices: Vec<Point2<f64>> = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let sides: Vec<[usize; 2]> = (0..outline_len).map(|i| [i, (i + 1) % outline_len]).collect();
@@ -114,7 +116,7 @@ fn delaunay(points: &[V2], outline_len: usize) -> Result<Vec<[usize; 3]>, String
     if conflicts > 0 || cdt.num_vertices() != points.len() {
         return Err("two of its sampled sides cross or two vertices coincide".to_owned());
     }
-    // Flood the faces from the left of each side without crossing a side: what it reaches is inside.
+    // Flood fill of the faces from the left of each side, without crossing a side, finds those inside.
     let handles: Vec<_> = cdt.fixed_vertices().collect();
     let mut is_inside = vec![false; cdt.num_all_faces()];
     let mut front: Vec<FixedFaceHandle<spade::handles::PossiblyOuterTag>> = Vec::new();

@@ -1,4 +1,4 @@
-//! What the seams and openings of a style are, by the roles of its pieces.
+//! Identification of the seams and openings of a style, by the roles of its pieces.
 
 use super::ways::{Heading, Ways};
 use super::{Point, PointOfMeasure};
@@ -11,7 +11,7 @@ use geom::V2;
 /// Distance below the armhole at which chest and bicep are measured, m.
 pub const BELOW_ARMHOLE_M: f64 = 0.025;
 
-/// Distance from a corner at which it is asked what is sewn on there, m: the pieces there may end at the corner.
+/// Distance from a corner, m, at which the adjoining piece is looked up. The pieces there may end at the corner itself.
 pub const BESIDE_M: f64 = 1e-3;
 
 /// Part of a garment that a piece belongs to.
@@ -25,7 +25,7 @@ pub enum Part {
     Leg(Hand, Option<Face>),
     /// Front or back of a skirt.
     Skirt(Face),
-    /// Anything else, waistbands too.
+    /// Anything else, including waistbands.
     Other,
 }
 
@@ -49,19 +49,19 @@ impl Part {
     }
 }
 
-/// Edges walked one after the other; `true` of one that is walked from its start to its end.
-pub type Chain = Vec<(EdgeRef, bool)>;
+/// A chain of edges, each given by the end that it is walked to.
+pub type Chain = Vec<EdgeEnd>;
 
-/// A style with what its pieces are.
+/// A style with the parts that its pieces belong to.
 pub struct Anatomy<'a> {
-    /// Ways across its cloth.
+    /// Straight paths across its cloth.
     pub ways: Ways<'a>,
     /// Part of each piece.
     pub parts: Vec<Part>,
 }
 
 impl<'a> Anatomy<'a> {
-    /// Of a style, whose pieces stand upright.
+    /// Identifies the parts of a style whose pieces are upright.
     pub fn of(style: &'a Style) -> Self {
         let parts: Vec<Part> = style.pieces.iter().map(|piece| Part::of(piece.role)).collect();
         let down = parts.iter().map(|part| (*part != Part::Other).then(|| -V2::y())).collect();
@@ -71,12 +71,13 @@ impl<'a> Anatomy<'a> {
         anatomy
     }
 
-    /// The style whose parts these are.
+    /// Style whose parts these are.
     pub fn style(&self) -> &'a Style {
         self.ways.style
     }
 
-    /// Away from the neck in a piece: downwards, and in a sleeve, which may be drawn along the arm, away from the trunk.
+    /// Unit vector away from the neck in a piece. It points downwards; in a sleeve, which may be drawn along the arm,
+    /// away from the trunk.
     fn down(&self, piece: usize) -> Option<V2> {
         match self.parts[piece] {
             Part::Other => None,
@@ -96,7 +97,7 @@ impl<'a> Anatomy<'a> {
         }
     }
 
-    /// Mean of the middles of some edges' chords; `None` of no edges.
+    /// Mean of the midpoints of the chords of some edges. `None` without edges.
     fn middle(&self, edges: &[EdgeRef]) -> Option<V2> {
         let middles = edges.iter().map(|edge| {
             let points = self.style().edge(*edge).line.points();
@@ -105,69 +106,69 @@ impl<'a> Anatomy<'a> {
         (!edges.is_empty()).then(|| middles.sum::<V2>() / edges.len() as f64)
     }
 
-    /// Place of an end of an edge.
-    pub fn place(&self, (edge, is_last): EdgeEnd) -> V2 {
+    /// Position of an end of an edge.
+    pub fn place(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> V2 {
         let points = self.style().edge(edge).line.points();
         if is_last { points[points.len() - 1] } else { points[0] }
     }
 
-    /// An end of an edge as a point of it.
-    pub fn point(&self, (edge, is_last): EdgeEnd) -> EdgePoint {
+    /// End of an edge as an edge point.
+    pub fn point(&self, EdgeEnd { edge, is_last }: EdgeEnd) -> EdgePoint {
         EdgePoint { edge, arc_m: if is_last { self.length_m(&[edge]) } else { 0.0 } }
     }
 
-    /// Length of some edges, m.
+    /// Total length of some edges, m.
     pub fn length_m(&self, edges: &[EdgeRef]) -> f64 {
         edges.iter().map(|edge| self.style().edge(*edge).line.length()).sum()
     }
 
-    /// A seam whose sides lie in two kinds of pieces: the side of the first kind and that of the second, as they are sewn.
-    pub fn between(&self, seam: usize, one: impl Fn(Part) -> bool, other: impl Fn(Part) -> bool) -> Option<[Chain; 2]> {
+    /// Both sides of a seam between two kinds of pieces, the side of the first kind first, in the direction of sewing.
+    /// `None` for any other seam.
+    pub fn between(
+        &self,
+        seam: usize,
+        is_first: impl Fn(Part) -> bool,
+        is_second: impl Fn(Part) -> bool,
+    ) -> Option<[Chain; 2]> {
         let seam = &self.style().seams[seam];
-        let a: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
-        let b: Chain = seam.b.iter().map(|edge| (*edge, seam.b_forwards)).collect();
-        let all = |chain: &Chain, is: &dyn Fn(Part) -> bool| chain.iter().all(|(edge, _)| is(self.parts[edge.piece]));
-        if all(&a, &one) && all(&b, &other) {
+        let a: Chain = seam.a.iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
+        let b: Chain = seam.b.iter().map(|edge| EdgeEnd::new(*edge, seam.b_forwards)).collect();
+        let all = |chain: &Chain, is: &dyn Fn(Part) -> bool| chain.iter().all(|step| is(self.parts[step.edge.piece]));
+        if all(&a, &is_first) && all(&b, &is_second) {
             Some([a, b])
         } else {
-            (all(&b, &one) && all(&a, &other)).then_some([b, a])
+            (all(&b, &is_first) && all(&a, &is_second)).then_some([b, a])
         }
     }
 
-    /// Whether the edges of a chain run rather up and down than across.
+    /// True if the chords of a chain run more vertically than horizontally.
     pub fn is_upright(&self, chain: &Chain) -> bool {
-        let chord = |(edge, is_forwards): &(EdgeRef, bool)| {
-            self.place((*edge, *is_forwards)) - self.place((*edge, !is_forwards))
-        };
+        let chord = |step: &EdgeEnd| self.place(*step) - self.place(step.other());
         let way: V2 = chain.iter().map(chord).sum();
         way.y.abs() > way.x.abs()
     }
 
-    /// Both sides of a seam turned so that the first one runs downwards.
+    /// Both sides of a seam, directed so that the first one runs downwards.
     pub fn turned_down(&self, sides: [Chain; 2]) -> [Chain; 2] {
         let runs_down = match (sides[0].first(), sides[0].last()) {
-            (Some((first, ahead)), Some((last, on))) => self.place((*first, !ahead)).y >= self.place((*last, *on)).y,
+            (Some(first), Some(last)) => self.place(first.other()).y >= self.place(*last).y,
             _ => true,
         };
-        if runs_down {
-            sides
-        } else {
-            sides.map(|chain| chain.into_iter().rev().map(|(edge, on)| (edge, !on)).collect())
-        }
+        if runs_down { sides } else { sides.map(|chain| chain.into_iter().rev().map(|step| step.other()).collect()) }
     }
 
-    /// Both sides of a seam that runs down, with those of `others` that it goes on as below darts.
+    /// Both sides of a seam that runs downwards, joined with those of `others` that continue it below darts.
     pub fn over_darts(&self, sides: &[Chain; 2], others: &[[Chain; 2]]) -> [Chain; 2] {
         let [mut front, mut back] = sides.clone();
         while let Some(&last) = front.last() {
             let mut next = self.style().over_corner(last);
             let is_dart = |edge: EdgeRef| self.ways.partners(edge).iter().any(|other| other.piece == edge.piece);
-            while is_dart(next.0) && next.0 != last.0 {
-                next = self.style().over_corner((next.0, !next.1));
+            while is_dart(next.edge) && next.edge != last.edge {
+                next = self.style().over_corner(next.other());
             }
-            let goes_on = |other: &&[Chain; 2]| other[0].first().is_some_and(|first| *first == (next.0, !next.1));
+            let goes_on = |other: &&[Chain; 2]| other[0].first().is_some_and(|first| *first == next.other());
             let Some([below, behind]) =
-                others.iter().find(goes_on).filter(|_| !front.iter().any(|(edge, _)| *edge == next.0))
+                others.iter().find(goes_on).filter(|_| !front.iter().any(|step| step.edge == next.edge))
             else {
                 break;
             };
@@ -177,10 +178,10 @@ impl<'a> Anatomy<'a> {
         [front, back]
     }
 
-    /// The point of a chain at a distance from its beginning, m; `None` beyond its end.
+    /// Point of a chain at a distance from its beginning, m. `None` beyond its end.
     pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
         let mut rest_m = distance_m;
-        for &(edge, is_forwards) in chain {
+        for &EdgeEnd { edge, is_last: is_forwards } in chain {
             let length_m = self.length_m(&[edge]);
             if rest_m <= length_m {
                 return Some(EdgePoint { edge, arc_m: if is_forwards { rest_m } else { length_m - rest_m } });
@@ -190,14 +191,15 @@ impl<'a> Anatomy<'a> {
         None
     }
 
-    /// The opening, of several, that the outline of a piece goes on along at the end of an edge.
+    /// Index of the opening along which the outline of a piece continues at the end of an edge.
     pub fn opening_at(&self, openings: &[Vec<EdgeRef>], end: EdgeEnd) -> Option<usize> {
-        let next = self.style().over_corner(end).0;
+        let next = self.style().over_corner(end).edge;
         openings.iter().position(|opening| opening.contains(&next))
     }
 
-    /// Where an opening of some pieces ends when all is sewn on: itself where nothing is sewn to it, else the one free edge of
-    /// what is sewn on there (a cuff, a waistband, a skirt). `None` where there is not just one.
+    /// Free edges that an opening of some pieces has once everything is sewn on. They are the opening itself if nothing
+    /// is sewn to it, otherwise the single opening of the attached pieces (a cuff, a waistband, a skirt). `None` if
+    /// those have not exactly one.
     pub fn beyond(&self, opening: &[EdgeRef], is_there: impl Fn(usize) -> bool) -> Option<Vec<EdgeRef>> {
         if opening.iter().all(|edge| self.ways.is_free(*edge)) {
             return Some(opening.to_vec());
@@ -219,15 +221,15 @@ impl<'a> Anatomy<'a> {
         ends.next().is_none().then_some(end)
     }
 
-    /// Where a line first meets some edges of a piece, in their order: `value` of a place is 0 on the line.
+    /// First intersection of a line with some edges of a piece, in their order. `value` is zero on the line.
     pub fn meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
         self.meetings(edges, value).into_iter().next()
     }
 
-    /// The lowest place where a line meets some edges of a piece.
+    /// Lowest intersection of a line with some edges of a piece.
     pub fn lowest_meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
         let height = |at: &EdgePoint| self.style().place(*at).y;
-        self.meetings(edges, value).into_iter().min_by(|one, other| height(one).total_cmp(&height(other)))
+        self.meetings(edges, value).into_iter().min_by(|point, other| height(point).total_cmp(&height(other)))
     }
 
     fn meetings(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Vec<EdgePoint> {
@@ -244,18 +246,18 @@ impl<'a> Anatomy<'a> {
         found
     }
 
-    /// A point of measure along a path.
+    /// Point of measure along a path.
     pub fn along_path(&self, point: Point, path: Vec<PathPart>, share: f64) -> PointOfMeasure {
         PointOfMeasure { point, length_m: share * self.style().path_length_m(&path), path, share }
     }
 
-    /// A point of measure along whole edges.
+    /// Point of measure along whole edges.
     pub fn along_edges(&self, point: Point, edges: &[EdgeRef], share: f64) -> PointOfMeasure {
         self.along_path(point, edges.iter().copied().map(PathPart::Edge).collect(), share)
     }
 
-    /// The way down the centre of halves of a front or a back, from the end of an edge that runs across the top. It
-    /// goes along the outline while that runs upright, and on over what is sewn to its lower end, halves again or one
+    /// Path down the centre of half a front or back, from the end of an edge that runs across the top. It follows the
+    /// outline while that runs vertically. It continues over the pieces sewn to its lower end, halves again or one
     /// piece from side to side.
     pub fn down_centre(&self, end: EdgeEnd) -> Vec<PathPart> {
         let mut path = Vec::new();
@@ -263,17 +265,18 @@ impl<'a> Anatomy<'a> {
         loop {
             let before = path.len();
             let mut next = self.style().over_corner(at);
-            while self.is_centre(next.0) && !path.contains(&PathPart::Edge(next.0)) {
-                path.push(PathPart::Edge(next.0));
-                at = (next.0, !next.1);
+            while self.is_centre(next.edge) && !path.contains(&PathPart::Edge(next.edge)) {
+                path.push(PathPart::Edge(next.edge));
+                at = next.other();
                 next = self.style().over_corner(at);
             }
-            let length_m = self.length_m(&[next.0]);
-            let beside = EdgePoint { edge: next.0, arc_m: if next.1 { length_m - BESIDE_M } else { BESIDE_M } };
+            let length_m = self.length_m(&[next.edge]);
+            let beside =
+                EdgePoint { edge: next.edge, arc_m: if next.is_last { length_m - BESIDE_M } else { BESIDE_M } };
             let Some(below) = self.ways.across(beside).filter(|_| path.len() > before) else { return path };
-            let ends = [false, true].map(|is_last| (below.edge, is_last));
+            let ends = [false, true].map(|is_last| EdgeEnd::new(below.edge, is_last));
             let corner = ends.into_iter().find(|end| (self.point(*end).arc_m - below.arc_m).abs() < 2.0 * BESIDE_M);
-            match corner.filter(|corner| self.is_centre(self.style().over_corner(*corner).0)) {
+            match corner.filter(|corner| self.is_centre(self.style().over_corner(*corner).edge)) {
                 Some(corner) => at = corner,
                 None => {
                     let way = self.ways.walk(below, Heading::Down, |_| false);
@@ -284,13 +287,13 @@ impl<'a> Anatomy<'a> {
         }
     }
 
-    /// Whether an edge may be the centre of half a piece: it runs upright, and is free or sewn to the other half.
+    /// True if an edge may be the centre of half a piece: it runs vertically, and is free or sewn to the other half.
     fn is_centre(&self, edge: EdgeRef) -> bool {
         let is_half = |other: &EdgeRef| other.piece != edge.piece && self.parts[other.piece] == self.parts[edge.piece];
-        self.is_upright(&vec![(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
+        self.is_upright(&vec![EdgeEnd::new(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
     }
 
-    /// Whether skirt or legs hang from some edges, with a waistband between or not.
+    /// True if a skirt or legs hang from some edges, with or without a waistband between.
     pub fn has_below(&self, edges: &[EdgeRef]) -> bool {
         let is_below = |piece: usize| matches!(self.parts[piece], Part::Skirt(_) | Part::Leg(..));
         let partners = |edge: EdgeRef| self.ways.partners(edge).iter().map(|other| other.piece);
@@ -302,7 +305,12 @@ impl<'a> Anatomy<'a> {
     }
 }
 
-/// A distance across no cloth.
+/// Path along the whole edges of a chain.
+pub fn path_along(chain: &Chain) -> Vec<PathPart> {
+    chain.iter().map(|step| PathPart::Edge(step.edge)).collect()
+}
+
+/// Point of measure that is a distance across no cloth.
 pub fn distance(point: Point, length_m: f64) -> PointOfMeasure {
     PointOfMeasure { point, length_m, path: Vec::new(), share: 1.0 }
 }

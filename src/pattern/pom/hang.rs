@@ -1,30 +1,31 @@
-//! The lines of a garment that hang level or plumb where it is in balance.
+//! Lines of a garment that hang level or plumb if it is in balance.
 
-use super::anatomy::{Anatomy, Chain};
+use super::anatomy::{Anatomy, path_along};
 use super::legs::Legs;
 use super::{Garb, Point, skirt};
 use crate::propose::Hand;
 use crate::style::{PathPart, Style};
 
-/// Lines on the pieces by which balance is told; empty where a garment has none.
+/// Lines on the pieces by which balance is judged. Those that a garment lacks are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HangLines {
-    /// The lower edge; of trousers that of one leg.
+    /// Lower edge; of trousers that of one leg.
     pub hem: Vec<PathPart>,
-    /// The upper edge of trousers and skirts.
+    /// Upper edge of trousers and skirts.
     pub waist: Vec<PathPart>,
-    /// Side seams and outseams of both sides, each from above.
+    /// Side seams and outseams of both sides, each from its top.
     pub side_seams: Vec<Vec<PathPart>>,
 }
 
 impl Style {
-    /// The lines by which the balance of the style is told.
+    /// Lines by which the balance of the style is judged.
     #[must_use]
     pub fn hang_lines(&self) -> HangLines {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);
         let points = garb.points();
-        let path = |point: Point| points.iter().find(|one| one.point == point).map(|one| one.path.clone());
+        let path =
+            |point: Point| points.iter().find(|measure| measure.point == point).map(|measure| measure.path.clone());
         let hem = path(Point::HalfHem).or_else(|| path(Point::HalfLegOpening));
         let waist = path(Point::HalfWaist).filter(|_| garb.trunk.is_none());
         let of_trunk = garb.trunk.iter().flat_map(|trunk| trunk.side_seams());
@@ -32,13 +33,8 @@ impl Style {
         let side_seams = of_trunk
             .chain(skirt::side_seams(&anatomy).into_iter().map(|[front, _]| front))
             .chain(of_legs)
-            .map(|chain| along(&chain))
+            .map(|chain| path_along(&chain))
             .collect();
         HangLines { hem: hem.unwrap_or_default(), waist: waist.unwrap_or_default(), side_seams }
     }
-}
-
-/// The whole edges of a chain.
-pub fn along(chain: &Chain) -> Vec<PathPart> {
-    chain.iter().map(|(edge, _)| PathPart::Edge(*edge)).collect()
 }

@@ -1,13 +1,11 @@
 //! Points of measure of legs.
 
-use super::anatomy::{Anatomy, BESIDE_M, Chain, Part};
-use super::hang::along;
-use super::ways::Heading;
+use super::anatomy::{Anatomy, BESIDE_M, Chain, Part, path_along};
+use super::ways::{Heading, PiecePoint};
 use super::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
-use geom::V2;
 
 /// Distance below the fork at which the thigh is measured, m.
 const THIGH_BELOW_FORK_M: f64 = 0.025;
@@ -15,15 +13,23 @@ const THIGH_BELOW_FORK_M: f64 = 0.025;
 const HIP_ABOVE_FORK_M: f64 = 0.080;
 /// Distance of the knee above the middle of the inseam, m.
 const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
-/// Inseam from which on a leg has a knee, m.
+/// Inseam from which a leg has a knee, m.
 const LONG_M: f64 = 0.500;
 
-/// The run of a leg's outline from the waist down to the hem.
+/// One side of the outline of a leg piece, from the waist down to the hem.
 pub struct Run {
-    /// What is sewn to the other leg, or stays open at a fly, from the waist to the fork.
+    /// Seat seam, from the waist to the fork: sewn to the other leg, or open at a fly.
     pub crotch: Chain,
-    /// The rest of it.
+    /// Inseam, from the fork to the hem.
     pub seam: Chain,
+}
+
+/// Path down the front of a leg.
+pub struct LegFront {
+    /// Straight parts of the path.
+    pub path: Vec<PathPart>,
+    /// Height of its beginning above the fork, m.
+    pub above_fork_m: f64,
 }
 
 /// One of two legs that are sewn to each other.
@@ -32,36 +38,37 @@ pub struct Legs<'a> {
     /// Upper edges of both legs.
     pub waist: Vec<EdgeRef>,
     hem: Vec<EdgeRef>,
-    /// Inner runs, front before back.
+    /// Inner sides, of the front and the back.
     pub inner: [Run; 2],
-    /// Outer runs, front before back; none of a leg in one piece.
+    /// Outer sides, of the front and the back. `None` for a leg in one piece.
     pub outer: Option<[Chain; 2]>,
 }
 
 impl<'a> Legs<'a> {
-    /// The right leg of a style, or the left one where it has no other; `None` where the fork is not found.
+    /// Right leg of a style, or the left one if it has no other. `None` if the fork is not found.
     pub fn of_either(anatomy: &'a Anatomy<'a>) -> Option<Self> {
-        let is_there = |hand: &Hand| anatomy.parts.iter().any(|part| matches!(part, Part::Leg(of, _) if of == hand));
+        let is_there =
+            |hand: &Hand| anatomy.parts.iter().any(|part| matches!(part, Part::Leg(side, _) if side == hand));
         Hand::BOTH.into_iter().find(is_there).and_then(|hand| Self::of(anatomy, hand))
     }
 
-    /// The leg of a hand; `None` where the fork is not found.
+    /// Leg of a side. `None` if the fork is not found.
     pub fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
         let openings = anatomy.style().openings(&is_leg);
         let waist = openings.iter().find(|opening| is_upper(anatomy, opening))?.clone();
         let own = |opening: &&Vec<EdgeRef>| {
             !is_upper(anatomy, opening)
-                && opening.iter().all(|edge| matches!(anatomy.parts[edge.piece], Part::Leg(of, _) if of == hand))
+                && opening.iter().all(|edge| matches!(anatomy.parts[edge.piece], Part::Leg(side, _) if side == hand))
         };
         let hem = openings.iter().find(own)?.clone();
         let pieces = |face: Option<Face>| (0..anatomy.parts.len()).find(|p| anatomy.parts[*p] == Part::Leg(hand, face));
         let runs = |piece: usize| runs(anatomy, piece, &waist, &hem);
         let (inner, outer) = if let Some(whole) = pieces(None) {
-            let [one, other] = runs(whole)?;
+            let [first, second] = runs(whole)?;
             // Seen from outside, the front of a right leg is on the right, that of a left one on the left.
-            let is_first_front = (mean_u(anatomy, &one) > mean_u(anatomy, &other)) == (hand == Hand::Right);
-            let [front, back] = if is_first_front { [one, other] } else { [other, one] };
+            let is_first_front = (mean_u(anatomy, &first) > mean_u(anatomy, &second)) == (hand == Hand::Right);
+            let [front, back] = if is_first_front { [first, second] } else { [second, first] };
             ([split(anatomy, front), split(anatomy, back)], None)
         } else {
             let [front, back] = [pieces(Some(Face::Front))?, pieces(Some(Face::Back))?].map(runs);
@@ -78,7 +85,7 @@ impl<'a> Legs<'a> {
         })
     }
 
-    /// Their points of measure.
+    /// Points of measure of the leg.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
@@ -92,11 +99,11 @@ impl<'a> Legs<'a> {
         for (point, run) in [(Point::FrontRise, front), (Point::BackRise, back)] {
             found.push(anatomy.along_path(point, self.up_to_edge(&run.crotch), 1.0));
         }
-        found.push(anatomy.along_path(Point::Inseam, along(&front.seam), 1.0));
+        found.push(anatomy.along_path(Point::Inseam, path_along(&front.seam), 1.0));
         if let Some([outer, _]) = &self.outer {
             found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
         }
-        let inseam_m: f64 = front.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let inseam_m: f64 = front.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
         let round = |below_m: f64| anatomy.along(&front.seam, below_m).and_then(|at| anatomy.ways.round(at));
         found.extend(round(THIGH_BELOW_FORK_M).map(|path| anatomy.along_path(Point::HalfThigh, path, 0.5)));
         if inseam_m >= LONG_M {
@@ -107,64 +114,63 @@ impl<'a> Legs<'a> {
         found
     }
 
-    /// The outseam of the front from its upper end; none of a leg in one piece.
+    /// Outseam of the front from its upper end. `None` for a leg in one piece.
     pub fn side_seam(&self) -> Option<Chain> {
         self.outer.clone().map(|[front, _]| front)
     }
 
-    /// The fork of the front.
-    fn fork(&self) -> (usize, V2) {
-        let (edge, is_forwards) = self.inner[0].seam[0];
-        (edge.piece, self.anatomy.place((edge, !is_forwards)))
+    /// Piece and position of the fork of the front.
+    fn fork(&self) -> PiecePoint {
+        let fork = self.inner[0].seam[0].other();
+        PiecePoint { piece: fork.edge.piece, at: self.anatomy.place(fork) }
     }
 
-    /// The way down the front from its upper edge, half-way between fork and outseam, and the height of its beginning above the fork, m.
-    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+    /// Path down the front from its upper edge, half-way between fork and outseam.
+    pub fn way_down(&self) -> Option<LegFront> {
         let anatomy = self.anatomy;
-        let (piece, fork) = self.fork();
+        let PiecePoint { piece, at: fork } = self.fork();
         let outline = anatomy.style().pieces[piece].outline();
         let farthest = outline.iter().map(|p| p.x).max_by(|a, b| (a - fork.x).abs().total_cmp(&(b - fork.x).abs()))?;
         let waist: Vec<EdgeRef> = self.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
         let top = anatomy.meeting(&waist, |p| p.x - 0.5 * (fork.x + farthest))?;
         let way = anatomy.ways.walk(top, Heading::Down, |_| false)?;
-        Some((way.parts, anatomy.style().place(top).y - fork.y))
+        Some(LegFront { path: way.parts, above_fork_m: anatomy.style().place(top).y - fork.y })
     }
 
-    /// Height of the upper edge above the fork in front, m, with yoke and waistband.
+    /// Height of the upper edge above the fork in front, m, including yoke and waistband.
     pub fn top_above_fork_m(&self) -> f64 {
         let anatomy = self.anatomy;
         let crotch = &self.inner[0].crotch;
-        let on_leg_m: f64 = crotch.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let on_leg_m: f64 = crotch.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
         let above_m = anatomy.style().path_length_m(&self.up_to_edge(crotch)) - on_leg_m;
-        let (edge, is_forwards) = crotch[0];
-        anatomy.place((edge, !is_forwards)).y - self.fork().1.y + above_m
+        anatomy.place(crotch[0].other()).y - self.fork().at.y + above_m
     }
 
-    /// Way round a leg at a height over the fork, m, below 0 under it; `None` where it does not reach.
+    /// Path round a leg at a height above the fork, m, negative below it. `None` if the leg does not reach there.
     pub fn round(&self, above_fork_m: f64) -> Option<Vec<PathPart>> {
-        let (path, top_m) = self.way_down()?;
-        let (piece, place) = self.anatomy.ways.along(&path, top_m - above_fork_m)?;
-        self.anatomy.ways.round_through(piece, place)
+        let down = self.way_down()?;
+        let ways = &self.anatomy.ways;
+        ways.round_through(ways.along(&down.path, down.above_fork_m - above_fork_m)?)
     }
 
-    /// The girth of one leg's half of the hip.
+    /// Half of the hip girth: the share of one leg.
     fn hip(&self) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let [front, back] = &self.inner;
-        let crotch: Vec<EdgeRef> = front.crotch.iter().map(|(edge, _)| *edge).collect();
-        let (_, fork) = self.fork();
+        let crotch: Vec<EdgeRef> = front.crotch.iter().map(|step| step.edge).collect();
+        let fork = self.fork().at;
         let from = anatomy.meeting(&crotch, |p| p.y - fork.y - HIP_ABOVE_FORK_M)?;
-        let is_back = |at: EdgePoint| back.crotch.iter().any(|(edge, _)| *edge == at.edge);
+        let is_back = |at: EdgePoint| back.crotch.iter().any(|step| step.edge == at.edge);
         let way = anatomy.ways.walk(from, Heading::Level, is_back)?;
         is_back(way.end).then(|| anatomy.along_path(Point::HalfHip, way.parts, 1.0))
     }
 
-    /// Along a chain that begins at the waist, and on above it over yoke and waistband.
+    /// Path along a chain that begins at the waist, extended above it over yoke and waistband.
     fn up_to_edge(&self, chain: &Chain) -> Vec<PathPart> {
         let anatomy = self.anatomy;
-        let mut path = along(chain);
-        let Some(&(edge, is_forwards)) = chain.first() else { return path };
-        let (top, is_last) = anatomy.style().over_corner((edge, !is_forwards));
+        let mut path = path_along(chain);
+        let Some(first) = chain.first() else { return path };
+        let EdgeEnd { edge: top, is_last } = anatomy.style().over_corner(first.other());
         let beside_m = if is_last { anatomy.length_m(&[top]) - BESIDE_M } else { BESIDE_M };
         let above = anatomy.ways.across(EdgePoint { edge: top, arc_m: beside_m });
         let above = above.filter(|above| !matches!(anatomy.parts[above.edge.piece], Part::Leg(..) | Part::Trunk(_)));
@@ -175,52 +181,53 @@ impl<'a> Legs<'a> {
     }
 }
 
-/// Whether an opening of legs lies in the upper halves of their pieces.
+/// True if an opening of legs lies in the upper halves of their pieces.
 fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     let above = |edge: &EdgeRef| {
         let outline = anatomy.style().pieces[edge.piece].outline();
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.y), high.max(p.y)));
-        let [from, to] = [false, true].map(|is_last| anatomy.place((*edge, is_last)).y);
+        let [from, to] = [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).y);
         0.5 * (from + to) - 0.5 * (low + high)
     };
     opening.iter().map(above).sum::<f64>() > 0.0
 }
 
-/// Both runs of a piece's outline from its waist to its hem, each from the waist down: first the one that the outline passes first.
+/// Both sides of the outline of a piece, each from the waist down to the hem. The one that precedes the waist in the
+/// outline comes first.
 fn runs(anatomy: &Anatomy<'_>, piece: usize, waist: &[EdgeRef], hem: &[EdgeRef]) -> Option<[Chain; 2]> {
     let n = anatomy.style().pieces[piece].edges.len();
     let edge = |k: usize| EdgeRef { piece, edge: k % n };
-    // A fly is part of the opening, but no part of the waist's edge.
-    let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![(e, true)]);
+    // A fly is part of the opening, but not of the waist edge.
+    let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![EdgeEnd::new(e, true)]);
     let first_hem = (0..n).find(|k| hem.contains(&edge(*k)) && !hem.contains(&edge(k + n - 1)))?;
     let all: Vec<EdgeRef> = (0..n).map(|k| edge(first_hem + k)).filter(|e| !hem.contains(e)).collect();
     let first = all.iter().position(|e| is_waist(*e))?;
     let last = all.iter().rposition(|e| is_waist(*e))?;
-    let up: Chain = all[..first].iter().rev().map(|e| (*e, false)).collect();
-    let down: Chain = all[last + 1..].iter().map(|e| (*e, true)).collect();
+    let up: Chain = all[..first].iter().rev().map(|edge| EdgeEnd::new(*edge, false)).collect();
+    let down: Chain = all[last + 1..].iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
     Some([up, down])
 }
 
-/// Whether an edge of a leg is sewn to the other leg.
+/// True if an edge of a leg is sewn to the other leg.
 fn is_crotch(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
     let Part::Leg(hand, _) = anatomy.parts[edge.piece] else { return false };
-    let is_other = |other: &EdgeRef| matches!(anatomy.parts[other.piece], Part::Leg(of, _) if of != hand);
+    let is_other = |other: &EdgeRef| matches!(anatomy.parts[other.piece], Part::Leg(side, _) if side != hand);
     anatomy.ways.partners(edge).iter().any(is_other)
 }
 
-/// The inner of two runs, then the outer one; `None` where none or both are sewn to the other leg.
-fn inner_first(anatomy: &Anatomy<'_>, [one, other]: [Chain; 2]) -> Option<[Chain; 2]> {
-    let is_inner = |run: &Chain| run.iter().any(|(edge, _)| is_crotch(anatomy, *edge));
-    match (is_inner(&one), is_inner(&other)) {
-        (true, false) => Some([one, other]),
-        (false, true) => Some([other, one]),
+/// Sorts two sides into the inner and the outer one. `None` if neither or both are sewn to the other leg.
+fn inner_first(anatomy: &Anatomy<'_>, [first, second]: [Chain; 2]) -> Option<[Chain; 2]> {
+    let is_inner = |run: &Chain| run.iter().any(|step| is_crotch(anatomy, step.edge));
+    match (is_inner(&first), is_inner(&second)) {
+        (true, false) => Some([first, second]),
+        (false, true) => Some([second, first]),
         _ => None,
     }
 }
 
-/// An inner run parted at the fork: behind the last edge that is sewn to the other leg.
+/// Splits an inner side at the fork, which follows the last edge that is sewn to the other leg.
 fn split(anatomy: &Anatomy<'_>, run: Chain) -> Run {
-    let fork = run.iter().rposition(|(edge, _)| is_crotch(anatomy, *edge)).map_or(0, |last| last + 1);
+    let fork = run.iter().rposition(|step| is_crotch(anatomy, step.edge)).map_or(0, |last| last + 1);
     let (crotch, seam) = run.split_at(fork);
     Run { crotch: crotch.to_vec(), seam: seam.to_vec() }
 }

@@ -1,10 +1,11 @@
-//! Points of measure: the lengths by which a garment is specified and checked, found on the pieces by what they are.
+//! Points of measure (POM): the lengths by which a garment is specified and checked, located on the pieces.
 //!
-//! They are measured flat on the pieces as they are sewn [ISO 18890]. No seam file has to name them: `anatomy` tells what each
-//! seam and opening is by the roles of the pieces, `top`, `sleeve`, `legs` and `skirt` lay each point along them, and `ways` goes straight across
-//! pieces and through their seams.
+//! They are measured flat on the pieces as they are sewn [ISO 18890]. No seam file has to name them. `anatomy`
+//! identifies the seams and openings by the roles of the pieces. `top`, `sleeve`, `legs` and `skirt` trace each point
+//! along them. `ways` goes straight across pieces and through their seams.
 
 pub(crate) mod anatomy;
+mod body_levels;
 mod hang;
 pub(crate) mod legs;
 pub(crate) mod skirt;
@@ -13,17 +14,16 @@ mod sleeve;
 mod tests;
 pub(crate) mod top;
 pub(crate) mod ways;
-mod worn;
 
 use self::anatomy::Anatomy;
+pub use self::body_levels::{Stand, WornLength};
 pub use self::hang::HangLines;
 use self::legs::Legs;
 use self::sleeve::Sleeve;
 use self::top::Trunk;
-pub use self::worn::{Stand, WornLength};
 use super::style::{PathPart, Style};
 
-/// A point of measure by its name.
+/// Name of a point of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Point {
     /// Half of the girth below the armhole.
@@ -83,7 +83,7 @@ pub enum Point {
 }
 
 impl Point {
-    /// All, in the order of a specification sheet.
+    /// All points, in the order of a specification sheet.
     pub const ALL: [Self; 27] = [
         Self::HalfChest,
         Self::HalfWaist,
@@ -114,7 +114,7 @@ impl Point {
         Self::HalfLegOpening,
     ];
 
-    /// Name in tables and SQL, and how it is measured.
+    /// Name in tables and SQL, and definition.
     const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::HalfChest => ("half_chest", "half of the girth 25 mm below the armhole, along the side seam"),
@@ -182,7 +182,7 @@ impl Point {
         self.words().0
     }
 
-    /// How it is measured.
+    /// Definition: the way of measuring.
     #[must_use]
     pub const fn definition(self) -> &'static str {
         self.words().1
@@ -192,20 +192,20 @@ impl Point {
 /// A point of measure of a garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOfMeasure {
-    /// Which point of measure it is.
+    /// Name of the point of measure.
     pub point: Point,
-    /// Its length, m: of a path `share` of that of the path, and of a length from the high point of the shoulder what lies above the
-    /// path besides.
+    /// Length, m: `share` of the length of the path. A length from the high point of the shoulder also has the distance
+    /// from there to the path.
     pub length_m: f64,
-    /// Where it lies on the cloth; empty of a distance across no cloth, as the width of a neck.
+    /// Path on the cloth. Empty for a distance across no cloth, such as the width of a neck.
     pub path: Vec<PathPart>,
-    /// Part of the path's length that counts: half of a girth, as it is measured flat.
+    /// Share of the length of the path that counts: one half for a girth, which is measured flat.
     pub share: f64,
 }
 
 impl Style {
-    /// The points of measure that the style has, in the order of [`Point::ALL`]. What cannot be told by the roles of its pieces is
-    /// left out.
+    /// Points of measure of the style, in the order of [`Point::ALL`]. Those that the roles of its pieces do not show
+    /// are left out.
     #[must_use]
     pub fn points_of_measure(&self) -> Vec<PointOfMeasure> {
         let anatomy = Anatomy::of(self);
@@ -213,7 +213,7 @@ impl Style {
     }
 }
 
-/// The parts of a garment that have points of measure.
+/// Parts of a garment that have points of measure.
 struct Garb<'a> {
     anatomy: &'a Anatomy<'a>,
     trunk: Option<Trunk<'a>>,
@@ -234,9 +234,9 @@ impl<'a> Garb<'a> {
         found.extend(self.sleeve.iter().flat_map(Sleeve::points));
         found.extend(self.legs.iter().flat_map(Legs::points));
         found.extend(skirt::points(self.anatomy));
-        found.sort_by_key(|one| one.point);
-        // A jumpsuit's waist is that of its top.
-        found.dedup_by_key(|one| one.point);
+        found.sort_by_key(|measure| measure.point);
+        // The waist of a jumpsuit is that of its top.
+        found.dedup_by_key(|measure| measure.point);
         found
     }
 }

@@ -1,4 +1,4 @@
-//! Points of measure of skirts, and of what hangs from a bodice.
+//! Points of measure of skirts, also of those sewn to a bodice.
 
 use super::anatomy::{Anatomy, Chain, Part};
 use super::ways::Heading;
@@ -9,21 +9,22 @@ use crate::style::{EdgeRef, PathPart};
 
 /// Distance below the waist at which the hip is measured, m: that of a person of 1.7 m.
 const HIP_BELOW_WAIST_M: f64 = 0.200;
-/// Least ratio of the chord of a waist to its length: rounder ones are those of circle skirts, whose hip is no straight line.
+/// Least ratio of the chord of a waist edge to its length. A rounder one is that of a circle skirt, whose hip is no
+/// straight line.
 const STRAIGHT: f64 = 0.9;
 
-/// Points of measure of a style's skirt; none without a side seam.
+/// Points of measure of the skirt of a style. There are none without a side seam.
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
-    let top_of = |chain: &Chain| anatomy.opening_at(&openings, (chain[0].0, !chain[0].1));
+    let top_of = |chain: &Chain| anatomy.opening_at(&openings, chain[0].other());
     let sides = side_seams(anatomy);
     let Some((side, waist)) = sides.into_iter().find_map(|[front, _]| top_of(&front).map(|top| (front, top))) else {
         return Vec::new();
     };
     let waist = &openings[waist];
     let mut found = Vec::new();
-    // A dress has its waist and its lengths from the bodice.
+    // The waist and lengths of a dress are those of its bodice.
     if !anatomy.parts.iter().any(|part| matches!(part, Part::Trunk(_))) {
         let edge = anatomy.beyond(waist, is_skirt);
         found.extend(edge.map(|edges| anatomy.along_edges(Point::HalfWaist, &edges, 0.5)));
@@ -41,34 +42,34 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     found
 }
 
-/// Both sides of each side seam of a skirt, front and back, from above.
+/// Both sides of each side seam of a skirt, front and back, from the top.
 pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
-    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
+    let is_of = |face: Face| move |part: Part| part == Part::Skirt(face);
     let seams = 0..anatomy.style().seams.len();
-    let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let joins = seams.filter_map(|seam| anatomy.between(seam, is_of(Face::Front), is_of(Face::Back)));
     joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect()
 }
 
-/// The way down the front from its upper edge, half-way between its middle and its side.
+/// Path down the front from its upper edge, half-way between its middle and its side.
 pub fn way_down(anatomy: &Anatomy<'_>) -> Option<Vec<PathPart>> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let is_front = |edge: &EdgeRef| anatomy.parts[edge.piece] == Part::Skirt(Face::Front);
     let openings = anatomy.style().openings(&is_skirt);
     let height = |opening: &Vec<EdgeRef>| {
-        let ends = opening.iter().filter(|edge| is_front(edge)).map(|edge| anatomy.place((*edge, false)).y);
+        let ends = opening.iter().filter(|edge| is_front(edge)).map(|edge| anatomy.place(EdgeEnd::new(*edge, false)).y);
         ends.fold(f64::MIN, f64::max)
     };
-    let waist = openings.iter().max_by(|one, other| height(one).total_cmp(&height(other)))?;
+    let waist = openings.iter().max_by(|opening, other| height(opening).total_cmp(&height(other)))?;
     let piece = waist.iter().find(|edge| is_front(edge))?.piece;
     let own: Vec<EdgeRef> = waist.iter().copied().filter(|edge| edge.piece == piece).collect();
-    let ends = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).x));
+    let ends = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).x));
     let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), u| (low.min(u), high.max(u)));
     let top = anatomy.meeting(&own, |p| p.x - (0.25 * low + 0.75 * high))?;
     anatomy.ways.walk(top, Heading::Down, |_| false).map(|way| way.parts)
 }
 
 fn is_straight(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
-    let [from, to] = [false, true].map(|is_last| anatomy.place((edge, is_last)));
+    let [from, to] = [false, true].map(|is_last| anatomy.place(EdgeEnd::new(edge, is_last)));
     (to - from).norm() > STRAIGHT * anatomy.length_m(&[edge])
 }
 
@@ -79,9 +80,9 @@ fn centre(anatomy: &Anatomy<'_>, waist: &[EdgeRef], face: Face) -> Option<PointO
         waist.iter().copied().filter(|edge| anatomy.parts[edge.piece] == Part::Skirt(face)).collect();
     let piece = own.first()?.piece;
     // Half a skirt has a seam to the other half at one end of its waist.
-    let ends = own.iter().flat_map(|edge| [(*edge, false), (*edge, true)]);
+    let ends = own.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]);
     let is_centre = |end: &EdgeEnd| {
-        let next = anatomy.style().over_corner(*end).0;
+        let next = anatomy.style().over_corner(*end).edge;
         let is_half = |other: &EdgeRef| other.piece != next.piece && anatomy.parts[other.piece] == Part::Skirt(face);
         anatomy.ways.partners(next).iter().any(is_half)
     };
@@ -92,7 +93,8 @@ fn centre(anatomy: &Anatomy<'_>, waist: &[EdgeRef], face: Face) -> Option<PointO
     if own.iter().any(|edge| edge.piece != piece) {
         return None;
     }
-    let corners = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).x));
+    let corners =
+        own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).x));
     let (low, high) = corners.fold((f64::MAX, f64::MIN), |(low, high), u| (low.min(u), high.max(u)));
     let at = anatomy.meeting(&own, |p| p.x - 0.5 * (low + high))?;
     let way = anatomy.ways.walk(at, Heading::Down, |_| false)?;

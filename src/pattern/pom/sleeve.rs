@@ -4,24 +4,25 @@ use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part};
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
 use crate::propose::Hand;
+use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 
-/// A sleeve: the right one where there are two.
+/// A sleeve: the right one if there are two.
 pub struct Sleeve<'a> {
     anatomy: &'a Anatomy<'a>,
     hand: Hand,
-    /// The way down it from the shoulder point.
+    /// Path down the sleeve from the shoulder point.
     way: Option<Vec<PathPart>>,
 }
 
 impl<'a> Sleeve<'a> {
-    /// The sleeve of a style; `None` of one without. `shoulder_points` lie on the seams of its armholes.
+    /// Sleeve of a style. `None` for a style without sleeves. `shoulder_points` lie on the seams of its armholes.
     pub fn of(anatomy: &'a Anatomy<'a>, shoulder_points: &[EdgePoint]) -> Option<Self> {
         let hand = Hand::BOTH.into_iter().find(|hand| anatomy.parts.contains(&Part::Sleeve(*hand)))?;
         let on_cap = shoulder_points.iter().find_map(|point| {
             anatomy.ways.across(*point).filter(|at| anatomy.parts[at.edge.piece] == Part::Sleeve(hand))
         });
-        // The seam on top of a sleeve in two panels may run straight down from there.
+        // The upper seam of a sleeve in two panels may run straight down from there.
         let beside = |at: EdgePoint| {
             let length_m = anatomy.length_m(&[at.edge]);
             [0.0, BESIDE_M, -BESIDE_M].map(|by_m| EdgePoint { arc_m: (at.arc_m + by_m).clamp(0.0, length_m), ..at })
@@ -35,7 +36,7 @@ impl<'a> Sleeve<'a> {
         self.anatomy.parts[piece] == Part::Sleeve(self.hand)
     }
 
-    /// Length, bicep and cuff.
+    /// Points of measure: length, bicep and cuff.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let openings = anatomy.style().openings(&|piece| self.holds(piece));
@@ -57,13 +58,12 @@ impl<'a> Sleeve<'a> {
         found
     }
 
-    /// Way round at a distance from the shoulder point along the arm, m; `None` beyond its end.
+    /// Path round the sleeve at a distance from the shoulder point along the arm, m. `None` beyond its end.
     pub fn round(&self, along_m: f64) -> Option<Vec<PathPart>> {
-        let (piece, place) = self.anatomy.ways.along(self.way.as_ref()?, along_m)?;
-        self.anatomy.ways.round_through(piece, place)
+        self.anatomy.ways.round_through(self.anatomy.ways.along(self.way.as_ref()?, along_m)?)
     }
 
-    /// The seam that begins lowest on the cap, from there down.
+    /// Underarm seam: the one that begins lowest on the cap, directed downwards.
     fn underarm(&self, cap: &[EdgeRef]) -> Option<Chain> {
         let anatomy = self.anatomy;
         let mut found: Vec<(f64, Chain)> = Vec::new();
@@ -71,17 +71,17 @@ impl<'a> Sleeve<'a> {
             if !seam.a.iter().chain(&seam.b).all(|edge| self.holds(edge.piece)) {
                 continue;
             }
-            let chain: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
-            let back: Chain = chain.iter().rev().map(|(edge, on)| (*edge, !on)).collect();
+            let chain: Chain = seam.a.iter().map(|edge| EdgeEnd::new(*edge, true)).collect();
+            let back: Chain = chain.iter().rev().map(|step| step.other()).collect();
             for chain in [chain, back] {
-                let top = (chain[0].0, !chain[0].1);
-                if cap.contains(&anatomy.style().over_corner(top).0) {
-                    // As far along the arm as the cap's end lies.
-                    let down = anatomy.ways.down(top.0.piece)?;
+                let top = chain[0].other();
+                if cap.contains(&anatomy.style().over_corner(top).edge) {
+                    // The key is the distance of the beginning along the arm.
+                    let down = anatomy.ways.down(top.edge.piece)?;
                     found.push((anatomy.place(top).dot(&down), chain));
                 }
             }
         }
-        found.into_iter().max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, chain)| chain)
+        found.into_iter().max_by(|seam, other| seam.0.total_cmp(&other.0)).map(|(_, chain)| chain)
     }
 }

@@ -12,7 +12,7 @@ use geom::units::mm;
 fn check(what: &str, style: &Style, within_mm: f64, expect: &[(Point, f64)]) {
     let points = style.points_of_measure();
     for (point, expect_mm) in expect {
-        let found = points.iter().find(|one| one.point == *point).map(|one| mm(one.length_m));
+        let found = points.iter().find(|measure| measure.point == *point).map(|measure| mm(measure.length_m));
         let is_it = found.is_some_and(|found| (found - expect_mm).abs() <= within_mm);
         assert!(is_it, "{what}: {} is {found:?}, by hand {expect_mm}", point.as_str());
     }
@@ -131,7 +131,7 @@ fn widths_are_those_of_the_outlines() {
 
 #[test]
 fn a_girth_taken_through_a_dart_leaves_the_dart_out() {
-    // A tube of two panels with a dart in the front: what the dart takes in at a height is not measured.
+    // A tube of two panels with a dart in the front. The cloth inside the dart is not measured.
     let seams = r#"
         name = "tube"
         piece.front = { block = "F", role = "front", edges = { hem = [0, 1], da = [1, 2], db = [2, 3], hem_2 = [3, 4], side_left = [4, 5], neck = [5, 6], side_right = [6, 0] } }
@@ -153,12 +153,16 @@ fn a_girth_taken_through_a_dart_leaves_the_dart_out() {
     let back = [[-0.2, 0.0], [0.2, 0.0], [0.2, 0.4], [-0.2, 0.4]];
     let style = Style::read(&[piece("F", &front), piece("B", &back)], seams.as_bytes(), "tube").expect("it is sewn");
     let points = style.points_of_measure();
-    let of = |point: Point| points.iter().find(|one| one.point == point).map(|one| mm(one.length_m));
-    let chest_mm = of(Point::HalfChest).expect("it has sides");
+    let flat_mm =
+        |point: Point| points.iter().find(|measure| measure.point == point).map(|measure| mm(measure.length_m));
+    let chest_mm = flat_mm(Point::HalfChest).expect("it has sides");
     assert!((chest_mm - 450.0).abs() < 1e-6, "above the dart: {chest_mm}");
-    assert!((of(Point::HalfHem).expect("it has a hem") - 430.0).abs() < 1e-6, "without the dart's mouth");
+    assert!((flat_mm(Point::HalfHem).expect("it has a hem") - 430.0).abs() < 1e-6, "without the dart's mouth");
     let mouth_mm = 40.0 * (0.3 - 0.22) / 0.3;
-    assert!((of(Point::HalfWaist).expect("180 mm below") - (450.0 - 0.5 * mouth_mm)).abs() < 1e-6, "through the dart");
+    assert!(
+        (flat_mm(Point::HalfWaist).expect("180 mm below") - (450.0 - 0.5 * mouth_mm)).abs() < 1e-6,
+        "through the dart"
+    );
 }
 
 #[test]
@@ -203,15 +207,16 @@ fn paths_have_the_lengths_that_are_told_and_lie_on_the_mesh() {
         let style = drafted(model, 0);
         let garment = style.mesh(0.02).expect("it meshes");
         let points: Vec<PointOfMeasure> = style.points_of_measure();
-        let paths: Vec<_> = points.iter().map(|one| one.path.as_slice()).collect();
-        for (one, runs) in points.iter().zip(style.laid(&garment, &paths)) {
-            if one.path.is_empty() {
+        let paths: Vec<_> = points.iter().map(|measure| measure.path.as_slice()).collect();
+        for (measure, runs) in points.iter().zip(style.laid(&garment, &paths)) {
+            if measure.path.is_empty() {
                 continue;
             }
-            let runs = runs.unwrap_or_else(|| panic!("{}: {} leaves the cloth", model.as_str(), one.point.as_str()));
+            let runs =
+                runs.unwrap_or_else(|| panic!("{}: {} leaves the cloth", model.as_str(), measure.point.as_str()));
             let flat: Vec<geom::V3> = garment.rest.iter().map(|p| p.push(0.0)).collect();
             let length_m: f64 = runs.iter().map(|run| run.length_m(&garment.rest, &flat)).sum();
-            assert!((length_m - style.path_length_m(&one.path)).abs() < 1e-9, "{}", one.point.as_str());
+            assert!((length_m - style.path_length_m(&measure.path)).abs() < 1e-9, "{}", measure.point.as_str());
         }
     }
 }
@@ -258,7 +263,7 @@ fn shared(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// The style of a file of another program, sewn as proposed where it holds no seams.
+/// Style of a file of another program, sewn as proposed if it holds no seams.
 fn foreign(path: &PathBuf, size: Option<&str>) -> Style {
     let bytes = std::fs::read(path).expect("readable");
     let name = path.display().to_string();
@@ -271,7 +276,7 @@ fn foreign(path: &PathBuf, size: Option<&str>) -> Style {
     Style::read(&pieces, proposal.toml("foreign").as_bytes(), "foreign").expect("it holds")
 }
 
-/// Lengths by hand: sums of the lengths of edges, and distances of vertices, of the outlines in the files.
+/// Lengths computed by hand: sums of the lengths of edges, and distances of vertices, of the outlines in the files.
 #[rustfmt::skip]
 #[test]
 fn foreign_patterns_have_the_lengths_of_their_outlines() {
@@ -357,7 +362,7 @@ fn drafted_styles_have_their_hem_and_both_side_seams() {
         assert_eq!(lengths.len(), side_seams, "{model:?}: {lengths:?}");
         // Right and left are alike.
         let pairs =
-            lengths.iter().filter(|one| lengths.iter().filter(|other| (*one - *other).abs() < 1e-6).count() == 2);
+            lengths.iter().filter(|length| lengths.iter().filter(|other| (*length - *other).abs() < 1e-6).count() == 2);
         assert_eq!(pairs.count(), side_seams, "{model:?}: {lengths:?}");
     };
     check(Model::Tshirt, 2, false);

@@ -1,4 +1,4 @@
-//! Points of measure of what is worn on the trunk.
+//! Points of measure of garments of the trunk.
 
 use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part, distance};
 use super::ways::Heading;
@@ -8,32 +8,32 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance of the waist below the armhole where the sides do not show it, m: that of the waist below the chest of a person of 1.7 m.
+/// Distance of the waist below the armhole if the sides are straight, m: that from chest to waist of a person of 1.7 m.
 const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
-/// Distance from armhole and hem from which on the narrowest girth is looked for, m, and between the places tried.
+/// Least distance of the narrowest girth from armhole and hem, m, and the interval between candidates.
 const FROM_ENDS_M: f64 = 0.060;
 const STEP_M: f64 = 0.005;
-/// How much narrower than at both ends the narrowest girth is for it to be a waist, m.
+/// Least difference of the narrowest girth from those at both ends for it to be a waist, m.
 const SHAPED_M: f64 = 0.008;
-/// Greatest slant of the front edge of an open garment from the vertical, as the ratio of its sides.
+/// Greatest slant of the front edge of an open garment from the vertical, as the tangent of the angle.
 const FRONT_EDGE_SLANT: f64 = 0.14;
-/// Greatest distance of such an edge from the side of its piece, as a share of the piece's width.
+/// Greatest distance of such an edge from the side of its piece, as a share of its width.
 const FRONT_EDGE_INSET: f64 = 0.1;
 
 fn is_face(face: Face) -> impl Fn(Part) -> bool {
     move |part| part == Part::Trunk(face)
 }
 
-/// The trunk of a garment: its pieces alone, sewn to each other.
+/// The trunk of a garment: its pieces sewn to each other, without any others.
 pub struct Trunk<'a> {
     anatomy: &'a Anatomy<'a>,
-    /// Loops of its free edges: neck, armholes, lower end.
+    /// Closed chains of free edges: neck, armholes, lower end.
     pub openings: Vec<Vec<EdgeRef>>,
-    /// Both sides of each side seam that ends at an armhole, or at the top edge: front and back, from there down.
+    /// Both sides of each side seam that ends at an armhole or the top edge: front and back, directed downwards.
     pub sides: Vec<[Chain; 2]>,
-    /// Both sides of each shoulder seam, front and back, from the neck outwards.
+    /// Both sides of each shoulder seam, front and back, directed outwards from the neck.
     pub shoulders: Vec<[Chain; 2]>,
-    /// Openings that are armholes.
+    /// Indices of the openings that are armholes.
     pub armholes: Vec<usize>,
     /// Edges of the neckline.
     pub neck: Vec<EdgeRef>,
@@ -42,13 +42,13 @@ pub struct Trunk<'a> {
 }
 
 impl<'a> Trunk<'a> {
-    /// Of a style; `None` of one without side seams between a front and a back.
+    /// Trunk of a style. `None` for a style without side seams between a front and a back.
     pub fn of(anatomy: &'a Anatomy<'a>) -> Option<Self> {
         let openings = anatomy.style().openings(&|piece| matches!(anatomy.parts[piece], Part::Trunk(_)));
         let seams = 0..anatomy.style().seams.len();
         let joins = seams.filter_map(|seam| anatomy.between(seam, is_face(Face::Front), is_face(Face::Back)));
         let (upright, across): (Vec<_>, Vec<_>) = joins.partition(|[front, _]| anatomy.is_upright(front));
-        let start = |chain: &Chain| -> EdgeEnd { (chain[0].0, !chain[0].1) };
+        let start = |chain: &Chain| -> EdgeEnd { chain[0].other() };
         let end = |chain: &Chain| -> EdgeEnd { chain[chain.len() - 1] };
         let all_sides: Vec<[Chain; 2]> = upright.into_iter().map(|sides| anatomy.turned_down(sides)).collect();
         let opening = |at: EdgeEnd| anatomy.opening_at(&openings, at);
@@ -58,7 +58,7 @@ impl<'a> Trunk<'a> {
             .map(|side| anatomy.over_darts(side, &all_sides))
             .collect();
         let tops: Vec<usize> = sides.iter().filter_map(|[front, _]| opening(start(front))).collect();
-        // An opening at two sides is the top edge of a garment without shoulders.
+        // An opening that two side seams end at is the top edge of a garment without shoulders.
         let armholes: Vec<usize> =
             tops.iter().copied().filter(|top| tops.iter().filter(|other| *other == top).count() == 1).collect();
         let shoulder = |sides: [Chain; 2]| -> Option<[Chain; 2]> {
@@ -66,7 +66,7 @@ impl<'a> Trunk<'a> {
             let is_outer = ends.map(|end| end.is_some_and(|end| armholes.contains(&end)));
             match is_outer {
                 [false, true] => Some(sides),
-                [true, false] => Some(sides.map(|chain| chain.into_iter().rev().map(|(e, on)| (e, !on)).collect())),
+                [true, false] => Some(sides.map(|chain| chain.into_iter().rev().map(|step| step.other()).collect())),
                 _ => None,
             }
         };
@@ -88,7 +88,7 @@ impl<'a> Trunk<'a> {
         (!trunk.sides.is_empty()).then_some(trunk)
     }
 
-    /// Its points of measure.
+    /// Points of measure of the trunk.
     pub fn points(&self) -> Vec<PointOfMeasure> {
         let mut found = self.girths();
         for face in Face::BOTH {
@@ -100,7 +100,8 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Of a garment that is open in front, whose neck and hem are one opening: what lies on either side of the front edges.
+    /// Separates the neck from the hem of a garment that is open in front, where both are one opening. The front edges
+    /// lie between them.
     fn part_neck_from_hem(&mut self) {
         let opening = std::mem::take(&mut self.neck);
         let Some(first) = opening.iter().position(|edge| self.is_front_edge(*edge)) else {
@@ -116,21 +117,21 @@ impl<'a> Trunk<'a> {
             .map(<[_]>::to_vec)
             .collect();
         let touches = |part: &Vec<EdgeRef>, ends: &[EdgeEnd]| {
-            ends.iter().any(|end| part.contains(&self.anatomy.style().over_corner(*end).0))
+            ends.iter().any(|end| part.contains(&self.anatomy.style().over_corner(*end).edge))
         };
-        let high: Vec<EdgeEnd> = self.shoulders.iter().map(|[front, _]| (front[0].0, !front[0].1)).collect();
+        let high: Vec<EdgeEnd> = self.shoulders.iter().map(|[front, _]| front[0].other()).collect();
         let neck = stretches.iter().find(|part| touches(part, &high)).cloned();
         let bottom = stretches.into_iter().filter(|part| Some(part) != neck.as_ref()).max_by_key(Vec::len);
         self.neck = neck.unwrap_or_default();
         self.bottom = bottom.unwrap_or_default();
     }
 
-    /// Whether an edge is the upright one in the middle of half a front.
+    /// True for the vertical edge at the centre of half a front.
     fn is_front_edge(&self, edge: EdgeRef) -> bool {
         if self.anatomy.parts[edge.piece] != Part::Trunk(Face::Front) {
             return false;
         }
-        let [from, to] = [false, true].map(|is_last| self.anatomy.place((edge, is_last)));
+        let [from, to] = [false, true].map(|is_last| self.anatomy.place(EdgeEnd::new(edge, is_last)));
         let outline = self.anatomy.style().pieces[edge.piece].outline();
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
         let middle = 0.5 * (from.x + to.x);
@@ -149,7 +150,7 @@ impl<'a> Trunk<'a> {
         if anatomy.has_below(&self.bottom) {
             found.push(anatomy.along_edges(Point::HalfWaist, &self.bottom, 0.5));
         } else {
-            let length_m: f64 = side.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let length_m: f64 = side.iter().map(|step| anatomy.length_m(&[step.edge])).sum();
             let places =
                 (0..).map(|k| FROM_ENDS_M + STEP_M * f64::from(k)).take_while(|at| *at < length_m - FROM_ENDS_M);
             let girths = places.filter_map(|at| Some((at, anatomy.style().path_length_m(&round(at)?))));
@@ -164,10 +165,10 @@ impl<'a> Trunk<'a> {
 
     /// High points of the shoulder on a face.
     pub fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
-        self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|(e, on)| (e, !on)).collect()
+        self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|step| step.other()).collect()
     }
 
-    /// Lengths down a face: from the high point of the shoulder, and along the centre.
+    /// Lengths of a face: from the high point of the shoulder, and along the centre.
     fn lengths(&self, face: Face) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let (from_shoulder, centre) = match face {
@@ -189,89 +190,91 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Length from a high point of the shoulder straight down. Where the neckline goes under the shoulder first, the tape lies over
-    /// the neck until the cloth begins: the way starts there, and what lies higher counts too.
+    /// Length from a high point of the shoulder straight down. If the neckline runs below the shoulder there, the tape
+    /// first spans the neck. The path then begins at the neckline, and the distance above it is added.
     fn length_from_neck(&self, point: Point, high: EdgeEnd) -> Option<PointOfMeasure> {
-        let (path, higher_m) = self.down_from(high)?;
-        let along = self.anatomy.along_path(point, path, 1.0);
-        Some(PointOfMeasure { length_m: along.length_m + higher_m, ..along })
+        let down = self.down_from(high)?;
+        let along = self.anatomy.along_path(point, down.path, 1.0);
+        Some(PointOfMeasure { length_m: along.length_m + down.below_neck_m, ..along })
     }
 
-    /// The way straight down from a high point of the shoulder, and how far below that it begins, m.
-    pub fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
+    /// Path straight down from a high point of the shoulder.
+    pub fn down_from(&self, high: EdgeEnd) -> Option<PathFromNeck> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
-        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.0.piece).collect();
-        // A little way out along the shoulder: a square neckline falls straight down from the high point itself.
-        let outwards = (anatomy.place((high.0, !high.1)).x - top.x).signum();
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.edge.piece).collect();
+        // The path begins a little outwards along the shoulder, because a square neckline falls straight down from the
+        // high point itself.
+        let outwards = (anatomy.place(high.other()).x - top.x).signum();
         let beside = |p: V2| p.x - top.x - outwards * BESIDE_M;
-        let start = anatomy.meeting(&[high.0], beside).unwrap_or_else(|| anatomy.point(high));
+        let start = anatomy.meeting(&[high.edge], beside).unwrap_or_else(|| anatomy.point(high));
         let height = |at: EdgePoint| anatomy.style().place(at).y;
         let below = anatomy.lowest_meeting(&own, beside).filter(|at| height(start) - height(*at) > BESIDE_M);
         let from = below.unwrap_or(start);
         let way = anatomy.ways.walk(from, Heading::Down, |_| false)?;
-        Some((way.parts, top.y - height(from)))
+        Some(PathFromNeck { path: way.parts, below_neck_m: top.y - height(from) })
     }
 
-    /// The way down the front from the high point of the shoulder, and how far below that it begins, m.
-    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+    /// Path down the front from the high point of the shoulder.
+    pub fn way_down(&self) -> Option<PathFromNeck> {
         self.down_from(*self.high_points(Face::Front).first()?)
     }
 
-    /// How far the underarm lies below the high point of the shoulder where one piece has both, m.
+    /// Height of the high point of the shoulder above the underarm, m, if one piece has both.
     fn underarm_below_neck_m(&self) -> Option<f64> {
-        let underarms = self.sides.iter().flatten().map(|chain| (chain[0].0, !chain[0].1));
+        let underarms = self.sides.iter().flatten().map(|chain| chain[0].other());
         let high = Face::BOTH.into_iter().flat_map(|face| self.high_points(face)).collect::<Vec<_>>();
         underarms.into_iter().find_map(|underarm| {
-            let high = high.iter().find(|high| high.0.piece == underarm.0.piece)?;
+            let high = high.iter().find(|high| high.edge.piece == underarm.edge.piece)?;
             Some(self.anatomy.place(*high).y - self.anatomy.place(underarm).y)
         })
     }
 
-    /// How far below the high point of the shoulder the chest is measured, m.
+    /// Distance of the chest level below the high point of the shoulder, m.
     pub fn chest_below_neck_m(&self) -> Option<f64> {
         self.underarm_below_neck_m().map(|m| m + BELOW_ARMHOLE_M)
     }
 
-    /// How far below the high point of the shoulder what hangs from the trunk is sewn to it at the side, m; `None` where nothing is.
+    /// Distance of the waist seam at the side below the high point of the shoulder, m. `None` if nothing hangs from the
+    /// trunk.
     pub fn waist_below_neck_m(&self) -> Option<f64> {
-        let side_m: f64 = self.sides[0][0].iter().map(|(edge, _)| self.anatomy.length_m(&[*edge])).sum();
+        let side_m: f64 = self.sides[0][0].iter().map(|step| self.anatomy.length_m(&[step.edge])).sum();
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
     }
 
-    /// The fronts of the side seams, from above.
+    /// Front sides of the side seams, directed downwards.
     pub fn side_seams(&self) -> Vec<Chain> {
         self.sides.iter().map(|[front, _]| front.clone()).collect()
     }
 
-    /// The points of the armholes' seams at the outer ends of the shoulders.
+    /// Points of the armhole seams at the outer ends of the shoulders.
     pub fn shoulder_points(&self) -> Vec<EdgePoint> {
         let outer = self.shoulders.iter().map(|[front, _]| front[front.len() - 1]);
         outer.map(|end| self.anatomy.point(self.anatomy.style().over_corner(end))).collect()
     }
 
-    /// Where the neckline meets the centre of a face.
+    /// Intersection of the neckline with the centre of a face.
     pub fn neck_centre(&self, face: Face) -> Option<Centre> {
         let anatomy = self.anatomy;
         let high = self.high_points(face);
         let first = high.first()?;
-        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == first.0.piece).collect();
-        if let Some(other) = high.iter().skip(1).find(|end| end.0.piece == first.0.piece) {
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == first.edge.piece).collect();
+        if let Some(other) = high.iter().skip(1).find(|end| end.edge.piece == first.edge.piece) {
             let middle = 0.5 * (anatomy.place(*first).x + anatomy.place(*other).x);
             return anatomy.meeting(&own, |p| p.x - middle).map(Centre::Within);
         }
         self.neck_end(*first).map(Centre::Corner)
     }
 
-    /// Along the neckline of half a face from its high point to where it ends.
+    /// End of the neckline of half a face, opposite its high point.
     pub fn neck_end(&self, high: EdgeEnd) -> Option<EdgeEnd> {
         let mut at = high;
         loop {
             let next = self.anatomy.style().over_corner(at);
-            if next.0.piece != high.0.piece || !self.neck.contains(&next.0) {
+            if next.edge.piece != high.edge.piece || !self.neck.contains(&next.edge) {
                 return (at != high).then_some(at);
             }
-            at = (next.0, !next.1);
+            at = next.other();
         }
     }
 
@@ -290,7 +293,7 @@ impl<'a> Trunk<'a> {
                 }
                 Centre::Corner(end) => (anatomy.place(end), (anatomy.place(high).x - anatomy.place(end).x).abs()),
             };
-            // The back tells the width: fronts may overlap.
+            // The back determines the width, because fronts may overlap.
             if found.is_empty() {
                 found.push(distance(Point::NeckWidth, 2.0 * half_m));
             }
@@ -308,18 +311,18 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let mut found = Vec::new();
         if let Some([front, _]) = self.shoulders.first() {
-            let edges: Vec<EdgeRef> = front.iter().map(|(edge, _)| *edge).collect();
+            let edges: Vec<EdgeRef> = front.iter().map(|step| step.edge).collect();
             found.push(anatomy.along_edges(Point::Shoulder, &edges, 1.0));
         }
         let outer: Vec<EdgeEnd> = self.shoulders.iter().map(|[_, back]| back[back.len() - 1]).collect();
         let halves = || {
             let Some(Centre::Corner(centre)) = self.neck_centre(Face::Back) else { return None };
-            let end = outer.first().filter(|end| end.0.piece == centre.0.piece)?;
+            let end = outer.first().filter(|end| end.edge.piece == centre.edge.piece)?;
             Some(2.0 * (anatomy.place(*end).x - anatomy.place(centre).x).abs())
         };
         let width_m = match outer.as_slice() {
-            [one, other, ..] if one.0.piece == other.0.piece => {
-                Some((anatomy.place(*one) - anatomy.place(*other)).norm())
+            [point, other, ..] if point.edge.piece == other.edge.piece => {
+                Some((anatomy.place(*point) - anatomy.place(*other)).norm())
             }
             _ => halves(),
         };
@@ -343,14 +346,14 @@ impl<'a> Trunk<'a> {
         }
         let place = |at: EdgePoint| anatomy.style().place(at);
         if !self.neck.contains(&ahead.end.edge) {
-            // Open there: the other half likewise.
+            // The face is open there, so the other half is added.
             let behind = anatomy.ways.walk(*starts.get(1)?, Heading::Level, |at| is_armhole(at.edge))?;
             return Some(anatomy.along_path(point, [ahead.parts, behind.parts].concat(), 1.0));
         }
-        // Over a low neckline.
+        // The width spans a low neckline.
         let other = starts.get(1).filter(|other| other.edge.piece == first.edge.piece);
         let halves = || match self.neck_centre(face) {
-            Some(Centre::Corner(end)) if end.0.piece == first.edge.piece => {
+            Some(Centre::Corner(end)) if end.edge.piece == first.edge.piece => {
                 Some(2.0 * (place(first).x - anatomy.place(end).x).abs())
             }
             _ => None,
@@ -359,7 +362,8 @@ impl<'a> Trunk<'a> {
         width_m.map(|m| distance(point, m))
     }
 
-    /// The point of an armhole on a face half-way between underarm and shoulder: in height where one piece has both, else along it.
+    /// Point of an armhole on a face, half-way between underarm and shoulder. It is half-way in height if one piece has
+    /// both, otherwise along the armhole.
     fn half_way_up(&self, armhole: usize, face: Face) -> Option<EdgePoint> {
         let anatomy = self.anatomy;
         let on_face = |edge: &&EdgeRef| anatomy.parts[edge.piece] == Part::Trunk(face);
@@ -367,7 +371,9 @@ impl<'a> Trunk<'a> {
         let first = *edges.first()?;
         if edges.iter().all(|edge| edge.piece == first.piece) {
             let points = || edges.iter().flat_map(|edge| anatomy.style().edge(*edge).line.points());
-            let ends = edges.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).y));
+            let ends = edges
+                .iter()
+                .flat_map(|edge| [false, true].map(|is_last| anatomy.place(EdgeEnd::new(*edge, is_last)).y));
             let low = points().map(|p| p.y).fold(f64::MAX, f64::min);
             let high = ends.fold(f64::MIN, f64::max);
             return anatomy.meeting(&edges, |p| p.y - 0.5 * (low + high));
@@ -384,17 +390,25 @@ impl<'a> Trunk<'a> {
     }
 }
 
-/// Where the neckline meets the centre of a front or a back.
+/// Path down from a high point of the shoulder.
+pub struct PathFromNeck {
+    /// Straight parts of the path.
+    pub path: Vec<PathPart>,
+    /// Distance of its beginning below the high point, m.
+    pub below_neck_m: f64,
+}
+
+/// Intersection of the neckline with the centre of a front or back.
 pub enum Centre {
-    /// On the neckline of a whole piece.
+    /// A point on the neckline of a whole piece.
     Within(EdgePoint),
-    /// At the end of that of half a piece.
+    /// The end of the neckline of half a piece.
     Corner(EdgeEnd),
 }
 
-/// Distance below the armhole at which a top has its waist, of girths with their distances, m.
+/// Distance of the waist of a top below the armhole, m. `girths` are candidates as distance and girth, m.
 fn waist(girths: &[(f64, f64)]) -> f64 {
-    let narrowest = girths.iter().min_by(|one, other| one.1.total_cmp(&other.1));
+    let narrowest = girths.iter().min_by(|candidate, other| candidate.1.total_cmp(&other.1));
     match (girths, narrowest) {
         ([first, .., last], Some(least)) if least.1 + SHAPED_M < first.1.min(last.1) => least.0,
         _ => WAIST_BELOW_ARMHOLE_M,

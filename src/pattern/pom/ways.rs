@@ -1,7 +1,8 @@
-//! Straight ways across the cloth: over a piece from outline to outline, on through the seam there, and over the next piece.
+//! Straight paths across the cloth: over a piece from outline to outline, through the seam there, and over the next
+//! piece.
 //!
-//! A tape that is laid on a flat garment does the same. Where a way meets a dart, it goes on from the other leg: what the dart takes in is
-//! not measured.
+//! A tape on a flat garment runs so. A path that meets a dart continues from its other leg, so that the cloth in the
+//! dart is not measured.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +10,16 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::{contains, segment_meeting};
 
-/// Farthest that a way may go in one piece, m.
+/// Greatest length of a path in one piece, m.
 const REACH_M: f64 = 10.0;
-/// Least length of a way in one piece, m: nearer, it is still at the edge that it starts from.
+/// Least length of a path in one piece, m. A nearer intersection is the edge that it starts from.
 const LEAST_M: f64 = 1e-5;
-/// Most pieces that a way crosses.
+/// Greatest number of pieces that a path crosses.
 const MOST_PIECES: usize = 64;
-/// Distance from its start within which a way round has come back to it, m.
+/// Distance from its start, m, within which a path round the body is closed.
 const BACK_M: f64 = 0.05;
 
-/// Where a way goes, as the garment is worn.
+/// Direction of a path, as the garment is worn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Heading {
     /// Round the body or the limb.
@@ -27,35 +28,45 @@ pub enum Heading {
     Down,
 }
 
-/// A way across the cloth.
+/// A path across the cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
-    /// Its straight parts, one a piece.
+    /// Straight parts, one for each piece.
     pub parts: Vec<PathPart>,
-    /// Where it ends.
+    /// End point.
     pub end: EdgePoint,
 }
 
-/// Place of an edge in a seam.
+/// A point within a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PiecePoint {
+    /// Index of the piece.
+    pub piece: usize,
+    /// Position in the plane of the piece.
+    pub at: V2,
+}
+
+/// Position of an edge in a seam.
 #[derive(Clone, Copy)]
 struct Sewn {
     seam: usize,
     is_b: bool,
-    /// Distance from the side's first point to the edge's, in the order of sewing, m.
+    /// Distance from the first point of the side to that of the edge, in the direction of sewing, m.
     from_m: f64,
 }
 
-/// The seams of a style as ways cross them.
+/// Index of the seams of a style, which paths cross.
 pub struct Ways<'a> {
-    /// The style whose pieces are crossed.
+    /// Style whose pieces are crossed.
     pub style: &'a Style,
     sewn: BTreeMap<EdgeRef, Sewn>,
-    /// Unit vector away from the neck in each piece; `None` of a piece that hangs as the seam it is sewn to.
+    /// Unit vector away from the neck in each piece. `None` for a piece that takes its direction from the seam that it
+    /// is sewn to.
     down: Vec<Option<V2>>,
 }
 
 impl<'a> Ways<'a> {
-    /// The ways of a style; `down` is the unit vector away from the neck in each piece.
+    /// Indexes the seams of a style. `down` is the unit vector away from the neck in each piece.
     pub fn new(style: &'a Style, down: Vec<Option<V2>>) -> Self {
         let mut sewn = BTreeMap::new();
         for (seam, joined) in style.seams.iter().enumerate() {
@@ -75,12 +86,12 @@ impl<'a> Ways<'a> {
         self.down[piece]
     }
 
-    /// Whether nothing is sewn to an edge.
+    /// True if nothing is sewn to an edge.
     pub fn is_free(&self, edge: EdgeRef) -> bool {
         !self.sewn.contains_key(&edge)
     }
 
-    /// The edges that are sewn to an edge's side of its seam.
+    /// Edges of the other side of the seam of an edge.
     pub fn partners(&self, edge: EdgeRef) -> &'a [EdgeRef] {
         let side = |sewn: &Sewn| self.side(sewn.seam, !sewn.is_b);
         self.sewn.get(&edge).map_or(&[], side)
@@ -99,7 +110,7 @@ impl<'a> Ways<'a> {
         chain.iter().map(|edge| self.style.edge(*edge).line.length()).sum()
     }
 
-    /// The point that is sewn to a point of an edge, at the same share of its side; `None` of a free edge.
+    /// Point that is sewn to a point of an edge: at the same share of the other side. `None` for a free edge.
     pub fn across(&self, point: EdgePoint) -> Option<EdgePoint> {
         let sewn = self.sewn.get(&point.edge)?;
         let along = |edge: EdgeRef, arc_m: f64, forwards: bool| {
@@ -119,7 +130,7 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Direction in which a seam is sewn at a point of one of its edges; of a free edge its own.
+    /// Direction of sewing at a point of an edge. For a free edge it is that of the edge.
     fn sewn_along(&self, point: EdgePoint) -> V2 {
         let line = &self.style.edge(point.edge).line;
         let ahead = line.at(point.arc_m + LEAST_M) - line.at(point.arc_m - LEAST_M);
@@ -127,10 +138,10 @@ impl<'a> Ways<'a> {
         if forwards { ahead.normalize() } else { -ahead.normalize() }
     }
 
-    /// Directions that a way may take from a point; `turn` turns the direction in which it came to the seam into the point's piece.
+    /// Candidate directions of a path from a point. `came` is the direction in which it entered the piece, if any.
     fn directions(&self, at: EdgePoint, heading: Heading, came: Option<V2>) -> Vec<V2> {
         match (self.down[at.edge.piece], heading, came) {
-            // Into what a dart turns the cloth where there is none straight on.
+            // The direction through the seam is tried if the straight one leads off the piece, as beside a dart.
             (Some(down), Heading::Down, came) => [Some(down), came].into_iter().flatten().collect(),
             (Some(down), Heading::Level, came) => {
                 let level = V2::new(-down.y, down.x);
@@ -141,14 +152,14 @@ impl<'a> Ways<'a> {
         }
     }
 
-    /// Direction at right angles to an edge, into its piece.
+    /// Inward normal of an edge.
     fn inwards(&self, at: EdgePoint) -> V2 {
         let line = &self.style.edge(at.edge).line;
         let ahead = (line.at(at.arc_m + LEAST_M) - line.at(at.arc_m - LEAST_M)).normalize();
         V2::new(-ahead.y, ahead.x)
     }
 
-    /// Where a straight way from a point leaves its piece; `None` where it does not enter it.
+    /// Point at which a straight path from a point leaves its piece. `None` if it does not enter it.
     fn leaves(&self, piece: usize, start: V2, direction: V2) -> Option<EdgePoint> {
         let ray = (start, start + direction * REACH_M);
         let mut nearest: Option<(f64, EdgePoint)> = None;
@@ -167,8 +178,8 @@ impl<'a> Ways<'a> {
         contains(&self.style.pieces[piece].outline(), &middle).then_some(end)
     }
 
-    /// The way from a point of an edge until `is_end` says so of a point that it comes to, or the edge there is free; `None` where
-    /// no cloth lies that way.
+    /// Path from a point of an edge to the first point of an outline that satisfies `is_end`, or to a free edge. `None`
+    /// if no cloth lies that way.
     pub fn walk(&self, from: EdgePoint, heading: Heading, is_end: impl Fn(EdgePoint) -> bool) -> Option<Way> {
         let (mut at, mut came, mut parts) = (from, None, Vec::new());
         while parts.len() < MOST_PIECES {
@@ -190,23 +201,23 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// The point at a distance along a path of straight parts, m, and its piece; `None` beyond its ends.
-    pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<(usize, V2)> {
+    /// Point at a distance along a path of straight parts, m. `None` beyond its ends.
+    pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<PiecePoint> {
         let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
         for part in path {
             let PathPart::Line([from, to]) = part else { return None };
             let (start, end) = (self.style.place(*from), self.style.place(*to));
             let length_m = (end - start).norm();
             if rest_m <= length_m {
-                return Some((from.edge.piece, start.lerp(&end, rest_m / length_m)));
+                return Some(PiecePoint { piece: from.edge.piece, at: start.lerp(&end, rest_m / length_m) });
             }
             rest_m -= length_m;
         }
         None
     }
 
-    /// The way round the body or a limb from a point of a sewn edge: until it comes back, or where the garment is open, from one
-    /// free edge to the other.
+    /// Path round the body or a limb from a point of a sewn edge. It ends when it comes back. In an open garment it
+    /// runs from one free edge to the other.
     pub fn round(&self, from: EdgePoint) -> Option<Vec<PathPart>> {
         let start = self.style.place(from);
         let is_back = |end: EdgePoint| {
@@ -220,30 +231,30 @@ impl<'a> Ways<'a> {
         self.open_round(ahead.parts, from)
     }
 
-    /// The way round the body or a limb through a point within a piece, likewise.
-    pub fn round_through(&self, piece: usize, at: V2) -> Option<Vec<PathPart>> {
+    /// Path round the body or a limb through a point within a piece, as [`Ways::round`].
+    pub fn round_through(&self, PiecePoint { piece, at }: PiecePoint) -> Option<Vec<PathPart>> {
         let down = self.down[piece]?;
         let level = V2::new(-down.y, down.x);
-        let [one, other] = [self.leaves(piece, at, level)?, self.leaves(piece, at, -level)?];
-        let across = PathPart::Line([other, one]);
-        let start = self.style.place(other);
+        let [ahead, behind] = [self.leaves(piece, at, level)?, self.leaves(piece, at, -level)?];
+        let across = PathPart::Line([behind, ahead]);
+        let start = self.style.place(behind);
         let is_back = |end: EdgePoint| {
             let next = self.across(end).filter(|next| next.edge.piece == piece);
             next.is_some_and(|next| (self.style.place(next) - start).norm() < BACK_M)
         };
         let mut path = vec![across];
-        // A piece that is sewn to itself goes round by itself.
-        if is_back(one) {
+        // A piece that is sewn to itself closes the path by itself.
+        if is_back(ahead) {
             return Some(path);
         }
-        let Some(next) = self.across(one) else { return self.open_round(path, other) };
-        let ahead = self.walk(next, Heading::Level, is_back)?;
-        let came_back = is_back(ahead.end);
-        path.extend(ahead.parts);
-        if came_back { Some(path) } else { self.open_round(path, other) }
+        let Some(next) = self.across(ahead) else { return self.open_round(path, behind) };
+        let rest = self.walk(next, Heading::Level, is_back)?;
+        let came_back = is_back(rest.end);
+        path.extend(rest.parts);
+        if came_back { Some(path) } else { self.open_round(path, behind) }
     }
 
-    /// The rest of a way round that came to a free edge: the other way from its start.
+    /// Extends a path that came to a free edge by the part in the other direction from its start.
     fn open_round(&self, mut path: Vec<PathPart>, start: EdgePoint) -> Option<Vec<PathPart>> {
         if let Some(next) = self.across(start) {
             path.extend(self.walk(next, Heading::Level, |_| false)?.parts);

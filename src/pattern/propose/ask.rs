@@ -1,24 +1,24 @@
-//! Questions to the person who sews: what could not be told, what may be answered, and what they answered.
+//! Questions to the user: facts that could not be determined, possible answers, and the answers given.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// What a person must decide.
+/// A question that the user should decide.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Question {
     /// Number by which it is answered.
     pub number: usize,
-    /// The question in words.
+    /// Text of the question.
     pub text: String,
-    /// What may be answered, the likeliest first; empty where only an edit of the seam file helps.
+    /// Possible answers, the likeliest first. Empty if only an edit of the seam file helps.
     pub choices: Vec<String>,
-    /// The choice that is taken: the person's, or the one that stands while nobody answers.
+    /// Choice in effect: the answer of the user, or the default without one.
     pub taken: Option<usize>,
-    /// Whether a person answered.
+    /// True if the user answered.
     pub is_answered: bool,
 }
 
-/// An answer to nothing that is asked.
+/// An answer to a question or choice that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("answer {number}={letter}: accepted: {accepted}")]
 pub struct UnknownAnswer {
@@ -26,11 +26,11 @@ pub struct UnknownAnswer {
     pub number: usize,
     /// Letter of the choice.
     pub letter: char,
-    /// What would be accepted.
+    /// Description of what is accepted.
     pub accepted: String,
 }
 
-/// Numbers questions in the order in which they were first asked; `known` are the texts of those asked so far.
+/// Numbers questions in the order in which they were first asked. `known` are the texts of all earlier ones.
 pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
     for question in questions.iter_mut() {
         let place = known.iter().position(|text| *text == question.text);
@@ -42,16 +42,16 @@ pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
     questions.sort_by_key(|question| question.number);
 }
 
-/// Answers by the text of their question: the index of the choice.
+/// Answers by the text of their question, as the index of the choice.
 pub type Answers = BTreeMap<String, usize>;
 
 impl Question {
-    /// What has no choices.
+    /// Makes a question without choices.
     pub(super) fn told(text: String) -> Self {
         Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false }
     }
 
-    /// A question as it is written: the reverse of its text form.
+    /// Parses the text form of a question.
     #[must_use]
     pub fn parse(written: &str) -> Self {
         let mut question = Self::told(written.to_owned());
@@ -82,7 +82,7 @@ impl Question {
 }
 
 impl fmt::Display for Question {
-    /// The question with its choices: `which is it? a: the right one; b: the left one (a is taken)`.
+    /// Writes the question with its choices: `which is it? a: the right one; b: the left one (a is taken)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)?;
         for (index, choice) in self.choices.iter().enumerate() {
@@ -97,46 +97,46 @@ impl fmt::Display for Question {
     }
 }
 
-/// Asks questions: looks up what was answered, and keeps what was asked.
+/// Asks questions: looks up given answers, and collects the questions.
 pub(super) struct Asker<'a> {
     answers: &'a Answers,
     asked: Vec<Question>,
 }
 
 impl<'a> Asker<'a> {
-    /// With the answers there are.
+    /// Makes an asker with given answers.
     pub fn new(answers: &'a Answers) -> Self {
         Self { answers, asked: Vec::new() }
     }
 
-    /// One that knows the same answers, for a trial whose questions nobody hears.
+    /// Makes an asker with the same answers for a trial whose questions are discarded.
     pub fn aside(&self) -> Self {
         Self::new(self.answers)
     }
 
-    /// Whether a person has answered a question.
+    /// True if the user has answered a question.
     pub fn is_answered(&self, text: &str) -> bool {
         self.answers.contains_key(text)
     }
 
-    /// All questions that were asked, in order.
+    /// All questions in the order in which they were asked.
     pub fn into_questions(self) -> Vec<Question> {
         self.asked
     }
 
-    /// Asks what has no choices.
+    /// Asks a question without choices.
     pub fn tell(&mut self, text: String) {
         self.keep(Question::told(text));
     }
 
-    /// Keeps a question; what is asked of both sides of the wearer alike is asked once.
+    /// Collects a question. A question that concerns both sides of the wearer is asked once.
     fn keep(&mut self, question: Question) {
         if !self.asked.iter().any(|asked| asked.text == question.text) {
             self.asked.push(question);
         }
     }
 
-    /// The choice of a person, or else the one that stands while nobody answers.
+    /// Returns the choice of the user, or the default `stands` without an answer.
     pub fn ask<S: Into<String>>(
         &mut self,
         text: String,

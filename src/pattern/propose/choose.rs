@@ -1,36 +1,38 @@
-//! Which pieces are meant where a file holds several for one place, and how waistbands go round.
+//! Choice among several pieces for one place, and the arrangement of waistbands.
 
 use std::collections::BTreeMap;
 
 use super::ask::Asker;
-use super::names::Part;
 use super::recognise::{Recognised, is_whole_leg, length_m};
-use super::worn::{self, id_of};
-use super::{Class, Face, Hand, Label, sew};
+use super::worn_pieces::{self, id_of};
+use super::{Class, Face, Hand, Label, PartName, sew};
 use crate::piece::Piece;
 
-/// Most combinations of pieces that are tried.
+/// Greatest number of combinations of pieces that are tried.
 const MOST_COMBINATIONS: usize = 256;
-/// Length of a waistband over that of all it is sewn to: all round, with an underlap or eased.
+/// Ratio of the length of a waistband to that of all edges it is sewn to, for a band all round. It may have an underlap
+/// or be eased.
 const ROUND: std::ops::RangeInclusive<f64> = 0.8..=1.35;
-/// The same of half a waistband.
+/// The same ratio for half a waistband.
 const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 
-/// The pieces that make a garment, one for each place: of several the one that the person names, or else
-/// those whose edges fit their neighbours' best.
+/// Selects the pieces of a garment, one for each place. Of several candidates it is the one that the user names, or the
+/// one whose edges fit its neighbours best.
 pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Asker<'_>) -> Vec<Recognised> {
     leave_out_sleeves_in_two(pieces, &mut recognised, asker);
     leave_out_half_sleeves(pieces, &mut recognised, asker);
     let mut places: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one) && one.gore.is_none()) {
-        places.entry(id_of(one, one.hand)).or_default().push(index);
+    for (index, candidate) in
+        recognised.iter().enumerate().filter(|(_, candidate)| !is_round_band(candidate) && candidate.gore.is_none())
+    {
+        places.entry(id_of(candidate, candidate.hand)).or_default().push(index);
     }
     places.retain(|_, rivals| rivals.len() > 1);
     let contested: Vec<&Vec<usize>> = places.values().collect();
     let mut taken = best_of(pieces, &recognised, &contested, asker);
     for (k, (place, rivals)) in places.iter().enumerate() {
         let names: Vec<&str> = rivals.iter().map(|&rival| pieces[recognised[rival].piece].name.as_str()).collect();
-        // The trunk has no word in identifiers.
+        // Identifiers have no word for the trunk.
         let place = if place.is_empty() { Class::Body.as_str().to_owned() } else { place.replace('_', " ") };
         let text = format!("which piece is the {place}?");
         taken[k] = asker.ask(text, names, Some(taken[k])).unwrap_or(taken[k]);
@@ -40,21 +42,21 @@ pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Ask
     left
 }
 
-/// Asks which waistband is worn where there are more than go round.
+/// Asks which waistband is worn if there are more than fit round the waist.
 fn ask_band(pieces: &[Piece], all: &[Recognised], left: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
-    let bands: Vec<&Recognised> = all.iter().filter(|one| is_round_band(one)).collect();
-    let is_left = |band: &&Recognised| left.iter().any(|one| one.piece == band.piece);
+    let bands: Vec<&Recognised> = all.iter().filter(|candidate| is_round_band(candidate)).collect();
+    let is_left = |band: &&Recognised| left.iter().any(|candidate| candidate.piece == band.piece);
     let Some(stands) = bands.iter().position(is_left).filter(|_| !bands.iter().all(is_left)) else { return };
     let names: Vec<&str> = bands.iter().map(|band| pieces[band.piece].name.as_str()).collect();
     let taken = asker.ask("which piece is the waistband?".to_owned(), names, Some(stands));
     if let Some(taken) = taken.filter(|&taken| taken != stands) {
-        left.retain(|one| one.class != Class::Waistband);
+        left.retain(|candidate| candidate.class != Class::Waistband);
         left.push(bands[taken].clone());
         go_round(left);
     }
 }
 
-/// For each contested place which of its rivals is taken: those whose edges fit their neighbours' best; of equals the first.
+/// Best candidate for each contested place: those whose edges fit their neighbours best, and of equals the first.
 fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], asker: &Asker<'_>) -> Vec<usize> {
     let count = contested.iter().fold(1_usize, |count, rivals| count.saturating_mul(rivals.len()));
     let mut best = (f64::NEG_INFINITY, vec![0; contested.len()]);
@@ -69,7 +71,7 @@ fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], aske
             digit
         };
         let taken: Vec<usize> = contested.iter().map(digit).collect();
-        let worn = worn::worn(pieces, &kept(all, contested, &taken), None, &mut asker.aside());
+        let worn = worn_pieces::worn(pieces, &kept(all, contested, &taken), None, &mut asker.aside());
         let sum: f64 = sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum();
         if sum > best.0 + 1e-9 {
             best = (sum, taken);
@@ -78,52 +80,56 @@ fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], aske
     best.1
 }
 
-/// What is left when each contested place has one of its rivals; waistbands go round.
+/// Pieces that remain if each contested place has one of its candidates. Waistbands are arranged.
 fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<Recognised> {
     let chosen =
         |index: usize| contested.iter().zip(taken).all(|(rivals, &k)| !rivals.contains(&index) || rivals[k] == index);
     let left = all.iter().enumerate().filter(|(index, _)| chosen(*index));
-    let mut left: Vec<Recognised> = left.map(|(_, one)| one.clone()).collect();
+    let mut left: Vec<Recognised> = left.map(|(_, candidate)| candidate.clone()).collect();
     go_round(&mut left);
     left
 }
 
-/// Takes out an upper and an under sleeve: where their seams meet the armhole no outline says, and one of them alone
-/// is no sleeve.
+/// Removes an upper and an under sleeve. No outline tells where their seams meet the armhole, and one of them alone is
+/// no sleeve.
 fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
-    let is_whole_sleeve = |one: &&Recognised| one.class == Class::Sleeve && one.face.is_none();
+    let is_whole_sleeve = |candidate: &&Recognised| candidate.class == Class::Sleeve && candidate.face.is_none();
     let whole: Vec<&Recognised> = recognised.iter().filter(is_whole_sleeve).collect();
-    let unders = whole.iter().filter(|one| one.part == Some(Part::Under)).count();
+    let unders = whole.iter().filter(|candidate| candidate.part == Some(PartName::Under)).count();
     if unders > 0 && unders < whole.len() {
-        let names = whole.iter().map(|one| format!("`{}`", pieces[one.piece].name)).collect::<Vec<_>>().join(", ");
+        let names =
+            whole.iter().map(|candidate| format!("`{}`", pieces[candidate.piece].name)).collect::<Vec<_>>().join(", ");
         asker.tell(format!(
             "left out: {names}: a sleeve in two pieces; at which place of the armhole do its seams begin?"
         ));
-        recognised.retain(|one| !is_whole_sleeve(&one));
+        recognised.retain(|candidate| !is_whole_sleeve(&candidate));
     }
 }
 
-/// Takes out sleeves in halves where there is a whole one: they are another way to cut it.
+/// Removes half sleeves if there is a whole one: they are another way to cut it.
 fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
-    let is_half = |one: &Recognised| one.class == Class::Sleeve && one.face.is_some();
-    let has_whole = recognised.iter().any(|one| one.class == Class::Sleeve && !is_half(one));
-    let halves: Vec<String> =
-        recognised.iter().filter(|one| is_half(one)).map(|one| format!("`{}`", pieces[one.piece].name)).collect();
+    let is_half = |candidate: &Recognised| candidate.class == Class::Sleeve && candidate.face.is_some();
+    let has_whole = recognised.iter().any(|candidate| candidate.class == Class::Sleeve && !is_half(candidate));
+    let halves: Vec<String> = recognised
+        .iter()
+        .filter(|candidate| is_half(candidate))
+        .map(|candidate| format!("`{}`", pieces[candidate.piece].name))
+        .collect();
     if has_whole && !halves.is_empty() {
         let text = "a sleeve in one piece, or in halves?".to_owned();
         let in_halves = Some(1) == asker.ask(text, ["in one piece".to_owned(), halves.join(", ")], Some(0));
-        let is_whole = |one: &Recognised| one.class == Class::Sleeve && !is_half(one);
-        recognised.retain(|one| if in_halves { !is_whole(one) } else { !is_half(one) });
+        let is_whole = |candidate: &Recognised| candidate.class == Class::Sleeve && !is_half(candidate);
+        recognised.retain(|candidate| if in_halves { !is_whole(candidate) } else { !is_half(candidate) });
     }
 }
 
-/// A waistband that its name gives to no side and no face.
-fn is_round_band(one: &Recognised) -> bool {
-    one.class == Class::Waistband && one.face.is_none() && one.hand.is_none()
+/// True for a waistband whose name gives neither a side nor a face.
+fn is_round_band(candidate: &Recognised) -> bool {
+    candidate.class == Class::Waistband && candidate.face.is_none() && candidate.hand.is_none()
 }
 
-/// Settles how waistbands without a side or a face go round, by their length beside that of what they are sewn to: one all
-/// round, two for the right and the left side, or one cut twice. Bands beyond these are dropped.
+/// Arranges waistbands without a side or a face by the ratio of their length to that of the edges they are sewn to.
+/// There may be one all round, two for the right and left side, or one that is cut twice. Further bands are dropped.
 fn go_round(chosen: &mut Vec<Recognised>) {
     let bands: Vec<usize> = (0..chosen.len()).filter(|&i| is_round_band(&chosen[i])).collect();
     let waist = waist_m(chosen);
@@ -132,18 +138,18 @@ fn go_round(chosen: &mut Vec<Recognised>) {
     }
     let share = |i: usize| length_m(&chosen[i], Label::Lower) / waist;
     let halves: Vec<usize> = bands.iter().copied().filter(|&i| HALF.contains(&share(i))).collect();
-    // Total share, then the bands of a way to go round; two different halves before one cut twice.
+    // Candidate arrangements, each with its total ratio and its bands. Two different halves come before one cut twice.
     let two = halves.iter().enumerate().flat_map(|(k, &i)| halves[k + 1..].iter().map(move |&j| vec![i, j]));
     let two = two.map(|pair| (pair.iter().map(|&i| share(i)).sum::<f64>(), pair));
-    let one = bands.iter().map(|&i| (share(i), vec![i]));
+    let single = bands.iter().map(|&i| (share(i), vec![i]));
     let twice = halves.iter().map(|&i| (2.0 * share(i), vec![i, i]));
-    let ways = two.chain(one).chain(twice).filter(|(total, _)| ROUND.contains(total));
+    let ways = two.chain(single).chain(twice).filter(|(total, _)| ROUND.contains(total));
     let Some((_, way)) = ways.min_by(|a, b| a.0.ln().abs().total_cmp(&b.0.ln().abs())) else { return };
-    if let [one, other] = way[..] {
-        chosen[one].is_pair = one == other;
-        if one != other {
-            chosen[one].hand = Some(Hand::Right);
-            chosen[other].hand = Some(Hand::Left);
+    if let [first, second] = way[..] {
+        chosen[first].is_pair = first == second;
+        if first != second {
+            chosen[first].hand = Some(Hand::Right);
+            chosen[second].hand = Some(Hand::Left);
         }
     }
     let mut index = 0;
@@ -153,28 +159,34 @@ fn go_round(chosen: &mut Vec<Recognised>) {
     });
 }
 
-/// Length of all edges that a waistband is sewn to, as worn, m: of skirt or legs, or else of the lower edge of a trunk.
+/// Total length of the edges that a waistband is sewn to, as worn, m. They are those of skirt or legs, or else the
+/// lower edge of a trunk.
 fn waist_m(chosen: &[Recognised]) -> f64 {
-    let of = |class: Class, label: Label| -> f64 {
-        let copies = |one: &Recognised| match one.gore {
+    let total_m = |class: Class, label: Label| -> f64 {
+        let copies = |candidate: &Recognised| match candidate.gore {
             Some(cut) => f64::from(cut.times()),
-            None if (one.alignment.template.is_whole && !is_whole_leg(one)) || one.hand.is_some() => 1.0,
+            None if (candidate.alignment.template.is_whole && !is_whole_leg(candidate)) || candidate.hand.is_some() => {
+                1.0
+            }
             None => 2.0,
         };
-        // A yoke stands for what it lies on.
+        // A yoke takes the place of the pieces that it is sewn onto.
         let has_yoke = |face: Option<Face>| {
-            let is_low = |one: &Recognised| one.class == Class::Yoke && one.alignment.template.has(Label::Waist);
-            chosen.iter().any(|one| is_low(one) && one.face == face)
+            let is_low = |candidate: &Recognised| {
+                candidate.class == Class::Yoke && candidate.alignment.template.has(Label::Waist)
+            };
+            chosen.iter().any(|candidate| is_low(candidate) && candidate.face == face)
         };
-        let is_it = |one: &&Recognised| {
-            let is_yoke = one.class == Class::Yoke && class != Class::Body && one.alignment.template.has(label);
-            let is_panel = class == Class::Body && one.class == Class::SidePanel;
-            is_yoke || is_panel || (one.class == class && (class == Class::Body || !has_yoke(one.face)))
+        let is_it = |candidate: &&Recognised| {
+            let is_yoke =
+                candidate.class == Class::Yoke && class != Class::Body && candidate.alignment.template.has(label);
+            let is_panel = class == Class::Body && candidate.class == Class::SidePanel;
+            is_yoke || is_panel || (candidate.class == class && (class == Class::Body || !has_yoke(candidate.face)))
         };
-        chosen.iter().filter(is_it).map(|one| copies(one) * length_m(one, label)).sum()
+        chosen.iter().filter(is_it).map(|candidate| copies(candidate) * length_m(candidate, label)).sum()
     };
     [(Class::Skirt, Label::Waist), (Class::Leg, Label::Waist), (Class::Body, Label::Hem)]
         .into_iter()
-        .find(|(class, _)| chosen.iter().any(|one| one.class == *class))
-        .map_or(0.0, |(class, label)| of(class, label))
+        .find(|(class, _)| chosen.iter().any(|candidate| candidate.class == *class))
+        .map_or(0.0, |(class, label)| total_m(class, label))
 }

@@ -1,8 +1,9 @@
-//! Names that outlines and seams contradict: what a name says stands as long as the garment is not sewn better without it.
+//! Doubt about names that outlines and seams contradict. A name holds unless the garment is sewn better without it.
 //!
-//! A word may be of the trade by chance: a T-shirt called `ROCK` is no German skirt. So where a piece looks like another kind than it is
-//! called, the garment is sewn both ways, and the surer one is taken. What a piece's own name says is asked about then; what all names of
-//! the file have in common is the style's, and is passed over.
+//! A name may contain a garment term by chance: a T-shirt called `ROCK` is no German skirt. If a piece looks like
+//! another kind than its name says, the garment is sewn both ways, and the one with more confidence is taken. The user
+//! is asked about the name of a single piece. Words that all names of the file share belong to the style, and are
+//! ignored without a question.
 
 use super::align::upright;
 use super::ask::Asker;
@@ -14,30 +15,33 @@ use super::told::Told;
 use super::{Class, Face, Hand, ProposedSeam, Sewn, best_sewn};
 use crate::piece::Piece;
 
-/// Kinds that have a shape of their own, and so can contradict a name; bands and skirts are rectangles, as anything is.
+/// Kinds with a characteristic shape, which can contradict a name. Bands and skirts are rectangles, like many other
+/// pieces.
 const SHAPED: [Class; 3] = [Class::Body, Class::Leg, Class::Sleeve];
-/// Gain in the sum of confidences, less one for each seam that lacks, for which what names say is set aside: half a seam. Without their
-/// names pieces are less sure anyway.
+/// Least gain, in the sum of confidences less the number of missing seams, for which names are set aside: half a seam.
+/// Pieces without names are less certain anyway.
 const LEAST_GAIN: f64 = 0.5;
-/// Loss in the sum of confidences for which what a name says is not doubted any more.
+/// Loss in the same sum up to which a claim that is set aside is restored.
 const NO_LOSS: f64 = 0.05;
-/// How much better the outline fits another kind than all names of the file say before that is doubted; less than of a piece's own name.
+/// Least advantage in the fit of another kind for doubting a word that all names share. It is lower than that for the
+/// own name of a piece.
 const SHARED_MARGIN: f64 = 0.1;
-/// Least confidence of the seams of a piece that is what it is called.
+/// Least confidence of all seams of a piece for its name to be trusted.
 const WELL_SEWN: f64 = 0.5;
 
-/// What a name says that may not hold.
+/// Statement of a name that may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Says {
-    /// The kind of piece, though it looks like this one.
+    /// The kind of piece, though it looks like this other kind.
     Class(Class),
-    /// Front or back, though it looks like a sleeve or no piece is called the other.
+    /// Front or back, though it looks like a sleeve, or no piece is called the other.
     Face,
     /// Side of the wearer, though no piece is called the other.
     Hand,
 }
 
-/// What may not hold of the names of some pieces, all of them or none: of one by its own name, of several by what all names say.
+/// A doubtful statement of the names of some pieces, which holds for all of them or none. It is about one piece by its
+/// own name, or about several by shared words.
 #[derive(Clone, Debug, PartialEq)]
 struct Claim {
     pieces: Vec<usize>,
@@ -45,7 +49,7 @@ struct Claim {
     is_own: bool,
 }
 
-/// What pieces are called, without what does not hold, and the way to read them.
+/// Names of pieces without the statements that do not hold, and the best reading.
 pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<Named>, Reading) {
     let all: Vec<Named> = told.iter().map(|told| told.all()).collect();
     let as_called = best_sewn(pieces, &all, asker);
@@ -56,7 +60,7 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     let mut aside = aside(pieces, &all, &claims, &as_called, asker);
     for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
         let piece = claim.pieces[0];
-        let (text, choices) = question(&pieces[piece].name, all[piece], claim.says);
+        let ClaimQuestion { text, choices } = question(&pieces[piece].name, all[piece], claim.says);
         *is_aside = asker.ask(text, choices, Some(1)) == Some(1);
     }
     let named = without(&all, &claims, &aside);
@@ -64,20 +68,26 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     (named, reading)
 }
 
-/// What is asked of a claim that is set aside: what the name says, and what holds else.
-fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
+/// A question about a claim.
+struct ClaimQuestion {
+    text: String,
+    choices: [String; 2],
+}
+
+/// Question about a claim that is set aside: the statement of the name, and the alternative.
+fn question(name: &str, named: Named, says: Says) -> ClaimQuestion {
     match says {
         Says::Class(looks) => {
             let says = named.class.map_or("part", Class::as_str);
             let looks = looks.as_str();
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
-            (text, [says, looks].map(|class| format!("a {class}")))
+            ClaimQuestion { text, choices: [says, looks].map(|class| format!("a {class}")) }
         }
         Says::Face => {
             let face = named.face.unwrap_or(Face::Front);
             let text =
                 format!("piece `{name}`: its name says a {face}, and what is sewn to it something else; which is it?");
-            (text, [format!("a {face}"), "what its outline says".to_owned()])
+            ClaimQuestion { text, choices: [format!("a {face}"), "what its outline says".to_owned()] }
         }
         Says::Hand => {
             let hand = named.hand.unwrap_or(Hand::Right);
@@ -85,12 +95,12 @@ fn question(name: &str, named: Named, says: Says) -> (String, [String; 2]) {
                 "piece `{name}`: its name says the {hand} side, and no piece is the {}; which is it?",
                 hand.other()
             );
-            (text, [format!("of the {hand} side alone"), "of both sides".to_owned()])
+            ClaimQuestion { text, choices: [format!("of the {hand} side alone"), "of both sides".to_owned()] }
         }
     }
 }
 
-/// What names say without the claims that are set aside.
+/// Statements of names without the claims that are set aside.
 fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
     let mut named = all.to_vec();
     for (claim, _) in claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside) {
@@ -105,18 +115,18 @@ fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
     named
 }
 
-/// Which claims are set aside: those without which the seams are surer.
+/// Finds the claims to set aside: those without which the seams have more confidence.
 fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, asker: &Asker<'_>) -> Vec<bool> {
-    // A piece whose name is set aside is sewn to others then, and as what its name does not say.
+    // Setting a claim aside has an effect only if its piece is then sewn to others, and differs from its name.
     let is_vain = |sewn: &Sewn, claim: &Claim| {
         let is_otherwise = |&piece: &usize| {
-            let class = sewn.worn.iter().find(|one| one.piece == piece).map(|one| one.class);
+            let class = sewn.worn.iter().find(|worn| worn.piece == piece).map(|worn| worn.class);
             let is_other = !matches!(claim.says, Says::Class(_)) || class != all[piece].class;
-            is_other && seams_of(sewn, piece).iter().any(|(_, of)| of.iter().any(|other| *other != piece))
+            is_other && seams_of(sewn, piece).iter().any(|own| own.pieces.iter().any(|other| *other != piece))
         };
         !claim.pieces.iter().any(is_otherwise)
     };
-    let of = |aside: &[bool]| {
+    let worth_of = |aside: &[bool]| {
         let sewn = best_sewn(pieces, &without(all, claims, aside), asker);
         let mut set = claims.iter().zip(aside).filter(|(_, is_aside)| **is_aside);
         if set.any(|(claim, _)| is_vain(&sewn, claim)) { f64::NEG_INFINITY } else { sewn.worth() }
@@ -126,15 +136,15 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, as
     let is_detail = |claim: &Claim| all[claim.pieces[0]].class == Some(Class::Other);
     let worn: Vec<bool> = claims.iter().map(|claim| !is_detail(claim)).collect();
     for trial in [worn, vec![true; claims.len()]] {
-        let found = of(&trial);
+        let found = worth_of(&trial);
         if found > best + LEAST_GAIN {
             (aside, best) = (trial, found);
         }
     }
-    // What is set aside needlessly stands again, and what is doubted alone may go.
+    // Each claim is then toggled alone: it is restored if setting it aside was needless, or set aside if that helps.
     for k in 0..claims.len() {
         aside[k] = !aside[k];
-        let changed = of(&aside);
+        let changed = worth_of(&aside);
         if changed > best + if aside[k] { LEAST_GAIN } else { -NO_LOSS } {
             best = changed;
         } else {
@@ -144,13 +154,13 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, as
     aside
 }
 
-/// Claims that outlines, seams or the other names contradict.
+/// Claims that outlines, seams or other names contradict.
 fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) -> Vec<Claim> {
     let worn: Vec<&Named> = all.iter().filter(|named| named.class != Some(Class::Other)).collect();
     let faces: Vec<Face> = worn.iter().filter_map(|named| named.face).collect();
     let is_one_face = faces.len() > 1 && faces.iter().all(|face| *face == faces[0]);
     let is_alone = |hand: Hand| worn.iter().all(|named| named.hand != Some(hand.other()));
-    // Of several for one place one is worn.
+    // One of several pieces for one place is worn.
     let is_spare = |k: usize| {
         let is_rival = |other: usize| (all[other].class, all[other].face) == (all[k].class, all[k].face);
         (0..all.len()).any(|other| well_sewn[other] && is_rival(other))
@@ -199,27 +209,39 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
     claims
 }
 
-/// Which pieces are sewn to others, all for sure.
+/// True for each piece that is sewn to others with sufficient confidence.
 fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     let is_well_sewn = |piece: usize| {
         let own = seams_of(sewn, piece);
-        own.iter().all(|(seam, _)| seam.confidence >= WELL_SEWN)
-            && own.iter().any(|(_, of)| of.iter().any(|other| *other != piece))
+        own.iter().all(|joined| joined.seam.confidence >= WELL_SEWN)
+            && own.iter().any(|joined| joined.pieces.iter().any(|other| *other != piece))
     };
     (0..pieces.len()).map(is_well_sewn).collect()
 }
 
-/// Seams of a piece, with the pieces that each joins.
-fn seams_of(sewn: &Sewn, piece: usize) -> Vec<(&ProposedSeam, Vec<usize>)> {
-    let drawn = |edge: &String| {
-        let id = edge.split_once('.').map(|(id, _)| id);
-        sewn.worn.iter().find(|one| Some(one.id.as_str()) == id).map(|one| one.piece)
-    };
-    let of = |seam: &ProposedSeam| seam.entry.a.iter().chain(&seam.entry.b).filter_map(drawn).collect();
-    sewn.seams.iter().map(|seam| (seam, of(seam))).filter(|(_, of): &(_, Vec<usize>)| of.contains(&piece)).collect()
+/// Edges of both sides of a seam.
+fn edges_of(seam: &ProposedSeam) -> impl Iterator<Item = &String> {
+    seam.entry.a.iter().chain(&seam.entry.b)
 }
 
-/// The kind of some whose templates fit best, and how well.
+/// A seam with the pieces that it joins.
+struct JoinedSeam<'s> {
+    seam: &'s ProposedSeam,
+    /// Indices of the pieces, once for each edge.
+    pieces: Vec<usize>,
+}
+
+/// Seams of a piece, each with the pieces that it joins.
+fn seams_of(sewn: &Sewn, piece: usize) -> Vec<JoinedSeam<'_>> {
+    let drawn = |edge: &String| {
+        let id = edge.split_once('.').map(|(id, _)| id);
+        sewn.worn.iter().find(|worn| Some(worn.id.as_str()) == id).map(|worn| worn.piece)
+    };
+    let joined = |seam| JoinedSeam { seam, pieces: edges_of(seam).filter_map(drawn).collect() };
+    sewn.seams.iter().map(joined).filter(|joined| joined.pieces.contains(&piece)).collect()
+}
+
+/// Kind of piece whose templates fit best, and its score.
 fn best_of(shape: &Shape, classes: &[Class]) -> (Class, f64) {
     let fit = |class: Class| {
         let is_one = |template: &Template| template.class == class && !template.is_panel();

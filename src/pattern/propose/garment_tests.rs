@@ -4,7 +4,7 @@ use super::*;
 use crate::style::Style;
 use geom::V2;
 
-/// A piece in mm; the third number of a vertex says whether it is a corner.
+/// A piece in mm. The third number of a vertex is 1 for a corner.
 fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let place = |&(x, y, _): &(f64, f64, u8)| V2::new(x, y) * 1e-3;
     Piece {
@@ -40,7 +40,7 @@ fn shirt() -> Vec<Piece> {
     ]
 }
 
-/// A sleeve so many times as wide as the armholes need.
+/// A sleeve, wider than the armholes require by a factor.
 fn sleeve(wide: f64) -> Piece {
     let cap = [(380.0, 300.0, 1), (290.0, 340.0, 0), (230.0, 400.0, 0), (180.0, 420.0, 0)];
     let rest = [(130.0, 400.0, 0), (70.0, 340.0, 0), (-20.0, 300.0, 1)];
@@ -49,7 +49,7 @@ fn sleeve(wide: f64) -> Piece {
     piece("SLEEVE", &all)
 }
 
-/// Half front and half back of trousers, the back up to a waist at so many mm.
+/// Half front and half back of trousers, the back up to a waist at a given height, mm.
 fn legs(back_waist: f64) -> Vec<Piece> {
     let crotch = [(85.0, 850.0, 0), (60.0, 790.0, 0), (10.0, 770.0, 1)];
     let front = [&[(60.0, 0.0, 1), (280.0, 0.0, 1), (300.0, 1000.0, 1), (90.0, 1000.0, 1)][..], &crotch].concat();
@@ -64,7 +64,8 @@ fn seam<'p>(proposal: &'p Proposal, name: &str) -> &'p ProposedSeam {
     proposal.seams.iter().find(|seam| seam.entry.name == name).unwrap_or_else(|| panic!("no {name} in {:?}", all()))
 }
 
-/// What is draped with nobody to ask, as a style; once it is sewn, no piece meets itself but where `closed` says so.
+/// Style of the part that is draped without questions. Once it is sewn, no piece meets itself, except where `closed`
+/// says so.
 fn draped(pieces: &[Piece], closed: &[&str]) -> Proposal {
     let proposal = propose(pieces).to_drape().expect("it can be worn");
     let style = Style::read(pieces, proposal.toml("x").as_bytes(), "x").expect("a style");
@@ -108,7 +109,7 @@ fn a_shirt_with_a_yoke_is_sewn_whole_and_its_details_are_left_out() {
         seam(&proposal, name);
     }
     let roles: Vec<Role> =
-        proposal.worn.iter().filter(|one| one.id.contains("yoke")).map(|one| one.entry.role).collect();
+        proposal.worn.iter().filter(|worn| worn.id.contains("yoke")).map(|worn| worn.entry.role).collect();
     assert_eq!(roles, [Role::Back; 2]);
     let left_out = proposal.notes.iter().find(|note| note.starts_with("left out")).expect("it is said");
     assert!(left_out.contains("`POCKET`, `COLLAR`"), "{left_out}");
@@ -122,7 +123,7 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
     assert!(whole.pieces.iter().any(|piece| piece.id.as_deref() == Some("sleeve_right")), "a person may sew it");
     let proposal = draped(&pieces, &[]);
     assert!(
-        proposal.worn.iter().all(|one| !one.id.contains("sleeve") && !one.id.contains("cuff")),
+        proposal.worn.iter().all(|worn| !worn.id.contains("sleeve") && !worn.id.contains("cuff")),
         "{:?}",
         proposal.seams
     );
@@ -134,7 +135,7 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
         let error = propose(&rest).to_drape().expect_err(gone).to_string();
         assert!(error.contains(expect), "{gone}: {error}");
     }
-    // Two garments are not one.
+    // Two garments are not sewn as one.
     let skirt = ["SKIRT FRONT", "SKIRT BACK"].map(|name| strip(name, 420.0, 500.0));
     let error = propose(&[&skirt[..], &legs(1000.0)].concat()).to_drape().expect_err("two garments").to_string();
     assert!(error.contains("no seam joins"), "{error}");
@@ -143,12 +144,12 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
 #[test]
 fn waistbands_go_round_however_they_are_cut() {
     let with = |bands: &[Piece]| [&legs(1000.0)[..], bands].concat();
-    // All round, from centre front.
-    let one = draped(&with(&[strip("WAISTBAND", 880.0, 40.0)]), &["waistband"]);
+    // One band all round, from centre front.
+    let round = draped(&with(&[strip("WAISTBAND", 880.0, 40.0)]), &["waistband"]);
     let waist = ["leg_front_left.waist", "leg_back_left.waist", "leg_back_right.waist", "leg_front_right.waist"];
-    assert_eq!(seam(&one, "waist").entry.b, waist);
-    assert!((seam(&one, "waistband").a_mm - 40.0).abs() < 1e-6);
-    // Right and left, by two pieces or by one cut twice.
+    assert_eq!(seam(&round, "waist").entry.b, waist);
+    assert!((seam(&round, "waistband").a_mm - 40.0).abs() < 1e-6);
+    // A right and a left band, by two pieces or by one cut twice.
     for bands in
         [&[strip("WAISTBAND1", 430.0, 40.0), strip("WAISTBAND2", 460.0, 40.0)][..], &[strip("WAISTBAND", 430.0, 40.0)]]
     {
@@ -158,7 +159,7 @@ fn waistbands_go_round_however_they_are_cut() {
         assert!(seam(&two, "waistband_front").entry.a[0].starts_with("waistband_right"));
         seam(&two, "waistband_back");
     }
-    // One that fits nothing is left out; of two all round one is taken.
+    // A band that fits nothing is left out. Of two that go all round, one is taken.
     let none = draped(&with(&[strip("WAISTBAND", 1500.0, 40.0)]), &[]);
     assert!(none.notes.iter().any(|note| note.contains("left out: `WAISTBAND`")), "{:?}", none.notes);
     let outer =
@@ -192,7 +193,7 @@ fn of_several_pieces_for_one_place_the_one_that_fits_is_taken() {
     pieces.insert(0, short);
     let proposal = draped(&pieces, &[]);
     let fronts: Vec<&str> =
-        proposal.worn.iter().filter(|one| one.id.contains("front")).map(|one| one.entry.block.as_str()).collect();
+        proposal.worn.iter().filter(|worn| worn.id.contains("front")).map(|worn| worn.entry.block.as_str()).collect();
     assert_eq!(fronts, ["TROUSER FRONT"; 2]);
     assert!(
         proposal.questions.iter().any(|question| question.to_string().contains("b: TROUSER FRONT (b is taken)")),
@@ -207,7 +208,7 @@ fn half_of_a_sleeve_in_two_is_not_taken_for_a_sleeve() {
     let named = |name: &str| Piece { name: name.to_owned(), block: name.to_owned(), ..sleeve(0.5) };
     pieces.splice(3..4, [named("TOPSLEEVE"), named("UNDERSLEEVE")]);
     let proposal = draped(&pieces, &[]);
-    assert!(proposal.worn.iter().all(|one| !one.id.contains("sleeve")), "{:?}", proposal.worn);
+    assert!(proposal.worn.iter().all(|worn| !worn.id.contains("sleeve")), "{:?}", proposal.worn);
     let said: String = proposal.questions.iter().map(Question::to_string).collect();
     assert!(said.contains("left out: `TOPSLEEVE`, `UNDERSLEEVE`: a sleeve in two pieces"), "{said}");
 }
@@ -265,7 +266,7 @@ fn gores_are_sewn_all_round_and_to_their_band() {
     check(&banded, 8, &["waist_back_1", "waist_front_1", "waistband_left", "waistband_right"]);
 }
 
-/// Mirrored left to right, so that what is drawn for one side of the wearer is drawn for the other.
+/// Pieces mirrored left to right, so that those drawn for one side of the wearer are drawn for the other.
 fn mirrored(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let turned: Vec<(f64, f64, u8)> = vertices.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
     piece(name, &turned)
@@ -292,7 +293,8 @@ fn a_raglan_sleeve_is_sewn_to_front_and_back_up_to_the_neck() {
         }
         assert!(!proposal.seams.iter().any(|seam| seam.entry.name.contains("shoulder")));
     };
-    // As drawn the shorter side, the front's, is to the right: a right sleeve; and its mirror image.
+    // As drawn, the shorter side, which is the front's, is on the right: a right sleeve. Its mirror image is a left
+    // one.
     check(piece("RAGLAN SLEEVE", &sleeve));
     check(mirrored("SLEEVE", &sleeve));
 }
@@ -310,7 +312,7 @@ fn a_cowl_that_rises_in_the_middle_is_a_neck_all_along() {
     let proposal = draped(&pieces, &["side", "shoulder"]);
     let shoulders = ["shoulder_right", "shoulder_left"].map(|name| seam(&proposal, name).a_mm);
     assert!((shoulders[0] - shoulders[1]).abs() < 1e-6 && shoulders[0] < 60.0, "{shoulders:?}");
-    let front = &proposal.worn.iter().find(|one| one.id == "front").expect("a front").entry;
+    let front = &proposal.worn.iter().find(|worn| worn.id == "front").expect("a front").entry;
     assert_eq!(front.edges.keys().filter(|edge| edge.starts_with("neck")).count(), 1, "{:?}", front.edges);
 }
 
@@ -355,7 +357,7 @@ fn princess_seams_are_sewn_from_the_shoulder_or_the_armhole() {
         assert_eq!(seam(&proposal, "side_right").entry.a, ["side_front_right.side"]);
         assert_eq!(seam(&proposal, "shoulder_right").entry.a, shoulder);
         assert_eq!(seam(&proposal, "armhole_right").entry.b, armhole);
-        let roles = proposal.worn.iter().filter(|one| one.id.contains("front")).map(|one| one.entry.role);
+        let roles = proposal.worn.iter().filter(|worn| worn.id.contains("front")).map(|worn| worn.entry.role);
         assert!(roles.eq([Role::Front; 4]));
     };
     let [side, middle, back] = ["side_front_right.armhole", "front_right.armhole", "back_right.armhole"];
@@ -442,8 +444,8 @@ fn an_answer_decides_what_was_asked() {
     let front = |given: &[(usize, char)]| {
         let proposal = propose_answered(&pieces, given).expect("it is asked");
         let asked: Vec<(usize, bool)> = proposal.questions.iter().map(|q| (q.number, q.is_answered)).collect();
-        let one = proposal.worn.iter().find(|one| one.id.contains("front")).expect("a front");
-        (one.entry.block.clone(), asked)
+        let front = proposal.worn.iter().find(|worn| worn.id.contains("front")).expect("a front");
+        (front.entry.block.clone(), asked)
     };
     let (stands, asked) = front(&[]);
     assert_eq!((stands.as_str(), asked.as_slice()), ("TROUSER FRONT", &[(1, false)][..]));
@@ -495,7 +497,7 @@ fn a_leg_in_one_piece_is_sewn_to_itself_and_to_the_other() {
         assert_eq!(<[_; 2]>::from(edges("crotch_front")), text(["leg_right.crotch_right", "leg_left.crotch_left"]));
         assert_eq!(<[_; 2]>::from(edges("crotch_back")), text(["leg_right.crotch_left", "leg_left.crotch_right"]));
         assert_eq!(edges("waist").1, ["leg_left.waist", "leg_right.waist"]);
-        let is_drawn = |id: &str| proposal.worn.iter().any(|one| one.id == id && !one.entry.mirror);
+        let is_drawn = |id: &str| proposal.worn.iter().any(|worn| worn.id == id && !worn.entry.mirror);
         assert!(is_drawn(front), "{name}: drawn as the {front}");
     };
     check("LEGGING", false, "leg_right");

@@ -1,21 +1,22 @@
-//! Gores: pieces of a skirt that are alike, sewn side to side all round.
+//! Gores: equal pieces of a skirt, sewn side to side all round.
 //!
-//! What is called a skirt or a gore, neither front nor back, and cut three times or more in all, is one, where all else is bands
-//! and details; so are panels that are alike. A pair cut for left and right alternates with its mirror image.
+//! A piece is a gore if its name says skirt or gore, neither front nor back, and three or more are cut in all. All
+//! other pieces must then be bands and details. Equal panels are gores as well. A pair cut for left and right
+//! alternates with its mirror image.
 
-use super::Class;
-use super::names::{Named, Part};
+use super::names::Named;
+use super::{Class, PartName};
 use crate::piece::Piece;
 use geom::polyline::{perimeter, signed_area};
 
 /// Fewest gores of a skirt.
 const LEAST: u32 = 3;
-/// Most that are believed of a quantity.
+/// Greatest quantity that is believed.
 const MOST: u32 = 40;
-/// Greatest difference of panels that are alike, share of the greater.
+/// Greatest relative difference of area and perimeter of equal panels.
 const ALIKE: f64 = 0.05;
 
-/// How often a piece is cut: as drawn, and as its mirror image.
+/// Number of copies of a piece: as drawn, and as its mirror image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cut {
     /// Copies cut as drawn.
@@ -25,7 +26,8 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// Of a quantity as pattern files have it: one number, or those of left and right; once where it says none, or nought.
+    /// Parses a quantity of pattern files: one number, or those of left and right. Without one, or with zero, it is a
+    /// single copy.
     fn of(piece: &Piece) -> Self {
         let text = piece.quantity.as_deref().unwrap_or_default();
         let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
@@ -35,20 +37,20 @@ impl Cut {
         }
     }
 
-    /// Copies of both kinds together.
+    /// Total number of copies.
     pub fn times(self) -> u32 {
         self.plain.saturating_add(self.mirrored)
     }
 
-    /// Whether each copy is a mirror image, in the order in which they are sewn.
+    /// Copies in the order in which they are sewn: true for a mirror image.
     pub fn copies(self) -> impl Iterator<Item = bool> {
-        // A straight side meets a straight side.
+        // A pair alternates, so that equal sides meet.
         let is_pair = self.plain == self.mirrored;
         (0..self.times()).map(move |k| if is_pair { k % 2 == 1 } else { k >= self.plain })
     }
 }
 
-/// How each piece is cut as a gore; `None` for a piece that is no gore.
+/// Quantities of the pieces that are gores. `None` for other pieces.
 pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
     let is_plain = |named: &Named| match named.class {
         Some(Class::Waistband | Class::Other) => true,
@@ -56,11 +58,11 @@ pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
         _ => false,
     };
     let are_plain = named.iter().all(is_plain);
-    // A panel may be anything: its name alone says less than that there are others like it.
-    let of_panels = pieces.iter().zip(named).filter(|(_, named)| named.part == Some(Part::Panel));
+    // The word panel alone is weak evidence: panels must also be alike.
+    let of_panels = pieces.iter().zip(named).filter(|(_, named)| named.part == Some(PartName::Panel));
     let are_alike = alike(of_panels.map(|(piece, _)| piece));
     let is_gore = |named: &Named| {
-        let is_part = named.part == Some(Part::Gore) || named.part == Some(Part::Panel) && are_alike;
+        let is_part = named.part == Some(PartName::Gore) || named.part == Some(PartName::Panel) && are_alike;
         let is_called = named.class == Some(Class::Skirt) || named.class.is_none() && is_part;
         are_plain && is_called && named.hand.is_none()
     };
@@ -70,10 +72,10 @@ pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
     if (LEAST..=MOST).contains(&times) { cuts } else { vec![None; pieces.len()] }
 }
 
-/// Whether outlines enclose the same area, nearly, and are as long.
+/// True if outlines have nearly equal areas and perimeters.
 fn alike<'p>(pieces: impl Iterator<Item = &'p Piece>) -> bool {
-    let of = |piece: &Piece| [signed_area(&piece.outline).abs(), perimeter(&piece.outline)];
-    let sizes: Vec<[f64; 2]> = pieces.map(of).collect();
+    let sizes_of = |piece: &Piece| [signed_area(&piece.outline).abs(), perimeter(&piece.outline)];
+    let sizes: Vec<[f64; 2]> = pieces.map(sizes_of).collect();
     (0..2).all(|k| {
         let greatest = sizes.iter().map(|size| size[k]).fold(0.0, f64::max);
         sizes.iter().all(|size| size[k] >= (1.0 - ALIKE) * greatest)

@@ -1,23 +1,24 @@
-//! Where one edge ends and the next begins, told by the lengths of what they are sewn to.
+//! Placement of the ends of edges by the lengths of their seam partners.
 //!
-//! A vent, a step at a hem or a shift of a seam puts corners near each other, and an outline alone does not say at which of them the side
-//! ends and the armhole begins. The other piece does: sides that are sewn are as long as each other.
+//! A vent, a step at a hem or a shifted seam puts corners near each other. The outline alone does not tell at which of
+//! them the side ends and the armhole begins. The other piece does, because sides that are sewn together are equally
+//! long.
 
 use super::ask::Asker;
 use super::recognise::Recognised;
-use super::{sew, worn};
+use super::{sew, worn_pieces};
 use crate::piece::Piece;
 
-/// Greatest length that changes from one edge to its neighbour, share of the shorter.
+/// Greatest length that is moved from one edge to its neighbour, as a share of the shorter.
 const MOVED_SHARE: f64 = 0.2;
-/// Least gain in the sum of all seams' confidences that a change is made for.
+/// Least gain in the sum of the confidences of all seams for a change.
 const GAIN: f64 = 0.05;
-/// Most corners that an end of an edge is moved by.
+/// Greatest number of corners by which an end of an edge is moved.
 const MOST_CORNERS: usize = 3;
-/// Changes after which the search ends at the latest.
+/// Greatest number of changes.
 const MOST_CHANGES: usize = 16;
 
-/// Moves ends of edges to other corners while the seams of the whole garment agree better for it.
+/// Moves ends of edges to other corners while this raises the confidence of the seams of the whole garment.
 pub fn settle(pieces: &[Piece], recognised: &mut [Recognised], asker: &Asker<'_>) {
     let mut sum = agreement(pieces, recognised, asker);
     for _ in 0..MOST_CHANGES {
@@ -37,22 +38,22 @@ pub fn settle(pieces: &[Piece], recognised: &mut [Recognised], asker: &Asker<'_>
     }
 }
 
-/// Sum of the confidences of the seams that are found.
+/// Sum of the confidences of all proposed seams.
 fn agreement(pieces: &[Piece], recognised: &[Recognised], asker: &Asker<'_>) -> f64 {
-    let worn = worn::worn(pieces, recognised, None, &mut asker.aside());
+    let worn = worn_pieces::worn(pieces, recognised, None, &mut asker.aside());
     sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
 }
 
-/// A piece with the end of one edge, or of both alike edges of its two sides, at another corner.
-fn changes(one: &Recognised) -> Vec<Recognised> {
-    let parts = &one.alignment.parts;
+/// Variants of a piece with the end of one edge, or of the two equal edges of both sides, at another corner.
+fn changes(candidate: &Recognised) -> Vec<Recognised> {
+    let parts = &candidate.alignment.parts;
     let n = parts.len();
     let mut all = Vec::new();
     for first in 0..n {
         for corners in 1..=MOST_CORNERS {
             for is_longer in [true, false] {
-                let Some(changed) = moved(one, first, corners, is_longer) else { continue };
-                // The same on the other side, where the piece has the two edges there too, the other way round.
+                let Some(changed) = moved(candidate, first, corners, is_longer) else { continue };
+                // If the piece has the same two edges on its other side, in reverse order, they are moved too.
                 let (label, next) = (parts[first].label, parts[(first + 1) % n].label);
                 let twin = (0..n).find(|&k| k != first && parts[k].label == next && parts[(k + 1) % n].label == label);
                 all.extend(twin.and_then(|twin| moved(&changed, twin, corners, !is_longer)));
@@ -63,11 +64,11 @@ fn changes(one: &Recognised) -> Vec<Recognised> {
     all
 }
 
-/// A piece with the end of an edge moved on by some corners, or back.
-fn moved(one: &Recognised, first: usize, corners: usize, is_longer: bool) -> Option<Recognised> {
-    let (shape, n) = (&one.shape, one.shape.len());
-    let second = (first + 1) % one.alignment.parts.len();
-    let [a, b] = [first, second].map(|k| one.alignment.parts[k]);
+/// Variant of a piece with the end of an edge moved by some corners, forwards or backwards.
+fn moved(candidate: &Recognised, first: usize, corners: usize, is_longer: bool) -> Option<Recognised> {
+    let (shape, n) = (&candidate.shape, candidate.shape.len());
+    let second = (first + 1) % candidate.alignment.parts.len();
+    let [a, b] = [first, second].map(|k| candidate.alignment.parts[k]);
     let (given, from) = if is_longer { (b, b.from) } else { (a, (b.from + n - corners) % n) };
     if given.span <= corners || (0..corners).any(|k| shape.is_leg((from + k) % n)) {
         return None;
@@ -76,7 +77,7 @@ fn moved(one: &Recognised, first: usize, corners: usize, is_longer: bool) -> Opt
     if length(from, corners) > MOVED_SHARE * length(a.from, a.span).min(length(b.from, b.span)) {
         return None;
     }
-    let mut changed = one.clone();
+    let mut changed = candidate.clone();
     let parts = &mut changed.alignment.parts;
     if is_longer {
         parts[first].span += corners;

@@ -1,15 +1,15 @@
-//! A seam file proposed for the pieces of one size: what each piece is, and what is sewn to what.
+//! Proposal of a seam file for the pieces of one size: the kind of each piece, and the seams.
 //!
-//! Names say what they can (`names`). The outline of every piece is aligned with templates of pieces (`align`), which
-//! tells its edges apart. Then edges that belong together are sewn (`sew`). Where they are as long as each other the
-//! pieces are surer (`agree`). Everything carries a confidence, and what is unsure becomes a question to the person who
-//! edits the file.
+//! Names are read first (`told`, `names`). The outline of every piece is aligned with templates (`align`), which labels
+//! its edges. Then matching edges are sewn (`sew`). Equal lengths raise the confidence in the pieces (`agree`). Every
+//! piece and seam has a confidence, and each doubt becomes a question to the person who edits the file.
 
 mod agree;
 mod align;
 mod ask;
 mod cap;
 mod choose;
+mod circle_skirt;
 mod doubt;
 #[cfg(test)]
 mod garment_tests;
@@ -24,7 +24,6 @@ mod panels;
 mod pose;
 mod raglan;
 mod recognise;
-mod ring;
 mod seam_kind;
 mod sew;
 mod shape;
@@ -35,7 +34,7 @@ mod told;
 mod waist;
 mod wear;
 mod words;
-mod worn;
+mod worn_pieces;
 mod write;
 
 use std::fmt;
@@ -47,12 +46,12 @@ pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
 pub use self::wear::Unwearable;
-use self::worn::Worn;
+use self::worn_pieces::Worn;
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
 
-/// Gain in the sum of confidences for which pieces are read in a less likely way: about one seam.
+/// Least gain in the worth of a garment for a less likely reading of its pieces: about one seam.
 const SURER: f64 = 1.0;
 
 /// Kind of a piece.
@@ -61,7 +60,7 @@ const SURER: f64 = 1.0;
 pub enum Class {
     /// Front or back of the trunk.
     Body,
-    /// Outer part of a front or back that is cut lengthwise: between the princess seam and the side.
+    /// Side panel of a front or back: between the princess seam and the side.
     SidePanel,
     /// Front or back of a leg.
     Leg,
@@ -69,13 +68,14 @@ pub enum Class {
     Sleeve,
     /// Front or back of a skirt.
     Skirt,
-    /// Yoke: the part of a front or back over the shoulder, or of a leg or skirt below the waist, that is cut by itself.
+    /// Yoke: the part of a front or back over the shoulder, or of a leg or skirt below the waist, that is cut
+    /// separately.
     Yoke,
     /// Band round the waist of a skirt or trousers.
     Waistband,
     /// Band at the end of a sleeve.
     Cuff,
-    /// Anything else: it takes part in no proposal.
+    /// Anything else: it is in no proposed seam.
     Other,
 }
 
@@ -116,7 +116,7 @@ pub enum Hand {
 }
 
 impl Hand {
-    /// Both, the right first.
+    /// Both hands, the right first.
     pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
 
     fn other(self) -> Self {
@@ -141,7 +141,7 @@ impl fmt::Display for Hand {
 }
 
 impl Face {
-    /// Both, the front first.
+    /// Both faces, the front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
 
     fn other(self) -> Self {
@@ -165,7 +165,7 @@ impl fmt::Display for Face {
     }
 }
 
-/// What an edge is.
+/// Kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Label {
     /// Free lower edge, or the lower edge of a bodice.
@@ -225,7 +225,18 @@ impl Label {
     }
 }
 
-/// What a piece is worn as; a trunk `is_bodice` where something is sewn to its lower edge.
+/// Part of a kind of piece, as names give it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PartName {
+    /// Under sleeve: the piece below the arm of a sleeve in two.
+    Under,
+    /// Gore of a skirt: one of several equal parts.
+    Gore,
+    /// Any panel of a garment.
+    Panel,
+}
+
+/// Role of a piece. `is_bodice` is true if something is sewn to the lower edge of the trunk.
 fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
     match (class, face, hand) {
         (Some(Class::Body | Class::SidePanel) | None, Some(Face::Front), _) => {
@@ -260,47 +271,47 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
 /// Roles of pieces by their names alone, for files that hold their seams.
 pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
     let named: Vec<Named> = names.iter().map(|name| names::read(name)).collect();
-    let is_below = |one: &Named| matches!(one.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
+    let is_below = |named: &Named| matches!(named.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
     let is_bodice = named.iter().any(is_below);
-    named.iter().map(|one| role_of(one.class, one.face, one.hand, is_bodice)).collect()
+    named.iter().map(|named| role_of(named.class, named.face, named.hand, is_bodice)).collect()
 }
 
-/// What a piece was taken for.
+/// Proposed meaning of a drawn piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedPiece {
-    /// Identifier in the seam file; `None` where it takes part in no seam.
+    /// Identifier in the seam file. `None` if it is in no seam.
     pub id: Option<String>,
     /// Name in the file.
     pub name: String,
-    /// Kind; `None` where it was not recognised.
+    /// Kind. `None` if it was not recognised.
     pub class: Option<Class>,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer; `None` for a piece of both sides.
+    /// Side of the wearer. `None` for a piece of both sides.
     pub hand: Option<Hand>,
-    /// 0 (guessed) to 1 (certain).
+    /// Confidence, from 0 (guessed) to 1 (certain).
     pub confidence: f64,
 }
 
 /// A proposed seam.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedSeam {
-    /// As the seam file has it.
+    /// Entry of the seam file.
     #[serde(flatten)]
     pub entry: SeamEntry,
-    /// What it joins; the entry's name is its text.
+    /// Kind of the seam. Its text is the name of the entry.
     #[serde(skip)]
     pub kind: SeamKind,
     /// Length of side `a`, mm.
     pub a_mm: f64,
     /// Length of side `b`, mm.
     pub b_mm: f64,
-    /// 0 (guessed) to 1 (certain).
+    /// Confidence, from 0 (guessed) to 1 (certain).
     pub confidence: f64,
 }
 
 impl ProposedSeam {
-    /// Length of `a` over length of `b`: 1 for a plain seam, more where `a` is eased or gathered.
+    /// Ratio of the lengths of `a` and `b`: 1 for a plain seam, more if `a` is eased or gathered.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         self.a_mm / self.b_mm
@@ -310,20 +321,20 @@ impl ProposedSeam {
 /// A proposed seam file.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Proposal {
-    /// What every piece was taken for, in the order of the file; a piece cut twice comes twice.
+    /// Meaning of every piece, in the order of the file. A piece that is cut twice occurs twice.
     pub pieces: Vec<ProposedPiece>,
     /// Seams, the surest first of each kind.
     pub seams: Vec<ProposedSeam>,
-    /// Edges that are taken to stay free: hems, necklines, armholes without a sleeve, waists without a band.
+    /// Edges that are proposed to stay free: hems, necklines, armholes without a sleeve, waists without a band.
     pub open: Vec<String>,
-    /// What a person must decide.
+    /// Questions to the user.
     pub questions: Vec<Question>,
-    /// What was left out or taken without asking.
+    /// Notes on what was left out or assumed without a question.
     pub notes: Vec<String>,
-    /// Size that it was made on, where it was held to others.
+    /// Size that it was made on, if it was checked against others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Seam allowance that the pieces were given, m.
+    /// Seam allowance that was added to the pieces, m.
     #[serde(skip)]
     pub allowance_m: f64,
     /// Pieces of the seam file.
@@ -332,20 +343,21 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// Whether no piece was recognised.
+    /// True if no piece was recognised.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.worn.is_empty()
     }
 }
 
-/// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
+/// Proposes a seam file for the pieces of one size, half pieces unfolded ([`super::dxf::PatternFile::to_sew`]).
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
     propose_told(pieces, &Answers::new())
 }
 
-/// [`propose`] with answers of a person by the text of their question; those to nothing that is asked count for nothing.
+/// Proposes as [`propose`] does, with answers of the user by the text of their question. Answers to other questions are
+/// ignored.
 #[must_use]
 pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
     let mut proposal = with_answers(pieces, answers);
@@ -353,11 +365,11 @@ pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
     proposal
 }
 
-/// [`propose`] with answers of a person, as number of the question and letter of the choice, in the order given: a question that
-/// an answer brings up comes after those that were asked before.
+/// Proposes as [`propose`] does, with answers of the user as number of the question and letter of the choice, in the
+/// order given. A question that an answer raises is numbered after those that were asked before.
 ///
 /// # Errors
-/// [`UnknownAnswer`] where there is no such question or choice.
+/// [`UnknownAnswer`] if there is no such question or choice.
 pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Proposal, UnknownAnswer> {
     let (mut answers, mut known) = (Answers::new(), Vec::new());
     let mut proposal = with_answers(pieces, &answers);
@@ -378,7 +390,7 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// Pieces as worn and the seams between them, as they are read in one way.
+/// Pieces as worn and the seams between them, under one reading.
 struct Sewn {
     reading: Reading,
     worn: Vec<Worn>,
@@ -386,14 +398,14 @@ struct Sewn {
 }
 
 impl Sewn {
-    /// How sure its seams are, all in all, less one sure seam for each that lacks.
+    /// Worth: the sum of the confidences of its seams, less one for each missing seam.
     fn worth(&self) -> f64 {
         let sum: f64 = self.seams.iter().map(|seam| seam.confidence).sum();
         sum - wear::lacking(&self.worn, &self.seams).len() as f64
     }
 }
 
-/// The pieces read in the way under which most seams are sure and fewest lack, with nobody to ask.
+/// Best reading of the pieces by its worth, without questions.
 fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
     let ways = Reading::ways(pieces, named);
     let (&first, rest) = ways.split_first().expect("there is always one way");
@@ -407,7 +419,7 @@ fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
 fn sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) -> Sewn {
     let recognised = recognise::recognise(pieces, named, reading, &mut asker.aside());
     let chosen = choose::choose(pieces, recognised, &mut asker.aside());
-    let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
+    let worn = worn_pieces::worn(pieces, &chosen, None, &mut asker.aside());
     let seams = sew::sew(&worn, &mut asker.aside());
     Sewn { reading, worn, seams }
 }
@@ -432,11 +444,11 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let recognised = recognise::recognise(pieces, &named, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
-    // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
-    let first = worn::worn(pieces, &recognised, None, &mut asker.aside());
+    // The side of a drawn sleeve is known only once its notches are compared with those of the armhole.
+    let first = worn_pieces::worn(pieces, &recognised, None, &mut asker.aside());
     let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));
-    let drawn = drawn.or_else(|| worn::ask_drawn_sleeve(pieces, &recognised, &mut asker));
-    let worn = worn::worn(pieces, &recognised, drawn, &mut asker);
+    let drawn = drawn.or_else(|| worn_pieces::ask_drawn_sleeve(pieces, &recognised, &mut asker));
+    let worn = worn_pieces::worn(pieces, &recognised, drawn, &mut asker);
     let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut asker);

@@ -1,4 +1,4 @@
-//! Whatever pieces are called, what is sewn to what stays what their outlines say, or it is asked.
+//! Seams stay those of the outlines under any names of the pieces, or a question is asked.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,18 +6,17 @@ use super::told::told;
 use super::*;
 use crate::draft::Model;
 
-/// Words of eight languages: of everyday, with letters of the trade's words in them, and some that are words of the trade in another
-/// language.
+/// Words of eight languages: everyday words, words that contain garment terms, and garment terms of another language.
 #[rustfmt::skip]
 const WORDS: [&str; 216] = [
-    // With letters of words of the trade.
+    // Words that contain garment terms.
     "PALAZZO", "FROCK", "JEANNE", "ROCKY", "SHORTBREAD", "BUNDLE", "SLEEVELESS", "BACKPACK", "FRONTIER", "LEGEND", "SKIRMISH", "HEMLOCK",
     "COLLARBONE", "BANDANA", "MANCHESTER", "DOSSIER", "PANTHER", "PANTRY", "HOSEPIPE", "POCKETBOOK", "HOODLUM", "CUFFLINK", "RIGHTEOUS",
     "LEFTOVER", "STABLE", "TABLET", "LOOPHOLE", "ZIPPY", "FLAPJACK", "STAYCATION", "ROCKET", "SHORTCUT", "BACKGAMMON", "CONFRONT",
     "FEEDBACK", "LEGUME", "JEANETTE", "TROUSSEAU", "YOKEL", "MANGANESE", "VORDERASIEN", "HINTERLAND", "BUNDESTAG", "ROCKKONZERT",
     "HOSENBODEN", "KRAGENBÄR", "ÄRMELKANAL", "MANCHEGO", "DEVANTURE", "JUPITER", "DOSAGE", "VISTAMAR", "FALDERA", "COLLOQUIO", "TASCABILE",
     "MANICARETTO", "KOLEJ", "PASEKA", "ETEKLERİ", "YAKAMOZ", "SOLARIUM", "REKAWEK", "GOLANIA", "前进", "领导", "以后", "袖手旁观", "裤衩子弟",
-    // Of the trade in some language, and of everyday in another.
+    // Garment terms of one language that are everyday words of another.
     "ROCK", "BUND", "HOSE", "PASSE", "PALA", "ROBA", "VISTA", "TELA", "DOS", "SOL", "KOL", "RUG", "SAU", "FRAM", "SHORT", "JEAN", "FLY", "TAB",
     "STAY", "LOOP", "HOOD", "CEP", "GOLA", "MANCHE", "MANGA", "AVANT", "LEFT", "BACK", "FRONT", "SLEEVE", "SKIRT", "YOKE", "POCKET", "帽子",
     "裙子", "左右",
@@ -39,21 +38,21 @@ const WORDS: [&str; 216] = [
     "房屋", "河流", "夏天", "窗户", "花园", "面包", "石头", "海洋", "山", "冬天", "苹果", "蜡烛", "市场", "银",
 ];
 
-/// An edge as drawn: of which piece, whether of its mirror image, and between which corners.
+/// An edge as drawn: its piece, true for the mirror image, and its corners.
 type Drawn = (usize, bool, [usize; 2]);
-/// What is sewn to what, whatever it is called.
+/// Seams by their drawn edges, independent of all names.
 type Sewn = BTreeSet<BTreeSet<Drawn>>;
 
 fn sewn_edges(proposal: &Proposal) -> Sewn {
     let drawn = |edge: &String| {
         let (id, edge) = edge.split_once('.').expect("PIECE.EDGE");
-        let worn = proposal.worn.iter().find(|one| one.id == id).expect("a piece");
+        let worn = proposal.worn.iter().find(|worn| worn.id == id).expect("a piece");
         (worn.piece, worn.entry.mirror, worn.entry.edges[edge])
     };
     proposal.seams.iter().map(|seam| seam.entry.a.iter().chain(&seam.entry.b).map(drawn).collect()).collect()
 }
 
-/// The pieces of one size under other names.
+/// Pieces of one size under other names.
 fn renamed(pieces: &[Piece], name: impl Fn(usize, &str) -> String) -> Vec<Piece> {
     let call = |(k, piece): (usize, &Piece)| {
         let name = name(k, &piece.name);
@@ -62,7 +61,7 @@ fn renamed(pieces: &[Piece], name: impl Fn(usize, &str) -> String) -> Vec<Piece>
     pieces.iter().enumerate().map(call).collect()
 }
 
-/// Proposals by what is told of the pieces: a name counts for nothing else.
+/// Proposals by the texts of the pieces, independent of their names.
 struct Proposer {
     known: BTreeMap<String, Proposal>,
 }
@@ -73,7 +72,7 @@ impl Proposer {
     }
 }
 
-/// Renames the pieces of a model in all ways, and holds what is proposed to what is proposed for their own names.
+/// Renames the pieces of a model in all ways, and compares each proposal with that for their own names.
 fn check(model: Model) {
     let drafts = model.drafts();
     let pieces = &drafts[drafts.len() / 2].pieces;

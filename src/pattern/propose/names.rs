@@ -1,15 +1,15 @@
-//! What a piece's name says, in the languages of [`super::words`].
+//! Reading of the names of pieces, in the languages of [`super::words`].
 //!
-//! A name is cut into words, and a word that is none of the trade's into words of the trade: `Vorderhose` is `vorder` and `hose`. What is
-//! left over makes it another word: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.
+//! A name is split into words. A word that is no garment term is split into such terms: `Vorderhose` is `vorder` and
+//! `hose`. If a rest remains, it is another word: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use super::words::{CLASSES, FACES, HANDS, PARTS, PLAIN};
-use super::{Class, Face, Hand};
+use super::{Class, Face, Hand, PartName};
 
-/// What is read from a name.
+/// Statement of a name about a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Named {
     /// Kind of piece.
@@ -18,27 +18,16 @@ pub struct Named {
     pub face: Option<Face>,
     /// Side of the wearer.
     pub hand: Option<Hand>,
-    /// Which part of its kind it is.
-    pub part: Option<Part>,
-}
-
-/// What tells parts of one kind from each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// The piece below the arm of a sleeve in two.
-    Under,
-    /// A gore of a skirt: one part among several alike.
-    Gore,
-    /// Any part of a garment.
-    Panel,
+    /// Part of its kind, if the name gives one.
+    pub part: Option<PartName>,
 }
 
 impl Named {
-    /// What it says together with another; of two kinds, faces, hands or parts the one that is listed first.
+    /// Combines it with another statement. Of two kinds, faces, hands or parts, the one that is listed first counts.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         fn first<T: Copy + PartialEq>(a: Option<T>, b: Option<T>, order: impl Iterator<Item = T>) -> Option<T> {
-            order.into_iter().find(|&one| a == Some(one) || b == Some(one)).or(a).or(b)
+            order.into_iter().find(|&listed| a == Some(listed) || b == Some(listed)).or(a).or(b)
         }
         Self {
             class: first(self.class, other.class, CLASSES.iter().map(|(class, _)| *class)),
@@ -48,34 +37,34 @@ impl Named {
         }
     }
 
-    /// Whether it says neither a kind, nor front or back, nor a side.
+    /// True if it gives neither kind, nor face, nor side.
     #[must_use]
     pub fn is_nameless(self) -> bool {
         (self.class, self.face, self.hand) == (None, None, None)
     }
 }
 
-/// Words after which a name tells only of a detail (`front with pocket`).
+/// Words after which a name describes only a detail (`front with pocket`).
 const DETAILS: [&str; 13] =
     ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
 
-/// First letter of the scripts that put a word or a syllable in a sign.
+/// First character of the scripts that write a word or a syllable with one sign.
 const SIGNS: char = '\u{2e80}';
-/// Scripts whose words hold marks beside their letters.
+/// Scripts whose words contain combining marks.
 const MARKED: std::ops::Range<char> = '\u{900}'..'\u{e00}';
-/// Letters of a word from which on it is a word in compounds too, in an alphabet.
+/// Least number of letters of an alphabetic word inside a compound.
 const LEAST_IN_COMPOUND: usize = 3;
-/// Most letters that an ending has.
+/// Greatest number of letters of an ending.
 const LONGEST_ENDING: usize = 3;
 
-/// Words of a name, in lower case: it is cut where letters end, where capitals begin, and between alphabets and signs.
+/// Splits a name into words in lower case: where letters end, where capitals begin, and between alphabets and signs.
 #[must_use]
 pub fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before: Option<char> = None;
     for c in name.chars() {
         if !c.is_alphabetic() && !MARKED.contains(&c) {
-            // An article that is cut short is no initial.
+            // An elided article (`d'`, `l'`) is no initial.
             if matches!(c, '\'' | '\u{2019}') && before.is_some() {
                 words.pop_if(|word| word.chars().count() == 1);
             }
@@ -92,14 +81,15 @@ pub fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Tells kind, face and hand of a piece from its name.
+/// Reads kind, face and hand of a piece from its name.
 #[must_use]
 pub fn read(name: &str) -> Named {
     let words = words(name);
     read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), false)
 }
 
-/// What the words of a name say together; an initial says front or back where the kind of piece is said or known.
+/// Combined statement of the words of a name. The initials `f` and `b` mean front and back if the kind of piece is
+/// known.
 #[must_use]
 pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     let words = || words.iter().take_while(|word| !DETAILS.contains(word));
@@ -116,11 +106,11 @@ pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     Named { face, ..said }
 }
 
-/// What a word says: one of the trade's, or a compound of such; `None` for any other.
+/// Statement of a word: a garment term, or a compound of such. `None` for any other word.
 #[must_use]
 pub fn word_of(word: &str) -> Option<Named> {
     let ends: Vec<usize> = word.char_indices().map(|(at, _)| at).chain([word.len()]).collect();
-    // The fewest words of the trade that make up the beginning, with what they say.
+    // Fewest terms that make up the beginning of the word, with their statement.
     let mut made: Vec<Option<(usize, Named)>> = vec![None; ends.len()];
     made[0] = Some((0, Named::default()));
     for from in 0..ends.len() - 1 {
@@ -129,7 +119,7 @@ pub fn word_of(word: &str) -> Option<Named> {
             let is_whole = from == 0 && to + 1 == ends.len();
             let Some(named) = listed(&word[ends[from]..ends[to]], to + 1 == ends.len(), is_whole) else { continue };
             let found = (count + 1, said.and(named));
-            // An `s` behind a word makes it several, or joins it to the next.
+            // An `s` after a term is a plural, or joins it to the next.
             let joined = (word[ends[to]..].starts_with('s')).then_some(to + 1);
             for to in [Some(to), joined].into_iter().flatten() {
                 if made[to].is_none_or(|(fewest, _)| count + 1 < fewest) {
@@ -141,7 +131,7 @@ pub fn word_of(word: &str) -> Option<Named> {
     made[ends.len() - 1].map(|(_, named)| named)
 }
 
-/// What a word of the trade says; one of few letters is none in a compound, and a stem has its ending where the compound ends.
+/// Statement of a term. Short terms do not count inside a compound. A stem takes its ending at the end of the compound.
 fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
     let is_sign = word.chars().all(|c| c >= SIGNS);
     let letters = word.chars().count();
@@ -154,9 +144,9 @@ fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
     whole.map(|named| named.and(stem.unwrap_or_default())).or(stem)
 }
 
-/// Every word with what it says.
+/// Statement of every word.
 static WORDS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(false));
-/// The same of stems.
+/// Statement of every stem.
 static STEMS: LazyLock<BTreeMap<&str, Named>> = LazyLock::new(|| lexicon(true));
 
 fn lexicon(of_stems: bool) -> BTreeMap<&'static str, Named> {
@@ -228,7 +218,7 @@ mod tests {
         check("?????", None, None, None);
         check("DETAIL", None, None, None);
         for (name, expect) in [("UNDERSLEEVE", true), ("Unterärmel", true), ("TOPSLEEVE", false), ("Sleeve", false)] {
-            assert_eq!(read(name).part == Some(Part::Under), expect, "{name}");
+            assert_eq!(read(name).part == Some(PartName::Under), expect, "{name}");
         }
     }
 }

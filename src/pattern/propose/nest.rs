@@ -1,4 +1,5 @@
-//! A proposal made on one size held to the others: the corners are found on each, and the ease of each is written down.
+//! Check of a proposal made on one size against the other sizes. The corners are found on each size, and the ease of
+//! each is recorded.
 
 use std::collections::BTreeMap;
 
@@ -11,19 +12,19 @@ use crate::size_order;
 use crate::style::{Seam, Style};
 use geom::units::mm;
 
-/// Difference of the sides up to which a seam is a plain one, mm: an eighth of an inch, the usual sewing tolerance.
+/// Greatest difference of the sides of a plain seam, mm: an eighth of an inch, the usual sewing tolerance.
 const PLAIN_MM: f64 = 3.0;
-/// Difference up to which a long seam is a plain one, over its length: cloth takes up as much without a pleat.
+/// The same for a long seam, over its length: cloth takes up as much without a pleat.
 const PLAIN_SHARE: f64 = 0.02;
 
-/// A size as the proposal sews it.
+/// Style that the proposal makes in one size.
 struct Sewn<'a> {
     size: &'a str,
     style: Style,
 }
 
 impl Proposal {
-    /// Says on which size it was made, and holds it to the others. What does not hold there is a question.
+    /// Records the size that it was made on, and checks it against the others. Each mismatch becomes a question.
     pub fn hold_for(&mut self, sizes: &Sizes<'_>) {
         self.size = Some(sizes.name.to_owned());
         let own = std::iter::once((sizes.name, sizes.pieces));
@@ -41,7 +42,7 @@ impl Proposal {
             let sizes: Vec<&str> = failed.iter().map(|(size, _)| *size).collect();
             self.tell(format!("it does not hold for size {}: {error}", sizes.join(", ")));
         }
-        let Some(made_on) = sewn.iter().position(|one| one.size == sizes.name) else { return };
+        let Some(made_on) = sewn.iter().position(|sized| sized.size == sizes.name) else { return };
         for number in 0..self.seams.len() {
             if let Some(doubt) = self.ease_in(number, &sewn, made_on) {
                 self.tell(doubt);
@@ -50,10 +51,12 @@ impl Proposal {
         doubted_leaps(&sewn).into_iter().for_each(|doubt| self.tell(doubt));
     }
 
-    /// Writes down the ease of a seam in every size where its sides are to each other as in the size beside. The others are asked about.
+    /// Records the ease of a seam in every size in which the ratio of its sides is as in the neighbouring size. Returns
+    /// a question about the others.
     fn ease_in(&mut self, number: usize, sewn: &[Sewn<'_>], made_on: usize) -> Option<String> {
         let seam = &mut self.seams[number];
-        let sides_mm: Vec<[f64; 2]> = sewn.iter().map(|one| lengths_mm(&one.style, &one.style.seams[number])).collect();
+        let sides_mm: Vec<[f64; 2]> =
+            sewn.iter().map(|sized| lengths_mm(&sized.style, &sized.style.seams[number])).collect();
         let doubted = doubted_sizes(&sides_mm, made_on);
         if let Ease::Same(own_mm) = seam.entry.ease_mm {
             let tolerance_mm = SAME_EASE * DEFAULT_LENGTH_TOLERANCE_MM;
@@ -61,20 +64,20 @@ impl Proposal {
             if sides_mm.iter().any(is_other) {
                 let sure = sewn.iter().zip(&sides_mm).zip(&doubted).filter(|(_, is_doubted)| !**is_doubted);
                 let ease_mm = |[a_mm, b_mm]: [f64; 2]| ((a_mm - b_mm) * 10.0).round() / 10.0;
-                let eases = sure.map(|((one, sides_mm), _)| (one.size.to_owned(), ease_mm(*sides_mm)));
+                let eases = sure.map(|((sized, sides_mm), _)| (sized.size.to_owned(), ease_mm(*sides_mm)));
                 seam.entry.ease_mm = Ease::BySize(eases.collect());
             }
         }
         doubt(seam, sewn, &sides_mm, &doubted)
     }
 
-    /// Adds what has no choices.
+    /// Adds a question without choices.
     fn tell(&mut self, text: String) {
         let number = self.questions.iter().map(|question| question.number).max().unwrap_or(0) + 1;
         self.questions.push(Question { number, ..Question::told(text) });
     }
 
-    /// The style that another size makes, however long its seams are.
+    /// Makes the style of another size, with any difference of seam lengths.
     fn on(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut entries = self.seam_file("");
         entries.length_tolerance_mm = f64::INFINITY;
@@ -82,8 +85,8 @@ impl Proposal {
     }
 }
 
-/// In which sizes the sides of a seam are to each other otherwise than in the next size towards the one that the seam was proposed on, or
-/// than in the last in which they were sound. A plain seam is one in every size.
+/// True for each size in which the ratio of both sides of a seam is doubtful. It is compared with that of the next
+/// sound size towards the one of the proposal. A plain seam must be plain in every size.
 fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     let ratio = |size: usize| sides_mm[size][0] / sides_mm[size][1];
     let is_plain = |size: usize| {
@@ -109,11 +112,11 @@ fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     doubted
 }
 
-/// A question where a seam is doubted in some sizes.
+/// Question about a seam that is doubtful in some sizes.
 fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted: &[bool]) -> Option<String> {
     let first = doubted.iter().position(|is_doubted| *is_doubted)?;
-    let of = sewn.iter().zip(doubted).filter(|(_, is_doubted)| **is_doubted).map(|(one, _)| one.size);
-    let sizes: Vec<&str> = of.collect();
+    let doubted_ones = sewn.iter().zip(doubted).filter(|(_, is_doubted)| **is_doubted);
+    let sizes: Vec<&str> = doubted_ones.map(|(sized, _)| sized.size).collect();
     let [a_mm, b_mm] = sides_mm[first];
     Some(format!(
         "{}: {:.0} to {:.0} mm as proposed, {a_mm:.0} to {b_mm:.0} mm in {}: is it the same seam in size {}? No ease is written there",
@@ -125,10 +128,10 @@ fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted:
     ))
 }
 
-/// A question for every two sizes between which lengths leap.
+/// Question for every two sizes between which lengths leap.
 fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
-    let sizes: Vec<String> = sewn.iter().map(|one| one.size.to_owned()).collect();
-    let styles: Vec<&Style> = sewn.iter().map(|one| &one.style).collect();
+    let sizes: Vec<String> = sewn.iter().map(|sized| sized.size.to_owned()).collect();
+    let styles: Vec<&Style> = sewn.iter().map(|sized| &sized.style).collect();
     let mut by_sizes: BTreeMap<[usize; 2], Vec<Leap>> = BTreeMap::new();
     leaps(&styles).into_iter().for_each(|leap| by_sizes.entry(leap.sizes).or_default().push(leap));
     let told = |([before, after], leaps): (&[usize; 2], &Vec<Leap>)| {

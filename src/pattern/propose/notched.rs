@@ -1,28 +1,28 @@
-//! What notches say: whether two sides belong together, and which way round.
+//! Evidence of notches: it tells whether two sides belong together, and in which direction.
 
-use super::worn::{Along, Worn};
+use super::worn_pieces::{Along, Worn};
 use super::{Class, Face, Hand, Label};
 
-/// Greatest difference of two notches that match, share of the length of the seam.
+/// Greatest difference of two matching notches, as a share of the length of the seam.
 const SAME_SHARE: f64 = 0.03;
-/// Difference of agreement that tells one way round from the other.
+/// Least difference of agreement between both directions that is decisive.
 const CLEAR: f64 = 0.3;
 
 /// A side of a seam: edges in order.
 type Side<'w> = [Along<'w>];
 
-/// What the notches of two sides say.
+/// Evidence of the notches of two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// They match as proposed, and not as well the other way round, or all of them match.
+    /// They match as proposed, and better than reversed, or all of them match.
     For,
-    /// They match better with one side turned round.
+    /// They match better with one side reversed.
     Turned,
-    /// Nothing: there are too few, or they match neither way.
+    /// No evidence: there are too few, or they match in neither direction.
     None,
 }
 
-/// What the notches of side `a`, walked counter-clockwise, and of side `b`, walked clockwise, say.
+/// Evidence of the notches of side `a`, walked counter-clockwise, and of side `b`, walked clockwise.
 #[must_use]
 pub fn evidence(a: &Side<'_>, b: &Side<'_>) -> Evidence {
     let (a, b) = (shares(a, true), shares(b, false));
@@ -54,7 +54,7 @@ fn agreement(a: &[f64], b: &[f64]) -> f64 {
     2.0 * f64::from(matched) / (a.len() + b.len()) as f64
 }
 
-/// Places of the notches along a side, as shares of its length in the direction of the walk.
+/// Positions of the notches along a side, as shares of its length in the direction of the walk.
 fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
     let total = length(side);
     let mut shares = Vec::new();
@@ -68,20 +68,20 @@ fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
     shares
 }
 
-/// The sleeve that a whole sleeve without a side is drawn as, by the notches of cap and armhole; `worn` takes it for the
-/// right one.
+/// Side of the arm for which a whole sleeve without a side is drawn, by the notches of cap and armhole. `worn` has it
+/// as the right one.
 #[must_use]
 pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     let right = Some(Hand::Right);
-    let cap = worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == right)?;
-    let of = |class, face| {
-        let is_it = |one: &&Worn| one.class == class && one.face == Some(face) && one.hand != Some(Hand::Left);
-        worn.iter().find(is_it).map_or_else(Vec::new, |one| one.chain_back(Label::Armhole, right))
+    let cap = worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == right)?;
+    let armhole_of = |class, face| {
+        let is_it = |worn: &&Worn| worn.class == class && worn.face == Some(face) && worn.hand != Some(Hand::Left);
+        worn.iter().find(is_it).map_or_else(Vec::new, |worn| worn.chain_back(Label::Armhole, right))
     };
     let [front, back] = [[Class::SidePanel, Class::Body], [Class::Body, Class::SidePanel]];
-    let front: Vec<_> = front.into_iter().flat_map(|class| of(class, Face::Front)).collect();
-    let back: Vec<_> = back.into_iter().flat_map(|class| of(class, Face::Back)).collect();
-    // Either side of a raglan sleeve is sewn by itself, and its notches stand at like shares.
+    let front: Vec<_> = front.into_iter().flat_map(|class| armhole_of(class, Face::Front)).collect();
+    let back: Vec<_> = back.into_iter().flat_map(|class| armhole_of(class, Face::Back)).collect();
+    // Both sides of a raglan sleeve are sewn separately, and their notches are at similar shares.
     let sides = Hand::BOTH.map(|side| length(&cap.chain(Label::Cap, Some(side))));
     let by_lengths = cap.has(Label::Neck).then(|| by_lengths(sides, [length(&front), length(&back)])).flatten();
     by_lengths.or_else(|| match evidence(&cap.chain(Label::Cap, None), &[front, back].concat()) {
@@ -91,7 +91,8 @@ pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     })
 }
 
-/// The sleeve that a raglan sleeve is drawn as, by the lengths, m, of its right and left side beside those of front and back.
+/// Side of the arm for which a raglan sleeve is drawn. The lengths of its right and left side, m, are compared with
+/// those of front and back.
 fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> {
     let as_right = (right - front).abs() + (left - back).abs();
     let as_left = (right - back).abs() + (left - front).abs();

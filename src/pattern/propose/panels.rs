@@ -1,4 +1,4 @@
-//! Fronts and backs that are cut lengthwise by princess seams: a part in the middle and one at either side.
+//! Panels of fronts and backs with princess seams: one in the middle and one at either side.
 
 use super::align::{Alignment, LEAST_FIT, upright};
 use super::names::Named;
@@ -7,17 +7,17 @@ use super::templates::Template;
 use super::{Class, Face, Label};
 use crate::piece::Piece;
 
-/// A part of a front or back.
+/// A panel of a front or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Panel {
-    /// The part between the princess seams, or [`Class::SidePanel`], outside one.
+    /// [`Class::Body`] for the panel between the princess seams, or [`Class::SidePanel`] for one outside.
     pub class: Class,
-    /// Whether the seam begins at the shoulder; else at the armhole.
+    /// True if the seam begins at the shoulder. Otherwise it begins at the armhole.
     from_shoulder: bool,
 }
 
 impl Panel {
-    /// Whether a template is one of this part.
+    /// True if a template is one of this panel.
     pub fn fits(self, template: &Template) -> bool {
         let begins_at_shoulder = match self.class {
             Class::SidePanel => template.has_shoulder(),
@@ -27,23 +27,25 @@ impl Panel {
     }
 }
 
-/// Greatest difference of the two sides of a princess seam, share of the longer: the bust is eased in at most.
+/// Greatest relative difference of both sides of a princess seam. At most the bust is eased in.
 const UNLIKE: f64 = 0.08;
 
-/// What part each piece is, and `None` for a piece that is no part.
+/// Panel that each piece is. `None` for other pieces.
 ///
-/// Nothing is a part where a face has one piece, or where two pieces fit a whole front or back, or half of one, better.
+/// There are no panels if a face has one piece, or if two pieces fit a whole front or back, or half of one, better.
 pub fn panels(pieces: &[Piece], named: &[Named]) -> Vec<Option<Panel>> {
     let mut found = vec![None; pieces.len()];
     for face in Face::BOTH {
         let of_face = (0..pieces.len()).filter(|&k| named[k].class.is_none() && named[k].face == Some(face));
         let outlines: Vec<(usize, Shape)> = of_face.filter_map(|k| Some((k, Shape::of(&pieces[k])?))).collect();
-        let pairs = outlines.iter().flat_map(|one| outlines.iter().map(move |other| [one, other]));
-        let pairs = pairs.filter(|[one, other]| one.0 != other.0);
-        let together = |pair: [&(usize, Shape); 2]| Some((together(pair.map(|one| &one.1))?, pair.map(|one| one.0)));
-        let best = pairs.filter_map(together).max_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        if let Some(((_, panels), numbers)) = best {
-            for (number, panel) in numbers.into_iter().zip(panels) {
+        let pairs = outlines.iter().flat_map(|outline| outlines.iter().map(move |other| [outline, other]));
+        let pairs = pairs.filter(|[outline, other]| outline.0 != other.0);
+        let fit = |pair: [&(usize, Shape); 2]| {
+            Some((together(pair.map(|(_, shape)| shape))?, pair.map(|(number, _)| *number)))
+        };
+        let best = pairs.filter_map(fit).max_by(|a, b| a.0.gain.total_cmp(&b.0.gain));
+        if let Some((pair, numbers)) = best {
+            for (number, panel) in numbers.into_iter().zip(pair.panels) {
                 found[number] = Some(panel);
             }
         }
@@ -51,9 +53,15 @@ pub fn panels(pieces: &[Piece], named: &[Named]) -> Vec<Option<Panel>> {
     found
 }
 
-/// Two outlines as the middle and the side of a front or back, and how much better they fit that than whole ones or halves;
-/// `None` where they do not.
-fn together(outlines: [&Shape; 2]) -> Option<(f64, [Panel; 2])> {
+/// A middle and a side panel.
+struct PanelPair {
+    /// Advantage of their fit over that of whole pieces or halves.
+    gain: f64,
+    panels: [Panel; 2],
+}
+
+/// Two outlines as the middle and the side panel of a front or back. `None` if they do not fit.
+fn together(outlines: [&Shape; 2]) -> Option<PanelPair> {
     let of_trunk = |template: &Template| template.class == Class::Body && !template.is_panel();
     let plain: f64 = outlines.into_iter().filter_map(|shape| upright(shape, of_trunk)).map(|found| found.score).sum();
     let from = |from_shoulder: bool| {
@@ -66,9 +74,9 @@ fn together(outlines: [&Shape; 2]) -> Option<(f64, [Panel; 2])> {
             *seam = seam_m(shape, &found)?;
         }
         let [a, b] = seams;
-        ((a - b).abs() <= UNLIKE * a.max(b)).then_some((sum - plain, panels))
+        ((a - b).abs() <= UNLIKE * a.max(b)).then_some(PanelPair { gain: sum - plain, panels })
     };
-    [true, false].into_iter().filter_map(from).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(gain, _)| *gain > 0.0)
+    [true, false].into_iter().filter_map(from).max_by(|a, b| a.gain.total_cmp(&b.gain)).filter(|pair| pair.gain > 0.0)
 }
 
 /// Length of the princess seam on one side, m.

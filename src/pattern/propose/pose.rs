@@ -1,4 +1,4 @@
-//! How a piece of a known role is drawn: which side is up, and which half it is.
+//! Pose of a drawn piece of known role: its orientation, and the half that it is.
 
 use super::align::{TURNED, align, parts_of};
 use super::names;
@@ -9,34 +9,34 @@ use crate::garment::Role;
 use crate::style::{Edge, StylePiece};
 use geom::V2;
 
-/// How a piece is drawn.
+/// Pose of a drawn piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Quarter turns, counter-clockwise, that set it upright.
+    /// Number of quarter turns, counter-clockwise, that set it upright.
     pub quarter_turns: usize,
-    /// Whether it covers both sides of the body, or goes round the arm.
+    /// True if it covers both sides of the body, or goes round the arm.
     pub is_whole: bool,
-    /// Whether its outer side is to the left of the upright drawing; says nothing of a whole piece.
+    /// True if its outer side is on the left of the upright drawing. It has no meaning for a whole piece.
     is_mirrored: bool,
-    /// How well the template fits, at most 1, less what a grain across costs.
+    /// Score of the fit of the template, at most 1, less the penalty for a grain across.
     pub score: f64,
 }
 
 impl Pose {
-    /// Side of the wearer that half a front or back is for, seen from outside; `None` for a whole piece.
+    /// Side of the wearer that half a front or back is for, seen from outside. `None` for a whole piece.
     #[must_use]
     pub fn hand(&self, face: Face) -> Option<Hand> {
         (!self.is_whole).then(|| natural_hand(face, self.is_mirrored))
     }
 }
 
-/// Side of the wearer of half a piece whose outer side is to the right of the drawing, or to the left where mirrored.
+/// Side of the wearer of half a piece, whose outer side is on the right of the drawing, or on the left if mirrored.
 pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
     if (face == Face::Back) == is_mirrored { Hand::Left } else { Hand::Right }
 }
 
-/// How a piece is drawn, by the template of its role that fits best; `None` for a role without templates, or an outline
-/// without corners.
+/// Pose of a piece by the best template of its role. `None` for a role without templates, or an outline without
+/// corners.
 #[must_use]
 pub fn pose(piece: &StylePiece) -> Option<Pose> {
     let is_yoke = names::read(&piece.id).class == Some(Class::Yoke);
@@ -86,7 +86,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     if let Some(pose) = by_edges(piece, TEMPLATES.iter().filter(fits)) {
         return Some(pose);
     }
-    // The grain runs up and down, except along a band.
+    // The grain is vertical, except in a band, where it runs along.
     let is_along =
         |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
     let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
@@ -99,8 +99,8 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     })
 }
 
-/// How a piece is drawn by the names of its edges, where at least two kinds of them are called as templates call theirs: a hem lies below, a
-/// cap above, whatever the outline looks like.
+/// Pose of a piece by the names of its edges, if at least two kinds of them are those of templates. A hem is below and
+/// a cap above, whatever the outline looks like.
 fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template>) -> Option<Pose> {
     let named: Vec<(Label, V2)> =
         piece.edges.iter().filter_map(|edge| Some((label_of(edge.name.as_deref()?)?, middle(edge)))).collect();
@@ -137,7 +137,7 @@ fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template
     best
 }
 
-/// The kind of edge that a name begins with, before its side or number.
+/// Kind of edge that a name begins with, before its side or number.
 fn label_of(name: &str) -> Option<Label> {
     use Label::{
         Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Princess, Shoulder, Side, Top, Underarm,
@@ -149,7 +149,7 @@ fn label_of(name: &str) -> Option<Label> {
     body.into_iter().chain(limbs).find(|label| label.as_str() == word)
 }
 
-/// The point of an edge at half its length.
+/// Midpoint of an edge by length.
 fn middle(edge: &Edge) -> V2 {
     let half = 0.5 * edge.line.length();
     let k = edge.line.arcs().partition_point(|&arc| arc < half).clamp(1, edge.line.points().len() - 1);
@@ -157,7 +157,7 @@ fn middle(edge: &Edge) -> V2 {
     edge.line.points()[k - 1].lerp(&edge.line.points()[k], (half - from) / (to - from).max(f64::MIN_POSITIVE))
 }
 
-/// What a name says of front or back and the side of the wearer.
+/// Face and side of the wearer in a name.
 #[must_use]
 pub fn named_face_and_hand(name: &str) -> (Option<Face>, Option<Hand>) {
     let named = names::read(name);

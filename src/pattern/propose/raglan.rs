@@ -1,4 +1,4 @@
-//! Raglan: sleeves that go up to the neck, and a trunk without shoulders.
+//! Detection of raglan: sleeves that reach the neck, and a trunk without shoulders.
 
 use super::Class;
 use super::align::{LEAST_FIT, upright};
@@ -7,8 +7,9 @@ use super::shape::Shape;
 use super::templates::Template;
 use crate::piece::Piece;
 
-/// Whether the sleeves may go up to the neck, the likelier first: fronts, backs and sleeves fit raglan templates better, all in
-/// all, than plain ones. Only plain ones where no sleeve fits a raglan one.
+/// Possible values of `is_raglan`, the likelier first. Raglan is likelier if fronts, backs and sleeves together fit
+/// raglan templates better than plain ones. Without a sleeve that fits a raglan template, only plain sleeves are
+/// possible.
 pub fn ways(pieces: &[Piece], named: &[Named]) -> &'static [bool] {
     let mut gain = 0.0;
     let mut has_sleeve = false;

@@ -1,20 +1,20 @@
-//! What each piece is: from its name first, then from its outline, then from the other pieces.
+//! Recognition of pieces: first by the name, then by the outline, then by the other pieces.
 
 use super::align::{Alignment, LEAST_FIT, upright};
 use super::ask::Asker;
 use super::gore::{self, Cut};
-use super::names::{Named, Part};
+use super::names::Named;
 use super::panels::{self, Panel};
 use super::raglan;
 use super::shape::Shape;
 use super::templates::Template;
-use super::worn::reference;
-use super::{Class, Face, Hand, Label, ring};
+use super::{Class, Face, Hand, Label, PartName, circle_skirt};
 use crate::piece::Piece;
+use crate::style::named::reference;
 
-/// Least fit of an outline that nothing else tells of.
+/// Least score of an outline without other evidence.
 pub const LEAST_UNNAMED_FIT: f64 = 0.6;
-/// Kinds that have templates, in the order in which equal fits count.
+/// Kinds with templates, in the order in which equal scores count.
 const CLASSES: [Class; 8] = [
     Class::Body,
     Class::SidePanel,
@@ -25,85 +25,86 @@ const CLASSES: [Class; 8] = [
     Class::Waistband,
     Class::Cuff,
 ];
-/// Confidence in front and back told by comparing outlines.
+/// Factor on the confidence if front and back are told by comparing outlines.
 const COMPARED: f64 = 0.75;
-/// Least difference of two outlines that tells front from back, in units of the piece's longer side.
+/// Least difference of two outlines that tells front from back, as a share of the longer side of the piece.
 const LEAST_DIFFERENCE: f64 = 0.01;
 
-/// Difference of waists that tells the front of a skirt from its back, m: an ease that nobody sews in by chance.
+/// Least difference of waists that contradicts the names of both halves of a skirt, m: an ease that nobody sews in by
+/// chance.
 const CLEAR_WAIST_M: f64 = 10e-3;
-/// The same where only one of the two is called front or back, m: the precision that outlines are drawn with.
+/// The same if only one of them has a name, m: the precision of drawn outlines.
 const ANY_WAIST_M: f64 = 0.1e-3;
 
-/// Area of a piece over that of the largest below which a nameless one is a detail: the sleeve of a T-shirt has a fifth, half of a child's
-/// one a tenth.
+/// Greatest area, as a share of the largest piece, of a nameless piece that is taken for a detail. The sleeve of a
+/// T-shirt has a fifth, half of a child's sleeve a tenth.
 pub const DETAIL_SHARE: f64 = 0.08;
 
-/// Difference of the two inseams of a leg in one piece, share of the longer.
+/// Greatest relative difference of the two inseams of a leg in one piece.
 const SAME_INSEAM: f64 = 0.03;
-/// How much better the outline must fit another kind of piece before a name is doubted.
+/// Least advantage in score of another kind for a name to be doubted.
 pub const CONTRADICTED: f64 = 0.25;
-/// Confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
+/// Factor on the confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
 const DOUBTED: f64 = 0.5;
-/// Difference of fit below which two kinds of piece are not told apart for sure.
+/// Difference of scores from which two kinds of piece are clearly distinct.
 const CLEAR_MARGIN: f64 = 0.15;
 
-/// A piece with what it was taken for.
+/// A piece with its recognised kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recognised {
     /// Index of the piece.
     pub piece: usize,
-    /// Kind of piece that it was taken for.
+    /// Recognised kind of piece.
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer that the name says.
+    /// Side of the wearer by its name.
     pub hand: Option<Hand>,
-    /// Its outline as edges between corners.
+    /// Outline as edges between corners.
     pub shape: Shape,
-    /// Template laid round it.
+    /// Alignment of the best template.
     pub alignment: Alignment,
-    /// How sure that is, 0 to 1.
+    /// Confidence, 0 to 1.
     pub confidence: f64,
-    /// The next best reading of an outline whose name says no kind.
+    /// Second-best alignment, for an outline whose name gives no kind.
     rival: Option<Alignment>,
-    /// Whether it is cut twice, for both sides of the wearer, though nothing in its outline says so: half a waistband.
+    /// True if it is cut twice, for both sides of the wearer, though its outline does not show it: half a waistband.
     pub is_pair: bool,
-    /// How it is cut as a gore of a skirt; `None` where it is no gore.
+    /// Quantities, if it is a gore of a skirt.
     pub gore: Option<Cut>,
-    /// Which part of its kind it is called.
-    pub part: Option<Part>,
+    /// Part of its kind by its name.
+    pub part: Option<PartName>,
 }
 
-/// What the other pieces of a file say of a piece.
+/// Evidence of the other pieces of a file.
 #[derive(Clone, Copy)]
 struct Around {
-    /// A file with a sleeve holds no legs unless it calls them so.
+    /// True if there is a sleeve. Nameless pieces are then no legs.
     has_sleeve: bool,
-    /// A piece is called a yoke: a front or back may have no shoulders.
+    /// True if a name says yoke. A front or back may then have no shoulders.
     has_yoke: bool,
-    /// A yoke is one over the shoulders.
+    /// True if there is a trunk. A yoke then lies over the shoulders.
     has_trunk: bool,
-    /// Sleeves go up to the neck.
+    /// True if sleeves reach the neck.
     is_raglan: bool,
-    /// No piece is called the front or the back of a leg.
+    /// True if no name says front or back of a leg.
     has_lone_leg: bool,
-    /// What pieces may be whose names say nothing.
+    /// Possible kinds of nameless pieces.
     nameless: &'static [Class],
 }
 
-/// How the pieces of a file are read, all of them alike.
+/// Assumptions under which all pieces of a file are read.
 #[derive(Clone, Copy)]
 pub struct Reading {
-    /// What pieces may be whose names say nothing, in the order in which equals count.
+    /// Possible kinds of nameless pieces, in the order in which equal scores count.
     pub nameless: &'static [Class],
-    /// Whether sleeves go up to the neck.
+    /// True if sleeves reach the neck.
     pub is_raglan: bool,
 }
 
 impl Reading {
-    /// The ways to read some pieces, the likeliest first. Bands and skirts are rectangles, and so is anything: without a name
-    /// they are tried where sleeves leave something over.
+    /// Possible readings of some pieces, the likeliest first. Bands and skirts are rectangles, like many other pieces.
+    /// Nameless ones are tried as such only after sleeves.
     pub fn ways(pieces: &[Piece], named: &[Named]) -> Vec<Self> {
         let kinds: [&[Class]; 2] =
             [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
@@ -115,16 +116,28 @@ impl Reading {
     }
 }
 
-/// What a piece is taken for before its outline is read, because of others.
+/// Role of a piece among others, known before its outline is read.
 #[derive(Clone, Copy)]
 struct Among {
     gore: Option<Cut>,
     panel: Option<Panel>,
-    /// The kind of a front and a back whose names say no more.
+    /// Kind of a front and a back whose names give no more.
     pair: Option<Class>,
 }
 
-/// Which pieces a drape does without: those that are called details, and those without a name that are small.
+/// A piece to recognise.
+#[derive(Clone, Copy)]
+struct Subject<'p> {
+    /// Index of the piece.
+    index: usize,
+    /// Name for questions.
+    name: &'p str,
+    piece: &'p Piece,
+    /// Statement of its name.
+    named: Named,
+}
+
+/// True for each piece that a drape does without: details by name, and small nameless pieces.
 pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
     let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
     let is_detail = |(piece, named): (&Piece, &Named)| {
@@ -133,7 +146,7 @@ pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
     pieces.iter().zip(named).map(is_detail).collect()
 }
 
-/// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
+/// Recognises pieces. Each piece that is left out becomes a question, except for details.
 pub fn recognise(
     pieces: &[Piece],
     named: &[Named],
@@ -150,7 +163,7 @@ pub fn recognise(
     let has_lone_leg = !named.iter().any(is_leg_face);
     let details = details(pieces, named);
     for are_yokes in [false, true] {
-        let has_trunk = found.iter().any(|one| one.class == Class::Body);
+        let has_trunk = found.iter().any(|candidate| candidate.class == Class::Body);
         let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan, has_lone_leg, nameless };
         for (index, piece) in pieces.iter().enumerate() {
             let named = named[index];
@@ -158,14 +171,15 @@ pub fn recognise(
                 let pair = pair.filter(|_| is_nameless_face(named));
                 let among = Among { gore: gores[index], panel: panels[index], pair };
                 let name = &reference(pieces, index);
-                found.extend(match recognise_one((index, name), piece, named, around, among, asker) {
+                let subject = Subject { index, name, piece, named };
+                found.extend(match recognise_one(subject, around, among, asker) {
                     Ok(recognised) => Some(recognised),
-                    Err(doubt) => ask_kind((index, name), (piece, named), &doubt, around, among, asker),
+                    Err(doubt) => ask_kind(subject, &doubt, around, among, asker),
                 });
             }
         }
     }
-    found.sort_by_key(|one| one.piece);
+    found.sort_by_key(|candidate| candidate.piece);
     reread_lone_legs(pieces, &mut found, asker);
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
@@ -175,35 +189,36 @@ pub fn recognise(
     }
     tell_yoke_faces(&mut found);
     tell_skirt_faces(pieces, named, &mut found, asker);
-    let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
-    for one in &mut found {
+    let skirts = found.iter().filter(|candidate| candidate.class == Class::Skirt).count();
+    for candidate in &mut found {
         // A single piece may go all round, as gores do.
-        if one.class == Class::Skirt && (skirts == 1 || one.gore.is_some()) {
+        if candidate.class == Class::Skirt && (skirts == 1 || candidate.gore.is_some()) {
             continue;
         }
-        let is_faced =
-            matches!(one.class, Class::Body | Class::Leg | Class::Skirt) && !one.alignment.template.is_limb();
-        if is_faced && one.face.is_none() {
-            let text = format!("is piece `{}` a front or a back?", reference(pieces, one.piece));
-            one.face = asker.ask(text, ["a front", "a back"], None).map(|choice| Face::BOTH[choice]);
+        let is_faced = matches!(candidate.class, Class::Body | Class::Leg | Class::Skirt)
+            && !candidate.alignment.template.is_limb();
+        if is_faced && candidate.face.is_none() {
+            let text = format!("is piece `{}` a front or a back?", reference(pieces, candidate.piece));
+            candidate.face = asker.ask(text, ["a front", "a back"], None).map(|choice| Face::BOTH[choice]);
         }
     }
     found
 }
 
-/// Whether a name says front or back, and nothing else.
+/// True if a name gives front or back and no kind.
 fn is_nameless_face(named: Named) -> bool {
     named.class.is_none() && named.face.is_some()
 }
 
-/// The kind of one front and one back whose names say no more: they are of one garment, so what fits both best.
+/// Kind of one front and one back whose names give no more: the one that fits both best, because they belong to one
+/// garment.
 fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
     let pair: Vec<usize> = (0..pieces.len()).filter(|&k| is_nameless_face(named[k])).collect();
-    let [one, other] = pair[..] else { return None };
-    if named[one].face == named[other].face {
+    let [first, second] = pair[..] else { return None };
+    if named[first].face == named[second].face {
         return None;
     }
-    let [one, other] = [&pieces[one], &pieces[other]];
+    let [first, second] = [&pieces[first], &pieces[second]];
     let fit = |piece: &Piece, class: Class| {
         let is_one = |template: &Template| {
             let is_trunk =
@@ -214,12 +229,12 @@ fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan:
     };
     // A sleeve is worn with a trunk.
     let kinds: &[Class] = if has_sleeve { &[Class::Body] } else { &[Class::Body, Class::Leg, Class::Skirt] };
-    let sums = kinds.iter().filter_map(|&class| Some((fit(one, class)? + fit(other, class)?, class)));
+    let sums = kinds.iter().filter_map(|&class| Some((fit(first, class)? + fit(second, class)?, class)));
     let (sum, class) = sums.reduce(|best, found| if found.0 > best.0 { found } else { best })?;
     (sum >= 2.0 * LEAST_FIT).then_some(class)
 }
 
-/// What may be answered of a piece that neither its name nor its outline tells.
+/// Possible answers about a piece whose kind neither name nor outline tells.
 const KINDS: [(Class, Option<Face>); 9] = [
     (Class::Body, Some(Face::Front)),
     (Class::Body, Some(Face::Back)),
@@ -231,27 +246,27 @@ const KINDS: [(Class, Option<Face>); 9] = [
     (Class::Waistband, None),
     (Class::Cuff, None),
 ];
-/// Kinds that are offered: those whose templates fit best.
+/// Number of kinds that are offered: those whose templates fit best.
 const OFFERED: usize = 3;
 
-/// What a person says that a piece is which neither its name nor its outline tells; left out while nobody answers.
+/// Asks for the kind of a piece that neither name nor outline tells. It is left out without an answer.
 fn ask_kind(
-    (index, name): (usize, &str),
-    (piece, named): (&Piece, Named),
+    subject: Subject<'_>,
     doubt: &str,
     around: Around,
     among: Among,
     asker: &mut Asker<'_>,
 ) -> Option<Recognised> {
     let as_kind = |(class, face): (Class, Option<Face>)| {
-        let named = Named { class: Some(class), face, ..named };
-        let read = recognise_one((index, name), piece, named, around, among, &mut asker.aside()).ok()?;
+        let named = Named { class: Some(class), face, ..subject.named };
+        let read = recognise_one(Subject { named, ..subject }, around, among, &mut asker.aside()).ok()?;
         let face = face.map_or_else(String::new, |face| format!("{face} of the "));
         Some((format!("{face}{}", class.as_str()), read))
     };
     let mut kinds: Vec<(String, Recognised)> = KINDS.into_iter().filter_map(as_kind).collect();
     kinds.sort_by(|a, b| b.1.alignment.score.total_cmp(&a.1.alignment.score));
     kinds.truncate(OFFERED);
+    let name = subject.name;
     if kinds.is_empty() {
         asker.tell(format!("piece `{name}`: {doubt}; it is in no proposed seam"));
         return None;
@@ -263,15 +278,14 @@ fn ask_kind(
     Some(kinds.swap_remove(choice).1)
 }
 
-/// What a piece is, that is `named` so; or why it is not told.
+/// Recognises one piece. The error is the reason why its kind is unknown.
 fn recognise_one(
-    (index, name): (usize, &str),
-    piece: &Piece,
-    named: Named,
+    subject: Subject<'_>,
     around: Around,
     Among { gore, panel, pair }: Among,
     asker: &mut Asker<'_>,
 ) -> Result<Recognised, String> {
+    let Subject { index, name, piece, named } = subject;
     let ask = str::to_owned;
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
@@ -303,22 +317,22 @@ fn recognise_one(
         };
         upright(&shape, of_class)
     };
-    if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt) || gore.is_some()) {
+    if let Some(sector) = circle_skirt::read(&shape).filter(|_| named.class == Some(Class::Skirt) || gore.is_some()) {
         return Ok(Recognised {
             piece: index,
             class: Class::Skirt,
             face: named.face,
             hand: named.hand,
             shape,
-            alignment: ring,
-            confidence: ring::CONFIDENCE,
+            alignment: sector,
+            confidence: circle_skirt::CONFIDENCE,
             rival: None,
             is_pair: false,
             gore,
             part: named.part,
         });
     }
-    // Front and back of a leg in one are called neither.
+    // A leg in one piece is called neither front nor back.
     let may_be_whole_leg = named.class == Some(Class::Leg) && named.face.is_none() && around.has_lone_leg;
     let mut readings: Vec<Alignment> = match whole_leg(&shape).filter(|_| may_be_whole_leg) {
         Some(whole) => vec![whole],
@@ -339,7 +353,7 @@ fn recognise_one(
         let margin = ((alignment.score - rival.score) / CLEAR_MARGIN).min(1.0);
         confidence *= DOUBTED + (1.0 - DOUBTED) * margin;
     }
-    // Bands and skirts are rectangles, so only what has a shape of its own can contradict a name.
+    // Bands and skirts are rectangles, so only kinds with a characteristic shape can contradict a name.
     let shaped = [Class::Body, Class::Leg, Class::Sleeve];
     if named.class.is_some_and(|class| shaped.contains(&class)) {
         let others = shaped.into_iter().filter(|&class| Some(class) != named.class).filter_map(as_class);
@@ -350,7 +364,7 @@ fn recognise_one(
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
             if asker.ask(text, [says, looks].map(|class| format!("a {class}")), Some(0)) == Some(1) {
                 let named = Named { class: Some(other.template.class), ..named };
-                return recognise_one((index, name), piece, named, around, Among { gore, panel, pair }, asker);
+                return recognise_one(Subject { named, ..subject }, around, Among { gore, panel, pair }, asker);
             }
             confidence *= DOUBTED;
         }
@@ -370,60 +384,63 @@ fn recognise_one(
     })
 }
 
-/// An outline as a leg in one piece: the edges that would be sewn to each other inside the leg are as long as each other.
+/// Alignment of an outline as a leg in one piece. Both edges of its inseam must be equally long.
 fn whole_leg(shape: &Shape) -> Option<Alignment> {
     let whole = upright(shape, |template| template.class == Class::Leg && template.is_limb())?;
     let inseams = whole.parts.iter().filter(|part| part.label == Label::Inseam);
     let lengths: Vec<f64> = inseams.map(|part| shape.sewn_length(part.from, part.span)).collect();
-    let [one, other] = lengths[..] else { return None };
-    (whole.score >= LEAST_FIT && (one - other).abs() < SAME_INSEAM * one.max(other)).then_some(whole)
+    let [right_m, left_m] = lengths[..] else { return None };
+    (whole.score >= LEAST_FIT && (right_m - left_m).abs() < SAME_INSEAM * right_m.max(left_m)).then_some(whole)
 }
 
-/// Legs have a front and a back: what only looks like a leg, without its other half, is read as what else it may be.
+/// Reinterprets pieces that look like a leg without its other half, as the second-best kind.
 fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Asker<'_>) {
-    let has_leg = |face: Face| found.iter().any(|one| one.class == Class::Leg && one.face != Some(face.other()));
+    let has_leg = |face: Face| {
+        found.iter().any(|candidate| candidate.class == Class::Leg && candidate.face != Some(face.other()))
+    };
     if found.iter().any(is_whole_leg) {
         return;
     }
     if Face::BOTH.into_iter().all(has_leg) {
         return;
     }
-    for one in found.iter_mut().filter(|one| one.class == Class::Leg) {
-        let Some(rival) = one.rival.take() else { continue };
+    for candidate in found.iter_mut().filter(|candidate| candidate.class == Class::Leg) {
+        let Some(rival) = candidate.rival.take() else { continue };
         let text = format!(
             "piece `{}`: its outline looks like a leg, but no other piece is its other half; what is it?",
-            pieces[one.piece].name
+            pieces[candidate.piece].name
         );
         let choices = [rival.template.class, Class::Leg].map(|class| format!("a {}", class.as_str()));
         if asker.ask(text, choices, Some(0)) == Some(1) {
             continue;
         }
-        one.class = rival.template.class;
+        candidate.class = rival.template.class;
         let fit = ((rival.score - LEAST_FIT) / (0.85 - LEAST_FIT)).clamp(0.0, 1.0);
-        one.confidence = DOUBTED * (0.3 + 0.5 * fit);
-        one.alignment = rival;
+        candidate.confidence = DOUBTED * (0.3 + 0.5 * fit);
+        candidate.alignment = rival;
     }
 }
 
-/// Whether it is the front and the back of a leg in one piece.
-pub fn is_whole_leg(one: &Recognised) -> bool {
-    one.class == Class::Leg && one.alignment.template.is_limb()
+/// True for a leg in one piece, front and back together.
+pub fn is_whole_leg(candidate: &Recognised) -> bool {
+    candidate.class == Class::Leg && candidate.alignment.template.is_limb()
 }
 
-/// Tells front from back where exactly two pieces of a kind are told by nothing else: the front neck is cut deeper, and
-/// the back seat seam reaches further out.
+/// Tells front from back of exactly two pieces of a kind without other evidence. The front neck is cut deeper, and the
+/// back seat seam reaches further out.
 fn tell_faces(class: Class, found: &mut [Recognised]) {
     let unknown: Vec<usize> = (0..found.len())
         .filter(|&i| found[i].class == class && found[i].face.is_none() && !is_whole_leg(&found[i]))
         .collect();
-    let known: Vec<Face> = found.iter().filter(|one| one.class == class).filter_map(|one| one.face).collect();
+    let known: Vec<Face> =
+        found.iter().filter(|candidate| candidate.class == class).filter_map(|candidate| candidate.face).collect();
     match (unknown.as_slice(), known.as_slice()) {
         (&[only], [face]) => {
             found[only].face = Some(if *face == Face::Front { Face::Back } else { Face::Front });
             found[only].confidence *= COMPARED;
         }
         (&[first, second], []) => {
-            // A yoke is the back's.
+            // A piece without shoulders hangs from a yoke, which belongs to the back.
             let has_shoulder = |i: usize| class != Class::Body || found[i].alignment.template.has_shoulder();
             let by_shoulder = match [first, second].map(has_shoulder) {
                 [true, false] => Some((first, second)),
@@ -445,8 +462,8 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
     }
 }
 
-/// Doubts front and back of two pieces of a kind that look like the other, of which a name calls one so. Where only one has a name for it
-/// the outlines hold, else the names.
+/// Doubts the names of a front and a back if each looks like the other. If only one of them has a name, the outlines
+/// are the default answer, otherwise the names.
 fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let of_class: Vec<usize> =
         (0..found.len()).filter(|&i| found[i].class == class && !is_whole_leg(&found[i])).collect();
@@ -458,17 +475,17 @@ fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut [Rec
     }
 }
 
-/// The front and the back of two pieces; `None` of more or fewer.
+/// Front and back of exactly two pieces. `None` for more or fewer.
 fn front_and_back(found: &[Recognised], two: &[usize]) -> Option<[usize; 2]> {
-    let &[one, other] = two else { return None };
-    match [one, other].map(|i| found[i].face) {
-        [Some(Face::Front), Some(Face::Back)] => Some([one, other]),
-        [Some(Face::Back), Some(Face::Front)] => Some([other, one]),
+    let &[first, second] = two else { return None };
+    match [first, second].map(|i| found[i].face) {
+        [Some(Face::Front), Some(Face::Back)] => Some([first, second]),
+        [Some(Face::Back), Some(Face::Front)] => Some([second, first]),
         _ => None,
     }
 }
 
-/// Asks whether a front and a back are the other way round, if a name says what they are; then they are.
+/// Asks whether a front and a back are swapped, if a name says what they are, and swaps them on that answer.
 fn ask_faces(pair: [usize; 2], pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let called: Vec<usize> = pair.into_iter().filter(|&i| named[found[i].piece].face.is_some()).collect();
     let Some(&asked) = called.first() else { return };
@@ -485,42 +502,42 @@ fn ask_faces(pair: [usize; 2], pieces: &[Piece], named: &[Named], found: &mut [R
     }
 }
 
-/// Tells the front of a skirt from its back by the waists of what they hang from, where nothing else does.
+/// Tells the front of a skirt from its back by the waists of the trunk that they hang from, without other evidence.
 fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
-    let of = |face: Face| {
-        let is_it = |one: &&Recognised| one.class == Class::Body && one.face == Some(face);
+    let hem_m = |face: Face| {
+        let is_it = |candidate: &&Recognised| candidate.class == Class::Body && candidate.face == Some(face);
         Some(length_m(found.iter().find(is_it)?, Label::Hem))
     };
     let skirts: Vec<usize> =
         (0..found.len()).filter(|&i| found[i].class == Class::Skirt && found[i].gore.is_none()).collect();
-    let &[one, other] = skirts.as_slice() else { return };
-    let waists = of(Face::Front).zip(of(Face::Back));
+    let &[first, second] = skirts.as_slice() else { return };
+    let waists = hem_m(Face::Front).zip(hem_m(Face::Back));
     let waist = |i: usize| length_m(&found[i], Label::Waist);
     let apart = |a: usize, b: usize| waists.map(|(front, back)| (waist(a) - front).abs() + (waist(b) - back).abs());
-    let [straight, turned] = [apart(one, other), apart(other, one)];
-    match [one, other].map(|i| found[i].face) {
+    let [straight, turned] = [apart(first, second), apart(second, first)];
+    match [first, second].map(|i| found[i].face) {
         [None, None] => {
             let (Some(straight), Some(turned)) = (straight, turned) else { return };
-            let order = if turned < straight { [other, one] } else { [one, other] };
+            let order = if turned < straight { [second, first] } else { [first, second] };
             for (index, face) in order.into_iter().zip(Face::BOTH) {
                 found[index].face = Some(face);
                 found[index].confidence *= COMPARED;
             }
             return;
         }
-        [Some(face), None] => found[other].face = Some(face.other()),
-        [None, Some(face)] => found[one].face = Some(face.other()),
+        [Some(face), None] => found[second].face = Some(face.other()),
+        [None, Some(face)] => found[first].face = Some(face.other()),
         _ => {}
     }
     let Some([front, back]) = front_and_back(found, &skirts) else { return };
-    let (as_named, otherwise) = if front == one { (straight, turned) } else { (turned, straight) };
+    let (as_named, otherwise) = if front == first { (straight, turned) } else { (turned, straight) };
     let are_called = skirts.iter().all(|&i| named[found[i].piece].face.is_some());
     let least = if are_called { CLEAR_WAIST_M } else { ANY_WAIST_M };
     let Some((as_named, otherwise)) = as_named.zip(otherwise) else { return };
     if as_named > otherwise + least {
         ask_faces([front, back], pieces, named, found, asker);
     } else if !are_called && as_named > otherwise - least {
-        // One name alone tells both apart.
+        // A single name tells both apart.
         let Some(&called) = [front, back].iter().find(|&&i| named[found[i].piece].face.is_some()) else { return };
         let text = format!("is piece `{}` a front or a back?", reference(pieces, found[called].piece));
         let says = usize::from(found[called].face == Some(Face::Back));
@@ -532,34 +549,34 @@ fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised],
     }
 }
 
-/// Length of what a piece calls so, darts closed, m.
-pub fn length_m(one: &Recognised, label: Label) -> f64 {
-    let parts = one.alignment.parts.iter().filter(|part| part.label == label);
-    parts.map(|part| one.shape.sewn_length(part.from, part.span)).sum()
+/// Total length of the edges of a piece with a label, darts closed, m.
+pub fn length_m(candidate: &Recognised, label: Label) -> f64 {
+    let parts = candidate.alignment.parts.iter().filter(|part| part.label == label);
+    parts.map(|part| candidate.shape.sewn_length(part.from, part.span)).sum()
 }
 
-/// A yoke that its name does not place is sewn to what has no shoulders, the back first.
+/// Sets the face of yokes without one: that of a trunk without shoulders, the back first.
 fn tell_yoke_faces(found: &mut [Recognised]) {
     let is_under = |face: Face| {
-        let is_it = |one: &Recognised| one.class == Class::Body && one.face == Some(face);
-        found.iter().any(|one| is_it(one) && !one.alignment.template.has_shoulder())
+        let is_it = |candidate: &Recognised| candidate.class == Class::Body && candidate.face == Some(face);
+        found.iter().any(|candidate| is_it(candidate) && !candidate.alignment.template.has_shoulder())
     };
     let face = if !is_under(Face::Back) && is_under(Face::Front) { Face::Front } else { Face::Back };
-    for yoke in found.iter_mut().filter(|one| one.class == Class::Yoke) {
+    for yoke in found.iter_mut().filter(|candidate| candidate.class == Class::Yoke) {
         yoke.face = yoke.face.or(Some(face));
     }
 }
 
-/// How much a piece looks like a front beside its back.
-fn frontness(one: &Recognised) -> Option<f64> {
-    let (shape, _) = one.shape.framed(one.alignment.quarter_turns);
-    let stretch = |label: Label| one.alignment.parts.iter().find(|part| part.label == label);
-    match one.class {
-        Class::Body => stretch(Label::Neck).map(|neck| {
+/// Measure of how much a piece looks like a front rather than a back, for comparison.
+fn frontness(candidate: &Recognised) -> Option<f64> {
+    let (shape, _) = candidate.shape.framed(candidate.alignment.quarter_turns);
+    let section = |label: Label| candidate.alignment.parts.iter().find(|part| part.label == label);
+    match candidate.class {
+        Class::Body => section(Label::Neck).map(|neck| {
             let [low, high] = shape.heights(neck.from, neck.span);
             high - low
         }),
-        Class::Leg => stretch(Label::Crotch).map(|crotch| -shape.stretch(crotch.from, crotch.span).chord.x.abs()),
+        Class::Leg => section(Label::Crotch).map(|crotch| -shape.section(crotch.from, crotch.span).chord.x.abs()),
         _ => None,
     }
 }

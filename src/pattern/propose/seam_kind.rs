@@ -1,29 +1,29 @@
-//! What a proposed seam joins. Seam files and questions have it as text, and [`SeamKind`]'s `Display` is the one place that
-//! writes this text; which seam is which is told by its kind.
+//! Kinds of proposed seams. Seam files and questions contain them as text, which only the `Display` of [`SeamKind`]
+//! writes. Seams are identified by their kind.
 
 use std::fmt;
 
 use super::{Face, Hand};
 
-/// What a proposed seam joins.
+/// Kind of a proposed seam: the edges that it joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SeamKind {
-    /// The legs of a dart of a piece.
+    /// Legs of a dart of a piece.
     Dart {
-        /// The piece's identifier.
+        /// Identifier of the piece.
         piece: String,
-        /// Which of its darts, from 1.
+        /// Number of the dart, from 1.
         number: usize,
     },
     /// Front to back of the trunk, from hem to armhole.
     Side(Hand),
     /// Front to back, from neck to armhole.
     Shoulder(Hand),
-    /// The middle of a front or back to its side panel.
+    /// Middle of a front or back to its side panel.
     Princess(Face, Hand),
     /// Left to right half of a front or back.
     Centre(Face),
-    /// A yoke over the shoulders to what hangs from it.
+    /// A yoke over the shoulders to the pieces that hang from it.
     Yoke(Face),
     /// Left to right half of a yoke.
     YokeCentre(Face),
@@ -33,9 +33,9 @@ pub enum SeamKind {
     Raglan(Face, Hand),
     /// A whole sleeve to itself.
     Underarm(Hand),
-    /// The halves of a sleeve above the arm.
+    /// Halves of a sleeve above the arm.
     SleeveTop(Hand),
-    /// The halves of a sleeve below the arm.
+    /// Halves of a sleeve below the arm.
     SleeveUnderarm(Hand),
     /// A sleeve to its cuff.
     Cuff(Hand),
@@ -43,7 +43,7 @@ pub enum SeamKind {
     CuffHalf(Face, Hand),
     /// A whole cuff to itself.
     CuffEnds(Hand),
-    /// The halves of a cuff; the second hand is the end of the front half.
+    /// Halves of a cuff. The second hand is the end of the front half.
     CuffSide(Hand, Hand),
     /// Front to back of a leg, outside.
     Outseam(Hand),
@@ -55,15 +55,15 @@ pub enum SeamKind {
     SkirtSide(Hand),
     /// A skirt of one piece to itself.
     SkirtRound,
-    /// A gore to the next one; its number, from 1.
+    /// A gore to the next one, with its number, from 1.
     Gore(usize),
     /// Left to right half of a skirt.
     SkirtCentre(Face),
-    /// What is above to what is below, of one face; which such seam, from 1 at the top.
+    /// Upper to lower pieces of one face, with the number of the seam, from 1 at the top.
     WaistLevel(Face, usize),
-    /// A waistband to what is below it, of one side or all round.
+    /// A waistband to the pieces below it, of one side or all round.
     Waist(Option<Hand>),
-    /// A waistband to what is above it, of one side or all round.
+    /// A waistband to the pieces above it, of one side or all round.
     WaistAbove(Option<Hand>),
     /// A waistband to itself.
     Waistband,
@@ -74,13 +74,13 @@ pub enum SeamKind {
 }
 
 impl SeamKind {
-    /// What it joins, on whichever side of the wearer.
+    /// Text of the kind without the side of the wearer.
     pub(super) fn on_either_side(&self) -> String {
         let name = self.to_string();
         ["_right", "_left"].into_iter().fold(name, |name, side| name.replace(side, ""))
     }
 
-    /// Whether it closes two halves in the middle: a seam, an opening or a fold.
+    /// True for a join of two halves at the centre: a seam, an opening or a fold.
     #[must_use]
     pub fn is_centre(&self) -> bool {
         matches!(self, Self::Centre(_) | Self::YokeCentre(_) | Self::SkirtCentre(_))

@@ -1,36 +1,36 @@
-//! Which edges belong together.
+//! Proposal of seams between the edges of recognised pieces.
 //!
-//! Every piece is seen from outside, so both sides of a seam run against each other: `a` is walked counter-clockwise
-//! round its piece, `b` clockwise, and a chain over several pieces is written in the order of the walk.
+//! Every piece is seen from outside, so both sides of a seam run against each other. Side `a` is walked
+//! counter-clockwise round its piece, `b` clockwise. A chain over several pieces is in the order of the walk.
 
 use super::ask::Asker;
 use super::notched::{self, Evidence};
-use super::worn::{Along, Worn};
+use super::worn_pieces::{Along, Worn};
 use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamEntry};
 use geom::units::mm;
 
-/// Difference of length, share of the longer side, at which a seam of straight edges is not believed.
+/// Relative difference of length at which the confidence in a seam of straight edges is halved.
 pub(super) const PLAIN_DOUBT: f64 = 0.06;
-/// The same for a sleeve, which is eased into its armhole, and a waist, which may be gathered or open.
+/// The same for a sleeve, which is eased into its armhole, and for a waist, which may be gathered or open.
 pub(super) const EASED_DOUBT: f64 = 0.15;
-/// The same for the end of a sleeve, which is laid in pleats or gathered into its cuff.
+/// The same for the end of a sleeve, which is pleated or gathered into its cuff.
 const GATHERED_DOUBT: f64 = 0.3;
-/// Confidence in a seam at centre front or back.
+/// Factor on the confidence in a seam at centre front or back.
 pub(super) const CENTRE_CONFIDENCE: f64 = 0.7;
-/// Least confidence of a seam that is proposed; less sure ones are asked about.
+/// Least confidence of a proposed seam. Others are asked about.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
-/// Confidence in a seam that a person has said to be one.
+/// Confidence in a seam that the user has confirmed.
 const ANSWERED: f64 = 0.9;
-/// Share of the remaining doubt that matching notches take away.
+/// Share of the remaining doubt that matching notches remove.
 const NOTCHED_GAIN: f64 = 0.4;
-/// Confidence in a seam whose notches match better the other way round.
+/// Factor on the confidence in a seam whose notches match better reversed.
 const NOTCHED_DOUBT: f64 = 0.6;
 
-/// Edges in order.
+/// A chain of edges in order.
 pub(super) type Chain<'w> = Vec<Along<'w>>;
-/// What edges of a kind of piece are joined by, on each hand or face.
+/// Kind and label of edges, with the kind of seam that joins them on each hand or face.
 type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
@@ -54,15 +54,15 @@ pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
     tailor.seams
 }
 
-/// Edges in no seam that may well be openings.
+/// Edges in no seam that are probably openings.
 pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let is_sewn = |name: &String| seams.iter().any(|seam| seam.entry.a.contains(name) || seam.entry.b.contains(name));
     let may_be_open = |label: Label| {
         matches!(label, Label::Hem | Label::Neck | Label::Armhole | Label::Waist | Label::Lower | Label::Top)
     };
-    let edges = worn.iter().flat_map(|one| {
-        let free = one.edges.iter().filter(|edge| edge.label.is_some_and(may_be_open));
-        free.map(|edge| Along { piece: one, edge }.to_string())
+    let edges = worn.iter().flat_map(|worn| {
+        let free = worn.edges.iter().filter(|edge| edge.label.is_some_and(may_be_open));
+        free.map(|edge| Along { piece: worn, edge }.to_string())
     });
     edges.filter(|name| !is_sewn(name)).collect()
 }
@@ -73,17 +73,17 @@ pub(super) struct Tailor<'w, 'q, 'a> {
     pub asker: &'q mut Asker<'a>,
 }
 
-/// What is asked of a seam between two halves.
+/// Question about a seam between two halves.
 fn centre_question(kind: &SeamKind) -> String {
     format!("{kind}: a seam, a fold, or an opening?")
 }
 
 impl<'w> Tailor<'w, '_, '_> {
-    /// The piece of a kind for a side; a whole piece is for both.
+    /// Piece of a kind for a side. A whole piece serves both.
     pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
         self.worn
             .iter()
-            .find(|one| one.class == class && one.face == face && (one.hand == Some(hand) || one.hand.is_none()))
+            .find(|worn| worn.class == class && worn.face == face && (worn.hand == Some(hand) || worn.hand.is_none()))
     }
 
     pub fn add(&mut self, kind: SeamKind, a: Chain<'_>, b: Chain<'_>, pieces: &[&Worn], doubt: f64) {
@@ -94,7 +94,7 @@ impl<'w> Tailor<'w, '_, '_> {
         }
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
-        // Half pieces say nothing of how they are joined in the middle; a person may.
+        // Half pieces do not show how they are joined at the centre, but the user may have answered.
         let is_known = !kind.is_centre() || self.asker.is_answered(&centre_question(&kind));
         let known = if is_known { 1.0 } else { CENTRE_CONFIDENCE };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
@@ -133,18 +133,22 @@ impl<'w> Tailor<'w, '_, '_> {
     }
 
     fn darts(&mut self) {
-        for one in self.worn {
-            for (number, [a, b]) in one.darts.iter().enumerate() {
+        for worn in self.worn {
+            for (number, [a, b]) in worn.darts.iter().enumerate() {
                 let leg = |name: &String| {
-                    one.edges.iter().filter(|edge| edge.name == *name).map(|edge| Along { piece: one, edge }).collect()
+                    worn.edges
+                        .iter()
+                        .filter(|edge| edge.name == *name)
+                        .map(|edge| Along { piece: worn, edge })
+                        .collect()
                 };
-                let kind = SeamKind::Dart { piece: one.id.clone(), number: number + 1 };
-                self.add(kind, leg(a), leg(b), &[one], PLAIN_DOUBT);
+                let kind = SeamKind::Dart { piece: worn.id.clone(), number: number + 1 };
+                self.add(kind, leg(a), leg(b), &[worn], PLAIN_DOUBT);
             }
         }
     }
 
-    /// Front to back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
+    /// Joins front and back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
     fn sides(&mut self, hand: Hand) {
         let pairs: [Joined<Hand>; 8] = [
             (Class::Body, Label::Side, SeamKind::Side),
@@ -159,16 +163,17 @@ impl<'w> Tailor<'w, '_, '_> {
         for (class, label, kind) in pairs {
             let [front, back] = Face::BOTH.map(|face| self.along(class, label, face, hand));
             if !front.is_empty() && !back.is_empty() {
-                let a = front.iter().flat_map(|(one, label)| one.chain(*label, Some(hand))).collect();
-                let b = back.iter().flat_map(|(one, label)| one.chain_back(*label, Some(hand))).collect();
-                let pieces: Vec<&Worn> = front.iter().chain(&back).map(|(one, _)| *one).collect();
+                let a = front.iter().flat_map(|(worn, label)| worn.chain(*label, Some(hand))).collect();
+                let b = back.iter().flat_map(|(worn, label)| worn.chain_back(*label, Some(hand))).collect();
+                let pieces: Vec<&Worn> = front.iter().chain(&back).map(|(worn, _)| *worn).collect();
                 self.add(kind(hand), a, b, &pieces, PLAIN_DOUBT);
             }
         }
     }
 
-    /// Pieces of a face along a seam of one side, with what they call it, in the order of the walk. A yoke has the
-    /// shoulder of what hangs from it, or the upper end of the seams of what it lies on.
+    /// Pieces of a face along a seam of one side, each with its label there, in the order of the walk. A yoke over the
+    /// shoulders has the shoulder of the pieces that hang from it. A yoke below the waist has the upper end of the
+    /// seams of the pieces that it is sewn onto.
     fn along(&self, class: Class, label: Label, face: Face, hand: Hand) -> Vec<(&'w Worn, Label)> {
         let Some(main) = self.find(class, Some(face), hand) else { return Vec::new() };
         let panel = self.find(Class::SidePanel, Some(face), hand).filter(|panel| panel.has(label));
@@ -177,19 +182,20 @@ impl<'w> Tailor<'w, '_, '_> {
             _ if class == Class::Body && panel.is_some() => {
                 let mut walk = vec![main];
                 walk.extend(panel);
-                walk.retain(|one| one.has(label));
-                // From the neck outwards on the right.
+                walk.retain(|worn| worn.has(label));
+                // The walk goes from the neck outwards on the right.
                 if hand == Hand::Left {
                     walk.reverse();
                 }
-                walk.into_iter().map(|one| (one, label)).collect()
+                walk.into_iter().map(|worn| (worn, label)).collect()
             }
             Some(yoke) if label == Label::Shoulder && !main.has(label) => vec![(yoke, label)],
             Some(yoke) if label != Label::Inseam && class != Class::Body && yoke.has(Label::Waist) => {
                 let is_middle = matches!(label, Label::Crotch | Label::Centre);
                 let of_yoke = if is_middle { Label::Centre } else { Label::Side };
                 let mut walk = vec![(yoke, of_yoke), (main, label)];
-                // Outside it goes down on the right and up on the left, in the middle down behind and up in front.
+                // On the outer side the walk goes down on the right and up on the left; at the centre, down behind and
+                // up in front.
                 if if is_middle { face == Face::Front } else { hand == Hand::Left } {
                     walk.reverse();
                 }
@@ -199,18 +205,18 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Side panels to what lies between them.
+    /// Joins side panels to the panel between them.
     fn princess(&mut self, hand: Hand) {
         for face in Face::BOTH {
-            let of = |class: Class| self.find(class, Some(face), hand);
-            if let (Some(panel), Some(middle)) = (of(Class::SidePanel), of(Class::Body)) {
+            let piece_of = |class: Class| self.find(class, Some(face), hand);
+            if let (Some(panel), Some(middle)) = (piece_of(Class::SidePanel), piece_of(Class::Body)) {
                 let (a, b) = (panel.chain(Label::Princess, None), middle.chain_back(Label::Princess, Some(hand)));
                 self.add(SeamKind::Princess(face, hand), a, b, &[panel, middle], PLAIN_DOUBT);
             }
         }
     }
 
-    /// A raglan sleeve to the front and the back.
+    /// Joins a raglan sleeve to the front and the back.
     fn raglan(&mut self, sleeve: &'w Worn, hand: Hand) {
         for (face, side) in [(Face::Front, hand), (Face::Back, hand.other())] {
             let Some(body) = self.find(Class::Body, Some(face), hand) else { continue };
@@ -219,10 +225,11 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// A sleeve to itself and to its armhole.
+    /// Joins a sleeve to itself and to its armhole.
     fn sleeve(&mut self, hand: Hand) {
-        let whole = self.worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == Some(hand));
-        // Counter-clockwise round a right sleeve the cap runs from its front to its back.
+        let whole =
+            self.worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == Some(hand));
+        // Counter-clockwise round a right sleeve, the cap runs from front to back.
         let order = if hand == Hand::Right { Face::BOTH } else { [Face::Back, Face::Front] };
         let mut pieces: Vec<&Worn> = Vec::new();
         let mut cap = Chain::new();
@@ -243,7 +250,7 @@ impl<'w> Tailor<'w, '_, '_> {
             }
         }
         let mut armhole = Chain::new();
-        // Up the first face, over its yoke and that of the second, and down.
+        // The armhole goes up the first face, over its yoke and that of the second, and down.
         let up = [Class::SidePanel, Class::Body, Class::Yoke].map(|class| (class, order[0]));
         let down = [Class::Yoke, Class::Body, Class::SidePanel].map(|class| (class, order[1]));
         for body in up.into_iter().chain(down).filter_map(|(class, face)| self.find(class, Some(face), hand)) {
@@ -256,7 +263,7 @@ impl<'w> Tailor<'w, '_, '_> {
         self.add(SeamKind::Armhole(hand), cap, armhole, &pieces, EASED_DOUBT);
     }
 
-    /// Legs in one piece to themselves and to each other.
+    /// Joins legs in one piece to themselves and to each other.
     fn whole_legs(&mut self) {
         let legs = Hand::BOTH.map(|hand| self.whole_leg(hand));
         for (hand, leg) in Hand::BOTH.into_iter().zip(legs) {
@@ -265,7 +272,7 @@ impl<'w> Tailor<'w, '_, '_> {
             self.add(SeamKind::Inseam(hand), a, b, &[leg], PLAIN_DOUBT);
         }
         let [Some(right), Some(left)] = legs else { return };
-        // Seen from outside the front of a right leg is to the right, that of a left one to the left.
+        // Seen from outside, the front of a right leg is on the right, that of a left one on the left.
         for (face, side) in Face::BOTH.into_iter().zip(Hand::BOTH) {
             let a = right.chain(Label::Crotch, Some(side));
             let b = left.chain_back(Label::Crotch, Some(side.other()));
@@ -273,12 +280,12 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// A leg in one piece.
+    /// Leg in one piece of a side.
     pub fn whole_leg(&self, hand: Hand) -> Option<&'w Worn> {
-        self.worn.iter().find(|one| one.class == Class::Leg && one.is_whole && one.hand == Some(hand))
+        self.worn.iter().find(|worn| worn.class == Class::Leg && worn.is_whole && worn.hand == Some(hand))
     }
 
-    /// Cuffs in halves to half sleeves, and to each other.
+    /// Joins cuffs to sleeves and to themselves, also in halves.
     fn cuff(&mut self, hand: Hand) {
         let halves = Face::BOTH
             .map(|face| (self.find(Class::Cuff, Some(face), hand), self.find(Class::Sleeve, Some(face), hand)));
@@ -287,9 +294,10 @@ impl<'w> Tailor<'w, '_, '_> {
             let (a, b) = (sleeve.chain(Label::Hem, None), cuff.chain_back(Label::Top, None));
             self.add(SeamKind::CuffHalf(face, hand), a, b, &[cuff, sleeve], GATHERED_DOUBT);
         }
-        let sleeve = self.worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == Some(hand));
+        let sleeve =
+            self.worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == Some(hand));
         let cuff =
-            self.worn.iter().find(|one| one.class == Class::Cuff && one.face.is_none() && one.hand == Some(hand));
+            self.worn.iter().find(|worn| worn.class == Class::Cuff && worn.face.is_none() && worn.hand == Some(hand));
         if let (Some(sleeve), Some(cuff)) = (sleeve, cuff) {
             let (a, b) = (sleeve.chain(Label::Hem, None), cuff.chain_back(Label::Top, None));
             self.add(SeamKind::Cuff(hand), a, b, &[cuff, sleeve], GATHERED_DOUBT);
@@ -304,7 +312,7 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Left to right half of the same face.
+    /// Joins the left and right half of the same face.
     fn centre(&mut self, face: Face) {
         let halves: [Joined<Face>; 4] = [
             (Class::Body, Label::Centre, SeamKind::Centre),
@@ -313,16 +321,16 @@ impl<'w> Tailor<'w, '_, '_> {
             (Class::Leg, Label::Crotch, SeamKind::Crotch),
         ];
         for (class, label, kind) in halves {
-            let is_half = |hand: Hand| self.find(class, Some(face), hand).is_some_and(|one| one.hand.is_some());
-            // A yoke below the waist is sewn with what it lies on.
-            let is_low = |one: &Worn| one.class == Class::Yoke && one.has(Label::Waist);
+            let is_half = |hand: Hand| self.find(class, Some(face), hand).is_some_and(|worn| worn.hand.is_some());
+            // A yoke below the waist is joined together with the piece that it is sewn onto.
+            let is_low = |worn: &Worn| worn.class == Class::Yoke && worn.has(Label::Waist);
             if !Hand::BOTH.into_iter().all(is_half) || self.find(class, Some(face), Hand::Right).is_some_and(is_low) {
                 continue;
             }
             let [right, left] = Hand::BOTH.map(|hand| self.along(class, label, face, hand));
-            let a = right.iter().flat_map(|(one, label)| one.chain(*label, None)).collect();
-            let b = left.iter().flat_map(|(one, label)| one.chain_back(*label, None)).collect();
-            let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(one, _)| *one).collect();
+            let a = right.iter().flat_map(|(worn, label)| worn.chain(*label, None)).collect();
+            let b = left.iter().flat_map(|(worn, label)| worn.chain_back(*label, None)).collect();
+            let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(worn, _)| *worn).collect();
             let kind = kind(face);
             let choices = ["a seam or a fold", "an opening"];
             let is_open = kind.is_centre() && self.asker.ask(centre_question(&kind), choices, Some(0)) == Some(1);

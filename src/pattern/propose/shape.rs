@@ -1,35 +1,35 @@
-//! The outline of a piece as edges between corners, darts taken out.
+//! Shape of a piece: its outline as edges between corners, with darts identified.
 
 use crate::piece::Piece;
 use crate::style::corners::corner_vertices;
 use geom::V2;
 
-/// Turn to the right at which a corner is the apex of a dart, degrees.
+/// Turning angle to the right from which a corner is the apex of a dart, degrees.
 const APEX_TURN_DEG: f64 = 120.0;
-/// Greatest difference of the two legs of a dart, share of the longer.
+/// Greatest relative difference of the two legs of a dart.
 const LEG_DIFFERENCE: f64 = 0.04;
-/// Greatest mouth of a dart, share of its leg: what is wider is a V-neck.
+/// Greatest mouth of a dart, as a share of its leg. A wider one is a V-neck.
 const WIDEST_MOUTH: f64 = 0.7;
 /// Least leg of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
-/// Turn from which a marked point is a corner whatever its neighbours do, degrees: a curve of 30 mm radius, the narrowest of an
-/// armhole or a neck, turns by 19 a centimetre.
+/// Turning angle from which a marked point is a corner, whatever its neighbours, degrees. A curve of 30 mm radius, the
+/// narrowest of an armhole or a neck, turns by 19 degrees per centimetre.
 const CLEAR_TURN_DEG: f64 = 20.0;
-/// Share of its turn that a neighbour has along a curve.
+/// Least share of its turning angle that a neighbour on the same curve has.
 const SAME_CURVE: f64 = 0.5;
-/// Growth of a mouth below which it does not count as growth, m.
+/// Growth of a dart's mouth that does not count, m.
 const LEAST_STEP_M: f64 = 1e-3;
-/// Greatest distance of corners from the images of others in an outline that is its own mirror image, share of its size.
+/// Greatest distance of corners from the images of others in a symmetric outline, as a share of its size.
 const MIRRORED: f64 = 0.003;
-/// Most corners of a piece that is looked at; more are no pattern's, and alignment takes the square of their number.
+/// Greatest number of corners of a piece. No pattern has more, and the cost of alignment is quadratic in it.
 const MOST_CORNERS: usize = 100;
 
-/// The outline that is sewn, cut at its corners.
+/// The sewn outline, split at its corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// Vertices of the outline, counter-clockwise, m.
     outline: Vec<V2>,
-    /// Corners, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
+    /// Corners as vertex indices, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
     corners: Vec<usize>,
     /// Darts cut into the outline.
     darts: Vec<Dart>,
@@ -40,26 +40,26 @@ pub struct Shape {
 pub struct Dart {
     /// Corner at its tip.
     pub apex: usize,
-    /// Edges of each leg: one, or several where the dart narrows again towards the edge it is cut into.
+    /// Number of edges of each leg: one, or several if the dart narrows again towards the edge it is cut into.
     pub span: usize,
 }
 
-/// A stretch of outline over some edges, in the frame of a [`Shape::framed`] outline.
+/// Properties of consecutive edges, in the frame of [`Shape::framed`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch {
-    /// From its first to its last point.
+pub struct Section {
+    /// Vector from its first to its last point.
     pub chord: V2,
-    /// The point at half its length.
+    /// Midpoint by length.
     pub middle: V2,
-    /// Length without darts.
+    /// Length, the legs of darts left out.
     pub length: f64,
-    /// Area between it and its chord over the square of the chord; positive where it bulges outwards.
+    /// Signed area between it and its chord over the square of the chord, positive if it bulges outwards.
     pub bow: f64,
-    /// Sum of the turns at the corners that it passes, darts left out, radians.
+    /// Sum of the absolute turning angles at its inner corners, without darts, radians.
     pub turn: f64,
 }
 
-/// A point turned about the origin by quarter turns, counter-clockwise.
+/// Rotates a point about the origin by quarter turns, counter-clockwise.
 #[must_use]
 pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
     match quarter_turns % 4 {
@@ -70,8 +70,8 @@ pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
     }
 }
 
-/// Whether an outline turns at a vertex no more than a curve does that goes on at a neighbour: programs mark graded points
-/// along an edge as they mark corners.
+/// True if a vertex turns no more than a curve that continues at a neighbour. Programs mark grade points along an edge
+/// as they mark corners.
 fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
     let n = outline.len();
     let turn = |i: usize| {
@@ -84,7 +84,7 @@ fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
 }
 
 impl Shape {
-    /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
+    /// Shape of a piece. `None` with fewer than three corners or more than any pattern has.
     #[must_use]
     pub fn of(piece: &Piece) -> Option<Self> {
         let outline = piece.seam_outline();
@@ -94,7 +94,7 @@ impl Shape {
         Self::new(outline.to_vec(), corners)
     }
 
-    /// The shape of an outline, counter-clockwise, with the indices of its corners; `None` as [`Shape::of`].
+    /// Shape of a counter-clockwise outline with the indices of its corners. `None` as of [`Shape::of`].
     #[must_use]
     pub fn new(outline: Vec<V2>, corners: Vec<usize>) -> Option<Self> {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
@@ -106,38 +106,38 @@ impl Shape {
         Some(shape)
     }
 
-    /// Vertices of the corners on the outline.
+    /// Vertex indices of the corners.
     #[must_use]
     pub fn corners(&self) -> &[usize] {
         &self.corners
     }
 
-    /// Number of corners, which is the number of edges: edge `k` runs from corner `k` to the next.
+    /// Number of corners, which is that of the edges. Edge `k` runs from corner `k` to the next.
     #[must_use]
     pub fn len(&self) -> usize {
         self.corners.len()
     }
 
-    /// Darts, by the number of their apex.
+    /// Darts, in the order of their apex.
     #[must_use]
     pub fn darts(&self) -> &[Dart] {
         &self.darts
     }
 
-    /// The dart of which an edge is a leg, or part of one.
+    /// Dart that an edge belongs to, if any.
     #[must_use]
     pub fn dart_of(&self, edge: usize) -> Option<Dart> {
         let n = self.len();
         self.darts.iter().copied().find(|dart| (edge + n + dart.span - dart.apex) % n < 2 * dart.span)
     }
 
-    /// Whether an edge is a leg of a dart.
+    /// True if an edge belongs to a leg of a dart.
     #[must_use]
     pub fn is_leg(&self, edge: usize) -> bool {
         self.dart_of(edge).is_some()
     }
 
-    /// Whether a corner is the apex of a dart, or lies within one of its legs.
+    /// True if a corner is the apex of a dart, or lies within one of its legs.
     #[must_use]
     pub fn is_in_dart(&self, corner: usize) -> bool {
         let n = self.len();
@@ -145,7 +145,7 @@ impl Shape {
         self.darts.iter().any(is_in)
     }
 
-    /// Points of an edge, both ends included.
+    /// Points of an edge, including both ends.
     pub fn points(&self, edge: usize) -> Vec<V2> {
         let n = self.outline.len();
         let (from, to) = (self.corners[edge], self.corners[(edge + 1) % self.len()]);
@@ -158,7 +158,7 @@ impl Shape {
         self.points(edge).windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
     }
 
-    /// Turn of the outline at a corner, radians, positive to the left.
+    /// Turning angle of the outline at a corner, radians, positive to the left.
     fn turn(&self, corner: usize) -> f64 {
         let before = self.points((corner + self.len() - 1) % self.len());
         let after = self.points(corner);
@@ -171,7 +171,7 @@ impl Shape {
         let place = |corner: usize| self.outline[self.corners[corner % self.len()]];
         let mouth = (place(corner + 1) - place(corner + self.len() - 1)).norm();
         let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
-        // By the chords of the legs: those of a waist dart are often curved.
+        // The angle is taken between the chords of the legs, because those of a waist dart are often curved.
         let into = place(corner) - place(corner + self.len() - 1);
         let out = place(corner + 1) - place(corner);
         into.perp(&out).atan2(into.dot(&out)).to_degrees() < -APEX_TURN_DEG
@@ -180,7 +180,8 @@ impl Shape {
             && long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M)
     }
 
-    /// Edges of each leg of the dart with this apex: a dart that is widest inside the piece narrows again on its way out.
+    /// Number of edges of each leg of the dart with this apex. A dart that is widest inside the piece narrows again on
+    /// its way out.
     fn leg_span(&self, apex: usize) -> usize {
         let n = self.len();
         let place = |corner: usize| self.outline[self.corners[corner % n]];
@@ -194,22 +195,22 @@ impl Shape {
         1 + (2..=(n - 1) / 2).take_while(is_on).count()
     }
 
-    /// Length of a stretch once its darts are sewn, m.
+    /// Length of consecutive edges once their darts are sewn, m.
     #[must_use]
     pub fn sewn_length(&self, from: usize, span: usize) -> f64 {
         let edges = (from..from + span).map(|edge| edge % self.len());
         edges.filter(|&edge| !self.is_leg(edge)).map(|edge| self.length(edge)).sum()
     }
 
-    /// The least and greatest `v` of a stretch.
+    /// Least and greatest `v` of consecutive edges.
     #[must_use]
     pub fn heights(&self, from: usize, span: usize) -> [f64; 2] {
         let points = (0..span).flat_map(|k| self.points((from + k) % self.len()));
         points.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
     }
 
-    /// The same shape turned by quarter turns and scaled into the unit square of its bounding box (both axes by the
-    /// longer side, so that angles stay), with the box's width and height.
+    /// Returns the shape rotated by quarter turns and scaled into the unit square, and the width and height of its
+    /// bounding box there. Both axes are scaled by the longer side, so that angles stay.
     #[must_use]
     pub fn framed(&self, quarter_turns: usize) -> (Self, V2) {
         let points: Vec<V2> = self.outline.iter().map(|p| quarter_turned(p, quarter_turns)).collect();
@@ -220,7 +221,8 @@ impl Shape {
         (Self { outline, ..self.clone() }, (high - low) / scale)
     }
 
-    /// Of a framed outline that is its own mirror image, left to right: the sum, modulo the number of corners, of a corner and its image.
+    /// Mirror symmetry of a framed outline, left to right, if it has one: the sum, modulo the number of corners, of a
+    /// corner and its image.
     #[must_use]
     pub fn mirror(&self) -> Option<usize> {
         let n = self.len();
@@ -230,9 +232,9 @@ impl Shape {
         (0..n).find(|sum| (0..n).all(|corner| is_image(place(corner), place(sum + n - corner))))
     }
 
-    /// The stretch over `span` edges from the edge `from` on.
+    /// Properties of `span` edges from the edge `from` on.
     #[must_use]
-    pub fn stretch(&self, from: usize, span: usize) -> Stretch {
+    pub fn section(&self, from: usize, span: usize) -> Section {
         let n = self.len();
         let mut points: Vec<V2> = Vec::new();
         let (mut turn, mut was_leg) = (0.0, false);
@@ -251,7 +253,7 @@ impl Shape {
             points = self.points(from % n);
         }
         let chord = points[points.len() - 1] - points[0];
-        // The mouth of a dart has no length: it is the step between two points that were put end to end.
+        // The mouth of a dart counts as the straight step between the two points that it parts.
         let mut arcs = vec![0.0];
         for ends in points.windows(2) {
             arcs.push(arcs[arcs.len() - 1] + (ends[1] - ends[0]).norm());
@@ -259,7 +261,7 @@ impl Shape {
         let length = arcs[arcs.len() - 1];
         let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
         let area = geom::polyline::signed_area(&points);
-        Stretch { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
+        Section { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
     }
 }
 

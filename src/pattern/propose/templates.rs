@@ -1,61 +1,61 @@
-//! What pieces look like: their edges in counter-clockwise order, upright, as they are drawn in practice.
+//! Templates of pieces: their edges in counter-clockwise order, upright, as they are drawn in practice.
 //!
-//! Directions, places and shares are typical of block patterns; alignment allows wide differences from them.
+//! Directions, positions and shares are typical of block patterns. Alignment tolerates large differences from them.
 
 use super::{Class, Label};
 
-/// One labelled stretch of a template.
+/// One labelled section of a template.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// What it is.
+    /// Kind of edge.
     pub label: Label,
     /// Direction of its chord, degrees counter-clockwise from +u.
     pub direction_deg: f64,
-    /// 1 where it bulges outwards, -1 where it is hollow, 0 where it is about straight.
+    /// Bow: 1 if it bulges outwards, -1 if it is hollow, 0 if it is about straight.
     pub bow: f64,
-    /// Its middle in the bounding box, 0 to 1 each way.
+    /// Position of its middle in the bounding box, 0 to 1 on each axis.
     pub at: [f64; 2],
-    /// Share of the whole length.
+    /// Share of the total length.
     pub share: f64,
 }
 
-/// A kind of piece.
+/// Template of a kind of piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Template {
-    /// Kind of piece that it stands for.
+    /// Kind of piece.
     pub class: Class,
-    /// Whether the whole width is drawn; else it is one half, with the wearer's outer side to the right.
+    /// True if the whole width is drawn. Otherwise it is one half, with the wearer's outer side on the right.
     pub is_whole: bool,
     /// Parts of the outline, counter-clockwise.
     pub parts: &'static [Part],
 }
 
 impl Template {
-    /// Whether it has such a part.
+    /// True if it has a part with this label.
     #[must_use]
     pub fn has(&self, label: Label) -> bool {
         self.parts.iter().any(|part| part.label == label)
     }
 
-    /// Whether its outline has a shoulder; a yoke without one lies below the waist.
+    /// True if it has a shoulder. A yoke without one lies below the waist.
     #[must_use]
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)
     }
 
-    /// Whether it is sewn raglan: a trunk or a sleeve that meets the other from the underarm to the neck.
+    /// True for raglan: a trunk or a sleeve that meets the other from the underarm to the neck.
     #[must_use]
     pub fn is_raglan(&self) -> bool {
         matches!(self.class, Class::Body | Class::Sleeve) && self.has(Neck) && !self.has(Shoulder)
     }
 
-    /// Whether it is a whole limb that is sewn to itself: a sleeve, or a leg in one piece.
+    /// True for a whole limb that is sewn to itself: a sleeve, or a leg in one piece.
     #[must_use]
     pub fn is_limb(&self) -> bool {
         self.is_whole && matches!(self.class, Class::Sleeve | Class::Leg)
     }
 
-    /// Whether it is a part of a front or back that is cut lengthwise.
+    /// True for a panel of a front or back.
     #[must_use]
     pub fn is_panel(&self) -> bool {
         self.has(Princess)
@@ -99,7 +99,7 @@ pub const TEMPLATES: [Template; 25] = [
             part(Centre, 270.0, 0.0, [0.0, 0.4], 0.28),
         ],
     },
-    // What hangs from a yoke over the shoulders.
+    // Trunk below a yoke over the shoulders.
     Template {
         class: Class::Body,
         is_whole: true,

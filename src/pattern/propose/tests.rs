@@ -38,7 +38,7 @@ fn proposed(file: &str, size: Option<&str>) -> Option<(Proposal, Style)> {
     Some((proposal, style))
 }
 
-/// Names of the proposed seams without darts, in order, and how many darts.
+/// Names of the proposed seams without darts, in order, and the number of darts.
 fn check(file: &str, seams: &[&str], darts: usize) {
     let Some((proposal, _)) = proposed(file, None) else { return };
     let names: Vec<&str> = proposal.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
@@ -92,8 +92,8 @@ fn freesewing_garments_are_sewn() {
 #[test]
 fn a_leg_without_its_other_half_is_doubted() {
     let Some((proposal, _)) = proposed("valentina/Basic_block_women-2016.v1.1.1.aama-r12.dxf", None) else { return };
-    let of = |name: &str| proposal.pieces.iter().find(|piece| piece.name == name).expect("it is there");
-    let doubted = of("BACKPANEL1");
+    let piece_of = |name: &str| proposal.pieces.iter().find(|piece| piece.name == name).expect("it is there");
+    let doubted = piece_of("BACKPANEL1");
     assert!(doubted.class != Some(Class::Leg) && doubted.confidence < 0.5, "{doubted:?}");
     assert!(proposal.questions.iter().any(|question| question.text.contains("BACKPANEL1")), "{:?}", proposal.questions);
 }
@@ -125,7 +125,7 @@ fn every_size_of_the_nests_is_sewn_and_meshed() {
     }
 }
 
-/// What is sewn to what, by the areas of the pieces, mm2, and the lengths of both sides, mm: whatever they are called.
+/// Seams as the areas of their pieces, mm2, and the lengths of both sides, mm, independent of all names.
 fn sewn(style: &Style) -> Vec<[i64; 4]> {
     let area = |edge: EdgeRef| (geom::polyline::signed_area(&style.pieces[edge.piece].outline()).abs() * 1e6).round();
     let side = |chain: &[EdgeRef]| {
@@ -162,7 +162,8 @@ fn our_own_styles_are_sewn_by_shape_alone() {
             let proposal = propose(&pieces);
             let found = style(&pieces, &proposal);
             let said = || format!("{model:?} {}: {:?}", draft.size, proposal.questions);
-            // The seam file of the trousers cuts the outseam at the hip: there as much is sewn, with as little ease.
+            // The seam file of the trousers splits the outseam at the hip. The same length is sewn there, with as
+            // little ease.
             assert_eq!(total_mm(&found), total_mm(&truth), "{}", said());
             if model != crate::draft::Model::Trousers {
                 assert_eq!(sewn(&found), sewn(&truth), "{}", said());
@@ -171,7 +172,7 @@ fn our_own_styles_are_sewn_by_shape_alone() {
     }
 }
 
-/// Length of all seams, and what is eased in, mm.
+/// Total length of all seams, and total ease, mm.
 fn total_mm(style: &Style) -> [i64; 2] {
     let length = |chain: &[EdgeRef]| chain.iter().map(|&edge| style.edge(edge).line.length() * 1e3).sum::<f64>();
     let sides: Vec<[f64; 2]> = style.seams.iter().map(|seam| [length(&seam.a), length(&seam.b)]).collect();
@@ -234,16 +235,16 @@ type Stitch = [(String, usize); 2];
 /// Greatest difference between a symmetric piece and its mirror image, m.
 const SYMMETRIC_M: f64 = 1e-3;
 
-/// Whether the two sides of an outline are mirror images.
+/// True if the two sides of an outline are mirror images.
 fn is_symmetric(outline: &[V2]) -> bool {
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
     let closed = |p: &V2| geom::polyline::boundary_distance(outline, p);
     outline.iter().all(|p| closed(&V2::new(low + high - p.x, p.y)) < SYMMETRIC_M)
 }
 
-/// How many stitches of a GarmentCode file the proposal for the DXF file beside it holds: `(true, found)`. Where the file
-/// does not say which side of its whole, symmetric backs is the left, sewing them turned over makes the same garment:
-/// the better of the two readings counts.
+/// Number of stitches of a GarmentCode file that the proposal for the DXF file beside it holds: `(true, found)`. The
+/// file may not tell the left side of its whole, symmetric backs. Sewing them turned over then makes the same garment,
+/// so the better of both readings counts.
 fn score(garment: &str) -> Option<(usize, usize)> {
     let [plain, turned] = [false, true].map(|is_turned| score_read(garment, is_turned));
     Some(plain?.max(turned?))
@@ -281,7 +282,7 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
             })
         })
         .collect();
-    // Backs that may be turned over: their mirror image lies on them.
+    // Backs that may be turned over, because their mirror image coincides with them.
     let turned_over = |piece: usize, p: V2| {
         let outline = style.pieces[piece].outline();
         if !is_turned || !style.pieces[piece].id.contains("back") || !is_symmetric(&outline) {
@@ -290,13 +291,13 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
         let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
         V2::new(low + high - p.x, p.y)
     };
-    // Shares of a seam's side that a panel's edge takes, in the direction of sewing.
+    // Shares of the side of a seam that the edge of a panel takes, in the direction of sewing.
     let place = |chain: &[EdgeRef], is_forwards: bool, (panel, edge): &(String, usize)| {
         let total: f64 = chain.iter().map(|&edge| style.edge(edge).line.length()).sum();
         let mut before = 0.0;
         for &part in chain {
             let line = &style.edge(part).line;
-            let entry = &proposal.worn.iter().find(|one| one.id == style.pieces[part.piece].id)?.entry;
+            let entry = &proposal.worn.iter().find(|worn| worn.id == style.pieces[part.piece].id)?.entry;
             if entry.block == *panel {
                 let arcs = ends(panel, *edge).map(|p| {
                     let p = if entry.mirror { V2::new(-p.x, p.y) } else { p };
@@ -335,7 +336,7 @@ fn the_stitches_of_garmentcode_are_proposed() {
     for (garment, expect) in [
         ("tshirt_mean_all", (16, 16)),
         ("tshirt_mean_female", (16, 16)),
-        // One half sleeve is not told apart: its armhole is asked for.
+        // One half sleeve is not identified, so its armhole is asked about.
         ("longsleeve_shirt_mean_all", (16, 13)),
         ("fitted_shirt_sleeves_mean_male", (32, 32)),
         ("fitted_bodice_darts_mean_female", (16, 16)),
@@ -363,7 +364,7 @@ fn proposals_call_girths_what_closes() {
         let Ok(style) = Style::read(&pieces, proposal.toml("x").as_bytes(), "x") else { return };
         let Ok(garment) = style.mesh(20e-3) else { return };
         let found = crate::check::of_garment(&style, &garment);
-        let loops: Vec<_> = found.iter().filter(|one| one.kind == crate::check::FindingKind::Loop).collect();
+        let loops: Vec<_> = found.iter().filter(|finding| finding.kind == crate::check::FindingKind::Loop).collect();
         assert!(loops.is_empty(), "{file}: {loops:?}");
     };
     for folder in ["freesewing", "garmentcode", "valentina", "jblockcreator"] {

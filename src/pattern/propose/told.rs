@@ -1,18 +1,19 @@
-//! What a file says of its pieces: by their names, and beside them by categories and other texts.
+//! Statements of a file about its pieces: by their names, categories and other texts.
 //!
-//! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`, and those of `PALAZZO` `PALAZZO FRONT`, `PALAZZO BACK`. What all
-//! names have in common tells nothing of any piece. What is left is a word, or one of the trade's abbreviations.
+//! A CAD program names the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`, and those of `PALAZZO` `PALAZZO FRONT`,
+//! `PALAZZO BACK`. The words that all names share do not describe a single piece. The rest is a garment term, or one of
+//! the usual abbreviations.
 
 use super::names::{self, Named};
 use super::{Class, Face, Hand};
 use crate::piece::Piece;
 
-/// Keys of texts that say what a piece is, in lower case.
+/// Keys of texts that describe a piece, in lower case.
 const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_id", "piece id", "type", "part"];
-/// Keys of texts that also tell how to cut it: `CUT 2 FABRIC, 2 LINING` makes no lining of a front.
+/// Keys of texts that also tell how to cut it. `CUT 2 FABRIC, 2 LINING` makes no lining of a front.
 const REMARKS: [&str; 2] = ["annotation", "description"];
 
-/// Abbreviations of the trade, whole words in lower case, and what they are written out to.
+/// Usual abbreviations as whole words in lower case, and the term that they stand for.
 const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("front", &["f", "fr", "frt", "frnt", "fa", "vt"]),
     ("back", &["b", "bk", "bck", "ba"]),
@@ -28,20 +29,20 @@ const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("interlining", &["int", "intl", "lin", "lng"]),
 ];
 
-/// Letters that a word of several runs into its style's name with (`RUNNERBK`), longest first.
+/// Abbreviations that are joined to the name of the style (`RUNNERBK`), longest first.
 const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
 
-/// What is said of a piece.
+/// Statements about a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Told {
-    /// What its own name and texts say.
+    /// Statement of its own name and texts.
     pub own: Named,
-    /// What the words say that all pieces of the file have in common: of the style, if of anything.
+    /// Statement of the words that all pieces of the file share, which are about the style.
     pub shared: Named,
 }
 
 impl Told {
-    /// What is said of it all in all.
+    /// Combined statement.
     pub fn all(self) -> Named {
         let (own, shared) = (self.own, self.shared);
         Named {
@@ -53,7 +54,7 @@ impl Told {
     }
 }
 
-/// What a file says of each of its pieces.
+/// Statements of a file about each of its pieces.
 pub fn told(pieces: &[Piece]) -> Vec<Told> {
     let (words, of_style) = words_of(pieces);
     let (own, common) = parted(&words);
@@ -68,7 +69,7 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
     let face = |k: usize| by_name[k].face.or_else(|| rest(&pieces[k])?.face);
     let own_of = |(k, piece): (usize, &Piece)| -> Named {
         let named = by_name[k];
-        // A name that says the kind says it best; a category may be that of a library.
+        // A kind in the name counts most, because a category may be that of a library.
         if named.class.is_some() {
             return lined(pieces, piece, named);
         }
@@ -85,7 +86,7 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
             part: named.part.or(first.part),
         };
         let said = match text {
-            // The same text beside fronts and backs was copied: the letters of the name go before it.
+            // A text that is equal for fronts and backs was copied, so the letters of the name precede it.
             Some(text) if is_copied(pieces, text, &face) => over(rest(piece).unwrap_or_else(|| names::read(text))),
             Some(text) => over(names::read(text)),
             None if named.face.is_some() => named,
@@ -98,8 +99,9 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
     own.iter().zip(&of_style).map(|(&own, style)| Told { own, shared: shared_by(style) }).collect()
 }
 
-/// What of the words that all pieces share may hold for one of them. Where names say more than their number, it is a kind of garment with
-/// nothing but its bands: a skirt has no sleeves, and a shirt with short sleeves has other pieces too.
+/// The part of the shared words that may hold for a single piece. If names give more than numbers, that is only the
+/// kind of a garment whose other pieces are bands: a skirt has no sleeves, and a shirt with short sleeves has other
+/// pieces too.
 fn shared_of(shared: Named, own: &[Named]) -> Named {
     let is_garment = matches!(shared.class, Some(Class::Leg | Class::Skirt));
     let goes_with = |own: &Named| match own.class {
@@ -115,7 +117,7 @@ fn shared_of(shared: Named, own: &[Named]) -> Named {
     }
 }
 
-/// What is said of a piece, as a lining where its material says so and that of others does not.
+/// Statement about a piece. It is a lining if its material says so and that of other pieces does not.
 fn lined(pieces: &[Piece], piece: &Piece, said: Named) -> Named {
     let is_lining = |piece: &Piece| {
         let materials = piece.texts.iter().filter(|(key, _)| key.eq_ignore_ascii_case("material"));
@@ -134,7 +136,7 @@ fn has_text(piece: &Piece, text: &str) -> bool {
     piece.texts.iter().any(|(_, value)| value == text)
 }
 
-/// Whether pieces whose names say front and back have the same text, which says one of them.
+/// True if a front and a back have the same text, which names one of them.
 fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(usize) -> Option<Face>) -> bool {
     let says = |wanted: Face| (0..pieces.len()).any(|k| has_text(&pieces[k], text) && face(k) == Some(wanted));
     names::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
@@ -144,7 +146,7 @@ fn read(words: &[String], is_kind_known: bool) -> Named {
     names::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
 }
 
-/// The words of every name, without the name of the style and of the size as the file has them, and which of those say a kind.
+/// Words of every name without the names of style and size in the file, and the words among those that name a kind.
 fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
     let names: Vec<Vec<String>> = pieces.iter().map(|piece| names::words(&piece.name)).collect();
     let names: Vec<Vec<String>> = names.iter().map(|words| loosened(words, &names)).collect();
@@ -168,8 +170,8 @@ fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
     pieces.iter().zip(names).map(without).unzip()
 }
 
-/// Words cut where the name of a style runs into one of the trade's: where what stands before that is a word of another piece's name, or
-/// runs into another of the trade's there (`TEAGANFRONT` beside `TEAGANBACK`).
+/// Splits words at the end of the name of a style that is joined to a garment term. The name must be a word in another
+/// piece's name, or be joined to another term there (`TEAGANFRONT` beside `TEAGANBACK`).
 fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
     let is_of_trade = |part: &str| names::word_of(part).is_some();
     let is_style = |part: &str, word: &String| {
@@ -184,7 +186,7 @@ fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
     words.iter().flat_map(|word| cut(word).map_or_else(|| vec![word.clone()], Vec::from)).collect()
 }
 
-/// The words of each name that not all of them have, and those that all have.
+/// Words of each name that are not shared, and the words that all names share.
 fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     let mut own = names.to_vec();
     let mut common: Vec<String> = Vec::new();
@@ -192,7 +194,7 @@ fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
         for word in &names[0] {
             if own.iter().all(|words| words.contains(word)) {
                 for words in &mut own {
-                    // Of a word that comes twice the first is the style's.
+                    // The first of two equal words belongs to the style.
                     if let Some(at) = words.iter().position(|other| other == word) {
                         words.remove(at);
                     }
@@ -204,7 +206,7 @@ fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     (own, common)
 }
 
-/// Bytes that all names begin with.
+/// Number of bytes that all names begin with.
 fn common_start(pieces: &[Piece]) -> usize {
     let mut names = pieces.iter().map(|piece| piece.name.as_str());
     let Some(first) = names.next().filter(|_| pieces.len() > 1) else { return 0 };
@@ -215,7 +217,7 @@ fn common_start(pieces: &[Piece]) -> usize {
     names.map(shared).min().unwrap_or(0)
 }
 
-/// What the abbreviations in what is left of a name say; `None` where it has none.
+/// Statement of the abbreviations in the rest of a name. `None` without any.
 fn written_out(rest: &str) -> Option<Named> {
     let words = names::words(rest);
     let whole = |word: &str| ABBREVIATIONS.iter().find(|(_, short)| short.contains(&word)).map(|(long, _)| *long);

@@ -1,29 +1,29 @@
-//! What of a proposal can be draped with nobody to ask: pieces that are not sewn for sure are left out, and what is left must
-//! be closed on the body.
+//! The part of a proposal that can be draped without questions. Pieces with uncertain seams are left out, and the rest
+//! must be closed on the body.
 
-use super::worn::Worn;
+use super::worn_pieces::Worn;
 use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
 
-/// Least confidence of a seam that is sewn with nobody to ask.
+/// Least confidence of a seam that is sewn without a question.
 const SURE: f64 = 0.4;
 
 /// Kinds of piece that a garment can be worn without, the outermost first.
 const SPARED: [Class; 3] = [Class::Cuff, Class::Waistband, Class::Sleeve];
 
-/// Why a proposal cannot be draped: what keeps what is left of it from being closed on the body.
+/// Error: the certain part of a proposal is not closed on the body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("how it is sewn is not sure enough: {reason}")]
 pub struct Unwearable {
-    /// What is missing, and what was asked.
+    /// Missing seams, questions and notes.
     pub reason: String,
 }
 
 impl Proposal {
-    /// The part of the proposal that is worn with nobody to ask. Bands, cuffs and sleeves whose seams are not sure, and pieces
-    /// that are sewn to nothing, are left out, on both sides alike; each is said so in a question.
+    /// The part of the proposal that is draped without questions. Bands, cuffs and sleeves with uncertain seams, and
+    /// pieces that are sewn to nothing, are left out on both sides alike. A note tells of each.
     ///
     /// # Errors
-    /// [`Unwearable`] where what is left is not closed: a side, shoulder, leg or yoke is not sewn for sure.
+    /// [`Unwearable`] if the rest is not closed: a side, shoulder, leg or yoke seam is uncertain.
     pub fn to_drape(&self) -> Result<Self, Unwearable> {
         let mut left = self.clone();
         while let Some((class, reason)) = left.loose() {
@@ -42,10 +42,11 @@ impl Proposal {
         Err(Unwearable { reason })
     }
 
-    /// A kind of piece that is not sewn on for sure and can be spared, and why; the outermost first.
+    /// A kind of piece that is not attached with certainty and can be spared, with the reason. The outermost comes
+    /// first.
     fn loose(&self) -> Option<(Class, String)> {
-        let of = |class: Class| self.pieces.iter().filter(move |piece| piece.class == Some(class));
-        let spared = SPARED.into_iter().flat_map(of);
+        let pieces_of = |class: Class| self.pieces.iter().filter(move |piece| piece.class == Some(class));
+        let spared = SPARED.into_iter().flat_map(pieces_of);
         let mut of_seams = spared.filter_map(|piece| {
             let id = piece.id.as_deref()?;
             let own = self.seams.iter().filter(|seam| touches(seam, id));
@@ -61,16 +62,16 @@ impl Proposal {
         of_seams.next()
     }
 
-    /// Whether a seam joins pieces of `class` to another kind of piece that it is worn on.
+    /// True if a seam joins pieces of `class` to another kind of piece that holds them.
     fn is_hold(&self, seam: &ProposedSeam, class: Option<Class>) -> bool {
-        let of =
+        let class_of =
             |id: &str| self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).and_then(|piece| piece.class);
-        ids(seam).any(|id| of(id) != class)
+        ids(seam).any(|id| class_of(id) != class)
     }
 
-    /// Takes all pieces of a kind out of the seams.
+    /// Removes all pieces of a kind and their seams.
     fn leave_out(&mut self, class: Class, reason: &str) {
-        // A left sleeve goes with the right one, half a waistband with the other half.
+        // A left sleeve goes with the right one, and half a waistband with the other half.
         let gone = |piece: &ProposedPiece| piece.class == Some(class);
         let ids_gone: Vec<String> =
             self.pieces.iter().filter(|piece| gone(piece)).filter_map(|piece| piece.id.clone()).collect();
@@ -84,7 +85,7 @@ impl Proposal {
         self.notes.push(format!("left out: {}: {reason}", names.join(", ")));
         let is_gone = |id: &str| ids_gone.iter().any(|gone| gone == id);
         self.seams.retain(|seam| !ids(seam).any(is_gone));
-        self.worn.retain(|one| !is_gone(&one.id));
+        self.worn.retain(|worn| !is_gone(&worn.id));
         let was_open = |edge: &String| !edge.split_once('.').is_some_and(|(id, _)| is_gone(id));
         self.open.retain(was_open);
         for piece in self.pieces.iter_mut().filter(|piece| piece.id.as_deref().is_some_and(is_gone)) {
@@ -92,7 +93,7 @@ impl Proposal {
         }
     }
 
-    /// What is not closed for sure, one remark each.
+    /// Remarks on what is not closed with certainty.
     fn missing(&self) -> Vec<String> {
         let mut missing: Vec<String> = self
             .seams
@@ -109,21 +110,21 @@ impl Proposal {
     }
 }
 
-/// What keeps pieces from being closed on the body: seams that were not found, and a piece that nothing is sewn to.
+/// Remarks on what keeps pieces from being closed on the body: missing seams, and a piece that nothing is sewn to.
 pub fn lacking(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let needed = needed(worn);
     let not_sewn = needed.iter().filter(|kind| !seams.iter().any(|seam| seam.kind == **kind));
     not_sewn.map(|kind| format!("the seam {kind} was not found")).chain(apart(worn, seams)).collect()
 }
 
-/// Seams without which what is worn is not closed.
+/// Seams without which the pieces are not closed.
 fn needed(worn: &[Worn]) -> Vec<SeamKind> {
-    let has = |class: Class| worn.iter().any(|one| one.class == class);
-    let has_edge = |label: Label| worn.iter().any(|one| one.has(label));
+    let has = |class: Class| worn.iter().any(|worn| worn.class == class);
+    let has_edge = |label: Label| worn.iter().any(|worn| worn.has(label));
     let has_shoulder = has_edge(Label::Shoulder);
     // Nothing else joins front and back of a raglan at the top.
     let is_raglan = !has_shoulder && has(Class::Body) && has_edge(Label::Neck);
-    let skirts_round = worn.iter().filter(|one| one.class == Class::Skirt && one.face.is_none()).count();
+    let skirts_round = worn.iter().filter(|worn| worn.class == Class::Skirt && worn.face.is_none()).count();
     let mut needed = Vec::new();
     for hand in Hand::BOTH {
         if has(Class::Body) {
@@ -154,31 +155,31 @@ fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     needed
 }
 
-/// The same, of one face alone.
+/// The same for one face alone.
 fn needed_of(worn: &[Worn], face: Face) -> Vec<SeamKind> {
-    let of = |class: Class| worn.iter().filter(move |one| one.class == class && one.face == Some(face));
+    let pieces_of = |class: Class| worn.iter().filter(move |worn| worn.class == class && worn.face == Some(face));
     let mut needed = Vec::new();
-    if of(Class::Body).any(|one| one.has(Label::Top)) {
+    if pieces_of(Class::Body).any(|worn| worn.has(Label::Top)) {
         needed.push(SeamKind::Yoke(face));
     }
-    if of(Class::Leg).count() > 0 || worn.iter().any(|one| one.class == Class::Leg && one.is_whole) {
+    if pieces_of(Class::Leg).count() > 0 || worn.iter().any(|worn| worn.class == Class::Leg && worn.is_whole) {
         needed.push(SeamKind::Crotch(face));
     }
-    if of(Class::SidePanel).count() > 0 {
+    if pieces_of(Class::SidePanel).count() > 0 {
         needed.extend(Hand::BOTH.map(|hand| SeamKind::Princess(face, hand)));
     }
-    if of(Class::Body).count() > 1 {
+    if pieces_of(Class::Body).count() > 1 {
         needed.push(SeamKind::Centre(face));
     }
-    if of(Class::Skirt).count() > 1 {
+    if pieces_of(Class::Skirt).count() > 1 {
         needed.push(SeamKind::SkirtCentre(face));
     }
     needed
 }
 
-/// A piece that no seam, over however many others, joins to the first.
+/// Remark on a piece that no chain of seams joins to the first.
 fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
-    let mut joined: Vec<&str> = worn.first().map(|one| one.id.as_str()).into_iter().collect();
+    let mut joined: Vec<&str> = worn.first().map(|worn| worn.id.as_str()).into_iter().collect();
     let mut at = 0;
     while let Some(&id) = joined.get(at) {
         for seam in seams.iter().filter(|seam| touches(seam, id)) {
@@ -190,17 +191,17 @@ fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
         }
         at += 1;
     }
-    let apart = &worn.iter().find(|one| !joined.contains(&one.id.as_str()))?.id;
+    let apart = &worn.iter().find(|worn| !joined.contains(&worn.id.as_str()))?.id;
     Some(format!("no seam joins {apart} to {}", joined.first()?))
 }
 
-/// Whether a seam is sewn with nobody to ask. Two halves that are each other's mirror image are closed in the middle, be that a
-/// seam, buttons or a fold.
+/// True if a seam is sewn without a question. Two halves that are mirror images are closed at the centre, by a seam,
+/// buttons or a fold.
 fn is_sure(seam: &ProposedSeam) -> bool {
     seam.confidence >= if seam.kind.is_centre() { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
 }
 
-/// Pieces of a seam, by identifier, as often as they have edges in it.
+/// Identifiers of the pieces of a seam, once for each of its edges.
 fn ids(seam: &ProposedSeam) -> impl Iterator<Item = &str> {
     seam.entry.a.iter().chain(&seam.entry.b).filter_map(|edge| edge.split_once('.').map(|(id, _)| id))
 }

@@ -1,13 +1,13 @@
-//! Words of the trade in the languages of its files: English, German, French, Spanish, Italian, Dutch, Portuguese, Polish, Russian, Ukrainian,
-//! Turkish, Chinese, Japanese, Korean, Vietnamese, Swedish, Danish, Romanian, Czech, Greek, Hindi.
+//! Garment terms in the languages of pattern files: English, German, French, Spanish, Italian, Dutch, Portuguese,
+//! Polish, Russian, Ukrainian, Turkish, Chinese, Japanese, Korean, Vietnamese, Swedish, Danish, Romanian, Czech, Greek,
+//! Hindi.
 //!
-//! A word that ends in `-` is a stem: the languages that inflect put an ending of up to three letters behind it.
+//! A word that ends in `-` is a stem: inflecting languages append an ending of up to three letters.
 
-use super::names::Part;
-use super::{Class, Face, Hand};
+use super::{Class, Face, Hand, PartName};
 
-/// Words that name a kind of piece; the first kind that is found counts, so small parts stand before what they are
-/// sewn to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
+/// Words for a kind of piece. The first kind that is found counts, so small parts precede the pieces that they are sewn
+/// to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
 #[rustfmt::skip]
 pub const CLASSES: [(Class, &[&str]); 7] = [
     (Class::Other, &[
@@ -55,7 +55,7 @@ pub const CLASSES: [(Class, &[&str]); 7] = [
     ]),
 ];
 
-/// Words that say front or back.
+/// Words for front and back.
 #[rustfmt::skip]
 pub const FACES: [(Face, &[&str]); 2] = [
     (Face::Front, &[
@@ -72,7 +72,7 @@ pub const FACES: [(Face, &[&str]); 2] = [
     ]),
 ];
 
-/// Words that say left or right.
+/// Words for left and right.
 #[rustfmt::skip]
 pub const HANDS: [(Hand, &[&str]); 2] = [
     (Hand::Right, &[
@@ -85,15 +85,15 @@ pub const HANDS: [(Hand, &[&str]); 2] = [
     ]),
 ];
 
-/// Words that tell parts of one kind from each other.
+/// Words that distinguish parts of one kind.
 #[rustfmt::skip]
-pub const PARTS: [(Part, &[&str]); 3] = [
-    (Part::Under, &["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн-"]),
-    (Part::Gore, &["gore", "bahn", "bahnen", "nesga", "клин-"]),
-    (Part::Panel, &["panel", "paneel"]),
+pub const PARTS: [(PartName, &[&str]); 3] = [
+    (PartName::Under, &["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн-"]),
+    (PartName::Gore, &["gore", "bahn", "bahnen", "nesga", "клин-"]),
+    (PartName::Panel, &["panel", "paneel"]),
 ];
 
-/// Words that stand in compounds with the others, and say nothing of what is sewn to what.
+/// Words that form compounds with the others and carry no information for seams.
 #[rustfmt::skip]
 pub const PLAIN: &[&str] = &[
     "side", "centre", "center", "middle", "upper", "top", "inner", "outer", "inside", "outside", "inset", "insert", "part", "piece",

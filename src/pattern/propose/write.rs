@@ -1,18 +1,18 @@
-//! A proposal as the text of a seam file that a person can read and edit.
+//! Text of a proposal as a seam file that a person can read and edit.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::worn::Worn;
+use super::worn_pieces::Worn;
 use super::{Proposal, ProposedSeam};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamFile};
 use geom::units::mm;
 
-/// Ratio of the sides from which a seam is called eased or gathered.
+/// Ratio of the lengths of both sides from which a seam is remarked as eased or gathered.
 const EASED_RATIO: f64 = 1.01;
 
 impl Proposal {
-    /// The proposal as the seam file of a style of this name.
+    /// Seam file of the proposal for a style of this name.
     #[must_use]
     pub fn seam_file(&self, name: &str) -> SeamFile {
         SeamFile {
@@ -21,7 +21,7 @@ impl Proposal {
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
             allowance_mm: mm(self.allowance_m),
             open: self.open.clone(),
-            piece: self.worn.iter().map(|one| (one.id.clone(), one.entry.clone())).collect(),
+            piece: self.worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
             measurement: Vec::new(),
             reinforce: Vec::new(),
@@ -29,7 +29,7 @@ impl Proposal {
         }
     }
 
-    /// The seam file as TOML; comments give every confidence, and every question to the person who edits it.
+    /// Writes the seam file as TOML. Comments give every confidence, and every question to the editor of the file.
     #[must_use]
     pub fn toml(&self, name: &str) -> String {
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();

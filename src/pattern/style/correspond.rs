@@ -1,38 +1,40 @@
-//! Corners of one size found on the outline of another: a seam file is made on one size and holds for all.
+//! Correspondence of corners between sizes, because a seam file is made on one size and holds for all.
 //!
-//! Grading keeps the order of the corners and moves each a little beside what it moves the whole piece by. So the seam file
-//! gives each as shares of the width and the height of the piece. They are scaled onto the outline, and each takes a vertex
-//! of it, in their order, such that they lie as near as they can. A vertex that turns is taken before one that does not.
+//! Grading keeps the order of the corners, and moves each a little relative to the whole piece. The seam file has each
+//! corner as shares of the width and height of the piece. They are scaled onto the outline of another size. Each takes
+//! a vertex of it, in cyclic order, so that the sum of squared distances is least. Vertices at corners are preferred to
+//! others.
 
 use super::corners::corner_vertices;
 use crate::piece::Piece;
 use geom::V2;
 
-/// Distance that a corner is worth, over the size of the piece: a vertex that does not turn is taken where no corner is nearer by this.
+/// Penalty of a vertex that is no corner, as a distance over the size of the piece. Such a vertex is taken if no corner
+/// is nearer by this.
 pub(super) const CORNER_WORTH: f64 = 0.03;
-/// Distance from which on a corner stands for none of the seam file's, over the size of the piece.
+/// Greatest distance of corresponding corners, over the size of the piece.
 const TOO_FAR: f64 = 0.15;
-/// Rounds of scaling and matching; the first scales by the extents of the outline.
+/// Number of rounds of scaling and matching. The first scales by the bounding box of the outline.
 const ROUNDS: usize = 3;
-/// Vertices that are tried for the first corner.
+/// Number of candidate vertices for the first corner.
 const STARTS: usize = 8;
 
-/// A corner that has no like on an outline.
+/// A corner without a counterpart on an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lost {
-    /// Number of the corner.
+    /// Index of the corner.
     pub corner: usize,
-    /// Distance of the nearest vertex that it may have, m.
+    /// Distance of the vertex that it would have, m.
     pub away_m: f64,
 }
 
-/// Places of vertices of an outline as shares of its width and its height, to 0.01 mm of a piece of a metre.
+/// Positions of vertices of an outline as shares of its width and height, rounded to 0.01 mm for a piece of a metre.
 pub(crate) fn shares(outline: &[V2], vertices: &[usize]) -> Vec<[f64; 2]> {
     let rounded = |share: f64| (share * 1e5).round() / 1e5;
     places(outline, vertices).into_iter().map(|place| [place.x, place.y].map(rounded)).collect()
 }
 
-/// Places of vertices of an outline as shares of its width and its height.
+/// Positions of vertices of an outline as shares of its width and height.
 pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     let [low, high] = extent(outline);
     let share = |at: V2, axis: usize| {
@@ -42,11 +44,11 @@ pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     vertices.iter().map(|&vertex| V2::new(share(outline[vertex], 0), share(outline[vertex], 1))).collect()
 }
 
-/// Vertices of the outline that correspond to corners of another size, in their order: counter-clockwise as drawn. `shares`
-/// are their places there, as [`shares`] gives them.
+/// Vertices of the outline that correspond to corners of another size, in their order: counter-clockwise as drawn.
+/// `shares` are their relative positions there, as of [`shares`].
 ///
 /// # Errors
-/// [`Lost`] where a corner has no like.
+/// [`Lost`] if a corner has no counterpart.
 pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
     let mut worth = vec![CORNER_WORTH * CORNER_WORTH; piece.seam_outline().len()];
     corner_vertices(piece).iter().for_each(|&corner| worth[corner] = 0.0);
@@ -54,11 +56,11 @@ pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<us
     matched(piece.seam_outline(), &places, |_, vertex| worth[vertex])
 }
 
-/// Vertices of an outline, in their order, for corners that lie at shares of its width and height. `unlike` says how little a
-/// vertex is like a corner, as the square of a distance over the size of the piece.
+/// Vertices of an outline, in order, for corners at some shares of its width and height. `unlike` is the penalty of a
+/// vertex for a corner, as the square of a distance over the size of the piece.
 ///
 /// # Errors
-/// [`Lost`] where a corner has no like.
+/// [`Lost`] if a corner has no counterpart.
 pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usize) -> f64) -> Result<Vec<usize>, Lost> {
     let [low, high] = extent(outline);
     let size = (high - low).norm();
@@ -68,14 +70,14 @@ pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usiz
     let mut scaling = Scaling { scale: high - low, shift: low };
     let mut found = Vec::new();
     for _ in 0..ROUNDS {
-        let expected: Vec<V2> = places.iter().map(|&place| scaling.of(place)).collect();
+        let expected: Vec<V2> = places.iter().map(|&place| scaling.applied(place)).collect();
         let cost = |k: usize, vertex: usize| {
             (expected[k] - outline[vertex]).norm_squared() / (size * size) + unlike(k, vertex)
         };
         found = in_order(places.len(), outline.len(), cost);
         scaling = Scaling::fitted(places, found.iter().map(|&vertex| outline[vertex]));
     }
-    let away_m = |k: usize| (scaling.of(places[k]) - outline[found[k]]).norm();
+    let away_m = |k: usize| (scaling.applied(places[k]) - outline[found[k]]).norm();
     let furthest = (0..places.len()).max_by(|&i, &j| away_m(i).total_cmp(&away_m(j)));
     match furthest.filter(|&k| away_m(k) > TOO_FAR * size) {
         Some(corner) => Err(Lost { corner, away_m: away_m(corner) }),
@@ -83,24 +85,24 @@ pub(super) fn matched(outline: &[V2], places: &[V2], unlike: impl Fn(usize, usiz
     }
 }
 
-/// The least and greatest coordinates of points.
+/// Bounding box of points: the least and greatest coordinates.
 pub(super) fn extent(points: &[V2]) -> [V2; 2] {
     let both = points.iter().map(|p| [*p, *p]).reduce(|[low, high], [p, _]| [low.inf(&p), high.sup(&p)]);
     both.unwrap_or_default()
 }
 
-/// Scale and shift along each axis.
+/// Axis-aligned affine map: scale and shift along each axis.
 struct Scaling {
     scale: V2,
     shift: V2,
 }
 
 impl Scaling {
-    fn of(&self, point: V2) -> V2 {
+    fn applied(&self, point: V2) -> V2 {
         point.component_mul(&self.scale) + self.shift
     }
 
-    /// What lays points nearest to their partners, by least squares along each axis.
+    /// Least-squares fit of points to their partners, along each axis.
     fn fitted(from: &[V2], to: impl Iterator<Item = V2> + Clone) -> Self {
         let count = from.len().max(1) as f64;
         let centre = from.iter().sum::<V2>() / count;
@@ -116,19 +118,26 @@ impl Scaling {
     }
 }
 
-/// For each of `count` corners one of `vertices` in cyclic order, such that the sum of costs is least.
+/// Assigns to each of `count` corners one of `vertices`, in cyclic order, with the least sum of costs.
 fn in_order(count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -> Vec<usize> {
     let mut starts: Vec<usize> = (0..vertices).collect();
     starts.sort_by(|&i, &j| cost(0, i).total_cmp(&cost(0, j)).then(i.cmp(&j)));
     starts.truncate(STARTS);
     let ways = starts.into_iter().map(|start| from_start(start, count, vertices, &cost));
-    ways.reduce(|best, way| if way.0 < best.0 { way } else { best }).map_or_else(Vec::new, |(_, way)| way)
+    ways.reduce(|best, way| if way.cost < best.cost { way } else { best }).map_or_else(Vec::new, |way| way.vertices)
 }
 
-/// The best way whose first corner is the vertex `start`, with its cost.
-fn from_start(start: usize, count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -> (f64, Vec<usize>) {
+/// A vertex for each corner, with the sum of costs.
+struct Assignment {
+    cost: f64,
+    vertices: Vec<usize>,
+}
+
+/// Best assignment with the first corner at the vertex `start`, by dynamic programming.
+fn from_start(start: usize, count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -> Assignment {
     let vertex = |step: usize| (start + step) % vertices;
-    // Least cost of the corners so far, the last of them at most so many vertices after the start, and where that is.
+    // Least cost of the corners so far, with the last of them at most so many vertices after the start, and its
+    // position.
     let mut least: Vec<(f64, usize)> = vec![(cost(0, start), 0); vertices];
     let mut before: Vec<Vec<usize>> = Vec::new();
     for k in 1..count {
@@ -150,7 +159,7 @@ fn from_start(start: usize, count: usize, vertices: usize, cost: impl Fn(usize, 
         way.push(vertex(step));
     }
     way.reverse();
-    (sum, way)
+    Assignment { cost: sum, vertices: way }
 }
 
 #[cfg(test)]

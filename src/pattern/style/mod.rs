@@ -1,9 +1,9 @@
-//! A style: the pieces of one size, named, sewn and measured as its seam file says.
+//! Style: the pieces of one size, named, sewn and measured by a seam file.
 
 pub(super) mod corners;
 pub(super) mod correspond;
-pub(super) mod follow;
 pub(super) mod named;
+pub(super) mod nest_corners;
 pub(super) mod openings;
 mod pieces;
 mod read;
@@ -30,20 +30,20 @@ pub struct EdgeRef {
 pub struct EdgePoint {
     /// Edge that it lies on.
     pub edge: EdgeRef,
-    /// Arc length from the edge's start, m.
+    /// Arc length from the start of the edge, m.
     pub arc_m: f64,
 }
 
-/// One stretch of a measurement.
+/// One part of a measurement path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathPart {
     /// A whole edge.
     Edge(EdgeRef),
-    /// Straight across one piece.
+    /// A straight line across one piece.
     Line([EdgePoint; 2]),
 }
 
-/// A seam: `a` walked forwards meets `b` walked as `b_forwards` says.
+/// A seam: `a`, walked forwards, meets `b`, walked in the direction of `b_forwards`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
     /// Name in the seam file, for messages.
@@ -52,7 +52,7 @@ pub struct Seam {
     pub a: Vec<EdgeRef>,
     /// Edges of the other side, in order along the seam.
     pub b: Vec<EdgeRef>,
-    /// Whether `b` runs counter-clockwise too.
+    /// True if `b` runs counter-clockwise too.
     pub b_forwards: bool,
 }
 
@@ -63,26 +63,26 @@ pub struct StyleMeasurement {
     pub no: u32,
     /// Name for people to read, such as `Neck Opening`.
     pub name: String,
-    /// Loop or length.
+    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// Where it runs.
+    /// Parts of the path, in order.
     pub path: Vec<PathPart>,
     /// Pattern length L2D, m.
     pub l2d_m: f64,
-    /// Whether it runs only along edges that no seam holds.
+    /// True if it runs only along edges that are in no seam.
     pub is_free_edge: bool,
 }
 
-/// An edge with a stiffness of its own.
+/// Reinforcement of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StyleReinforcement {
-    /// Edge that is strengthened.
+    /// Edge that is reinforced.
     pub edge: EdgeRef,
-    /// What strengthens it.
+    /// Kind of the reinforcement.
     pub band: Band,
     /// Force per relative elongation, N.
     pub stiffness_n: f64,
-    /// Length of the band over that of the edge.
+    /// Ratio of the length of the band to that of the edge.
     pub length_factor: f64,
 }
 
@@ -91,26 +91,26 @@ pub struct StyleReinforcement {
 pub struct Style {
     /// Name of the style, from its seam file.
     pub name: String,
-    /// Size name, empty where the file names none.
+    /// Name of the size; empty if the file names none.
     pub size: String,
-    /// Pieces, in the alphabetical order of their ids.
+    /// Pieces, in the alphabetical order of their identifiers.
     pub pieces: Vec<StylePiece>,
     /// Seams between edges of the pieces.
     pub seams: Vec<Seam>,
     /// Measurements of the seam file, or those found on openings and seams.
     pub measurements: Vec<StyleMeasurement>,
-    /// Edges that a band strengthens.
+    /// Reinforced edges.
     pub reinforcements: Vec<StyleReinforcement>,
-    /// Body level and pattern path.
+    /// Levels of the body, each with the path of its girth on the pattern.
     pub fit_levels: Vec<(String, Vec<PathPart>)>,
 }
 
 impl Style {
-    /// Makes a style of the pieces of one size and the bytes of a seam file; `file` is its name for messages.
+    /// Makes a style of the pieces of one size by the bytes of a seam file. `file` is its name for messages.
     ///
     /// # Errors
-    /// [`StyleError`] when the bytes are not a seam file, a name is not there, an edge is used twice, or the two sides of
-    /// a seam differ in length by more than the stated ease and tolerance.
+    /// [`StyleError`] if the bytes are no seam file, a name does not exist, an edge is used twice, or the lengths of
+    /// both sides of a seam differ by more than ease and tolerance.
     ///
     /// # Examples
     /// ```
@@ -129,16 +129,16 @@ impl Style {
         Self::of(pieces, &SeamFile::parse(seam_bytes, file)?, file)
     }
 
-    /// [`Style::read`] from entries that were parsed.
+    /// Makes a style as [`Style::read`] does, from parsed entries.
     pub(super) fn of(pieces: &[Piece], entries: &SeamFile, file: &str) -> Result<Self, StyleError> {
         Reader { file, entries }.style(pieces)
     }
 
-    /// Replaces measurements and fit levels by those of a seam file that names no piece: for a style whose pieces and
-    /// seams come from elsewhere. Edges are called as [`Edge::name`] says.
+    /// Replaces measurements and fit levels by those of a seam file without pieces and seams. This serves styles whose
+    /// pieces and seams come from elsewhere. Edges are named by [`Edge::name`].
     ///
     /// # Errors
-    /// [`StyleError`] when the bytes are no such file or a name is not there.
+    /// [`StyleError`] if the bytes are no such file or a name does not exist.
     pub fn measure(&mut self, seam_bytes: &[u8], file: &str) -> Result<(), StyleError> {
         let entries = SeamFile::parse(seam_bytes, file)?;
         let reader = Reader { file, entries: &entries };
@@ -146,18 +146,18 @@ impl Style {
         reader.measure(self)
     }
 
-    /// The curve of an edge.
+    /// Edge of a reference.
     #[must_use]
     pub fn edge(&self, edge: EdgeRef) -> &Edge {
         &self.pieces[edge.piece].edges[edge.edge]
     }
 
-    /// `piece.edge`, for messages.
+    /// Name of an edge as `piece.edge`, for messages.
     pub(super) fn edge_name(&self, edge: EdgeRef) -> String {
         format!("{}.{}", self.pieces[edge.piece].id, self.edge(edge).name.as_deref().unwrap_or("(unnamed)"))
     }
 
-    /// Place of an edge point in its piece's plane.
+    /// Position of an edge point in the plane of its piece.
     #[must_use]
     pub fn place(&self, point: EdgePoint) -> V2 {
         self.edge(point.edge).line.at(point.arc_m)

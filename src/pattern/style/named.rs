@@ -1,11 +1,12 @@
-//! Pieces by the names that seam files call them by.
+//! Names of pieces in seam files: lookup of a piece by its name, and a unique name of a piece.
 
 use crate::dxf::r12_name;
 use crate::piece::Piece;
 
-/// Indices of the pieces that a seam file calls `name`: by their block, else by their piece name, else by either with its
-/// number, `NAME#2`. Names that hold the size, as blocks of nests do, are compared without it; `made_on` is the size that
-/// the seam file was made on. A block is known too by the name that it is written under.
+/// Indices of the pieces that match a name of a seam file. Their block name is compared first, then the piece name,
+/// then either with an ordinal number, `NAME#2`. Last, names are compared without the size, which blocks of nests
+/// contain. `made_on` is the size that the seam file was made on. A block also matches the name that it is written
+/// under.
 pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec<usize> {
     let ways: [fn(&Piece) -> &str; 2] = [|piece| &piece.block, |piece| &piece.name];
     let by = |is: &dyn Fn(&Piece) -> bool| (0..pieces.len()).filter(|&i| is(&pieces[i])).collect::<Vec<_>>();
@@ -18,19 +19,36 @@ pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec
     let by_number = by_number.map(|found| found.into_iter().collect::<Vec<_>>());
     let written = [r12_name(name)];
     let by_written = written.iter().map(|written| by(&|piece| piece.block == *written));
-    // The first of a name has no number in its block.
+    // The first block of a name has no number in it.
     let first = numbered.filter(|(_, number)| *number == 1).map_or(name, |(base, _)| base);
     let bare = without(first, made_on.unwrap_or_default());
     let by_bare = ways.iter().map(|way| {
         let is_it = |piece: &Piece| bare == without(way(piece), piece.size.as_deref().unwrap_or_default());
-        // A name that is nothing but its size says which piece only beside another size.
+        // A name that consists of its size alone identifies a piece only relative to another size.
         if bare.is_empty() && made_on.is_none() { Vec::new() } else { by(&is_it) }
     });
     let found = plain.chain(by_number).chain(by_written).chain(by_bare).find(|found| !found.is_empty());
     found.unwrap_or_default()
 }
 
-/// The words of a name without those that are the size.
+/// Unique name of a piece for a seam file: its piece name if no other has it, then that of its block, then with an ordinal
+/// number. Blocks of a nest contain the size in their names. There the ordinal among equal piece names comes first.
+pub(crate) fn reference(pieces: &[Piece], index: usize) -> String {
+    let piece = &pieces[index];
+    let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
+    let number = |is: fn(&Piece) -> &str| pieces[..=index].iter().filter(|p| is(p) == is(piece)).count();
+    if is_only(&piece.name) {
+        piece.name.clone()
+    } else if piece.size.is_some() && piece.name != piece.block {
+        format!("{}#{}", piece.name, number(|piece| &piece.name))
+    } else if is_only(&piece.block) {
+        piece.block.clone()
+    } else {
+        format!("{}#{}", piece.block, number(|piece| &piece.block))
+    }
+}
+
+/// Words of a name without those of the size.
 pub(crate) fn without(name: &str, size: &str) -> Vec<String> {
     let (mut left, size) = (words(name), words(size));
     while let Some(at) = left.windows(size.len().max(1)).position(|some| *some == size[..]) {
@@ -39,7 +57,7 @@ pub(crate) fn without(name: &str, size: &str) -> Vec<String> {
     left
 }
 
-/// The words of a name in small letters, without what stands between them.
+/// Words of a name in lower case, without separators.
 fn words(name: &str) -> Vec<String> {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect()

@@ -1,20 +1,38 @@
-//! What is measured where nobody said it: the free openings and the seams of a style.
+//! Default measurements of a style: its free openings and its seams.
 
 use std::collections::BTreeMap;
 
 use super::{EdgeRef, PathPart, Style, StyleMeasurement};
 use crate::garment::MeasurementKind;
 
-/// Difference of its sides' lengths beyond which one is eased into the other, m.
+/// Difference of the lengths of both sides from which one counts as eased into the other, m.
 const EASED_M: f64 = 1e-3;
 
-/// One end of an edge: `true` for its last point.
-pub(crate) type EdgeEnd = (EdgeRef, bool);
+/// One end of an edge. In a chain it stands for its edge, walked to this end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct EdgeEnd {
+    /// Edge that it belongs to.
+    pub edge: EdgeRef,
+    /// True for the last point of the edge, false for the first.
+    pub is_last: bool,
+}
+
+impl EdgeEnd {
+    /// Makes an end of an edge.
+    pub fn new(edge: EdgeRef, is_last: bool) -> Self {
+        Self { edge, is_last }
+    }
+
+    /// Opposite end of the same edge.
+    pub fn other(self) -> Self {
+        Self { is_last: !self.is_last, ..self }
+    }
+}
 
 impl Style {
-    /// Replaces the measurements by one for each opening and one for each seam. An opening is a loop of edges that no
-    /// seam holds, such as a hem, a neckline or a sleeve opening. A seam is measured along its side `a`, or `b` where
-    /// `a` is longer, and so eased or gathered into it. It is a girth where its ends meet, as at an armhole.
+    /// Replaces the measurements by one for each opening and one for each seam. An opening is a closed chain of free
+    /// edges, such as a hem, a neckline or a sleeve opening. A seam is measured along its side `a`, or along `b` if `a`
+    /// is longer, and so eased or gathered into it. It is a girth if its ends meet, as at an armhole.
     pub fn measure_openings_and_seams(&mut self) {
         let meets = self.meeting_corners();
         let mut found: Vec<(String, MeasurementKind, bool, Vec<EdgeRef>)> = Vec::new();
@@ -40,8 +58,8 @@ impl Style {
         self.measurements = measured.collect();
     }
 
-    /// Loops of edges that are free where only some pieces are there, in the order in which the sewn garment has them; edges that
-    /// end in no loop are left out.
+    /// Closed chains of edges that are free if only some pieces are present, in the order of the sewn garment. Edges in
+    /// no closed chain are left out.
     pub(crate) fn openings(&self, is_there: &dyn Fn(usize) -> bool) -> Vec<Vec<EdgeRef>> {
         let partners = self.partners(is_there);
         let mut openings: Vec<Vec<EdgeRef>> = Vec::new();
@@ -49,7 +67,7 @@ impl Style {
             for edge in 0..self.pieces[piece].edges.len() {
                 let first = EdgeRef { piece, edge };
                 let is_new = !openings.iter().any(|opening| opening.contains(&first));
-                if is_new && !partners.contains_key(&(first, true)) {
+                if is_new && !partners.contains_key(&EdgeEnd::new(first, true)) {
                     openings.extend(self.opening_from(first, &partners));
                 }
             }
@@ -57,27 +75,27 @@ impl Style {
         openings
     }
 
-    /// The loop that a free edge is part of.
+    /// Closed chain of free edges that contains a given edge.
     fn opening_from(&self, first: EdgeRef, partners: &BTreeMap<EdgeEnd, EdgeEnd>) -> Option<Vec<EdgeRef>> {
         let mut opening = vec![first];
-        // From the end just reached, over the corner to the next edge, and across seams to where an edge is free.
-        let mut at = (first, true);
-        // Every end is passed once at most, or there is no loop.
+        // The walk goes from the end just reached, over the corner to the next edge, and across seams to a free edge.
+        let mut at = EdgeEnd::new(first, true);
+        // Every end is passed at most once, otherwise the chain does not close.
         for _ in 0..2 * self.pieces.iter().map(|piece| piece.edges.len()).sum::<usize>() {
             let next = self.over_corner(at);
             match partners.get(&next) {
                 Some(&across) => at = across,
-                None if next.0 == first => return Some(opening),
+                None if next.edge == first => return Some(opening),
                 None => {
-                    opening.push(next.0);
-                    at = (next.0, !next.1);
+                    opening.push(next.edge);
+                    at = next.other();
                 }
             }
         }
         None
     }
 
-    /// Which corners of the pieces meet once all seams are sewn.
+    /// Classes of corners of the pieces that coincide once all seams are sewn.
     fn meeting_corners(&self) -> Corners {
         let mut first = 0;
         let offsets = self.pieces.iter().map(|piece| {
@@ -88,13 +106,13 @@ impl Style {
         let offsets: Vec<(usize, usize)> = offsets.collect();
         let mut corners = Corners { offsets, least: (0..first).collect() };
         let partners = self.partners(&|_| true);
-        // A corner lies in few seams: the labels settle after as many rounds as seams meet in one point.
+        // The labels settle after as many rounds as seams meet in one point, which are few.
         loop {
             let before = corners.least.clone();
-            for (one, other) in &partners {
-                let [one, other] = [corners.at(*one), corners.at(*other)];
-                let both = corners.least[one].min(corners.least[other]);
-                (corners.least[one], corners.least[other]) = (both, both);
+            for (end, partner) in &partners {
+                let [corner, other] = [corners.at(*end), corners.at(*partner)];
+                let both = corners.least[corner].min(corners.least[other]);
+                (corners.least[corner], corners.least[other]) = (both, both);
             }
             if before == corners.least {
                 return corners;
@@ -102,21 +120,21 @@ impl Style {
         }
     }
 
-    /// The end of the neighbouring edge of the same piece that is the same corner.
-    pub(crate) fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
+    /// End of the neighbouring edge of the same piece at the same corner.
+    pub(crate) fn over_corner(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> EdgeEnd {
         let n = self.pieces[piece].edges.len();
         let edge = if is_last { (edge + 1) % n } else { (edge + n - 1) % n };
-        (EdgeRef { piece, edge }, !is_last)
+        EdgeEnd::new(EdgeRef { piece, edge }, !is_last)
     }
 
-    /// Both ends of every edge sewn among some pieces, with the end that they meet: across the seam, or in the middle of a chain the
-    /// neighbour in the chain.
+    /// Ends of every edge sewn among some pieces, each with the end that it meets. This is the one across the seam, or
+    /// within a chain the neighbour in the chain.
     fn partners(&self, is_there: &dyn Fn(usize) -> bool) -> BTreeMap<EdgeEnd, EdgeEnd> {
         let mut partners = BTreeMap::new();
         for seam in self.seams.iter().filter(|seam| seam.a.iter().chain(&seam.b).all(|edge| is_there(edge.piece))) {
             // Ends in the order of sewing.
             let ends = |chain: &[EdgeRef], is_forwards: bool| -> Vec<[EdgeEnd; 2]> {
-                chain.iter().map(|&edge| [(edge, !is_forwards), (edge, is_forwards)]).collect()
+                chain.iter().map(|&edge| [EdgeEnd::new(edge, !is_forwards), EdgeEnd::new(edge, is_forwards)]).collect()
             };
             let (a, b) = (ends(&seam.a, true), ends(&seam.b, seam.b_forwards));
             for side in [&a, &b] {
@@ -136,24 +154,24 @@ impl Style {
     }
 }
 
-/// The corners of all pieces: each with the least of those that it meets.
+/// Corners of all pieces, each with the least index of those that it meets.
 struct Corners {
-    /// First corner of each piece, and how many it has.
+    /// First corner and number of corners of each piece.
     offsets: Vec<(usize, usize)>,
     least: Vec<usize>,
 }
 
 impl Corners {
-    /// The corner at the end of an edge.
-    fn at(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> usize {
+    /// Corner at an end of an edge.
+    fn at(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> usize {
         let (offset, n) = self.offsets[piece];
         offset + if is_last { (edge + 1) % n } else { edge }
     }
 
-    /// Whether edges close to a loop: every end meets another.
+    /// True if edges form a closed chain: every end meets another.
     fn close(&self, edges: &[EdgeRef]) -> bool {
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
-        for end in edges.iter().flat_map(|edge| [(*edge, false), (*edge, true)]) {
+        for end in edges.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]) {
             *ends.entry(self.least[self.at(end)]).or_default() += 1;
         }
         ends.values().all(|count| count % 2 == 0)
@@ -215,7 +233,10 @@ mod tests {
             assert_eq!(girths.map(|m| m.name.as_str()).collect::<Vec<_>>(), expect, "{model:?}");
             let garment = style.mesh(30e-3).expect("it meshes");
             let found = crate::check::of_garment(&style, &garment);
-            assert!(found.iter().all(|one| one.kind != crate::check::FindingKind::Loop), "{model:?}: {found:?}");
+            assert!(
+                found.iter().all(|finding| finding.kind != crate::check::FindingKind::Loop),
+                "{model:?}: {found:?}"
+            );
         };
         check(Model::Tshirt, &["seam armhole_right", "seam armhole_left"]);
         check(Model::Trousers, &[]);

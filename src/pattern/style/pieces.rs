@@ -1,4 +1,4 @@
-//! A piece as worn: its edges by name, its grain, its notches.
+//! A piece as worn: its named edges, grain and notches.
 
 use crate::garment::Role;
 use crate::piece::Notch;
@@ -8,11 +8,11 @@ use geom::polyline::Polyline;
 /// An edge of a piece, counter-clockwise as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Name, unique within the piece; `None` for a stretch of outline that the seam file does not name.
+    /// Name, unique within the piece. `None` for a part of the outline that the seam file does not name.
     pub name: Option<String>,
-    /// The drawn curve.
+    /// Curve as drawn.
     pub line: Polyline,
-    /// Arc lengths of the corners passed between its ends.
+    /// Arc lengths of the corners between its ends, m.
     pub corners: Vec<f64>,
 }
 
@@ -21,15 +21,15 @@ pub struct Edge {
 pub struct StylePiece {
     /// Identifier in the seam file, such as `front`.
     pub id: String,
-    /// How it is worn.
+    /// Role of the piece.
     pub role: Role,
-    /// Its edges in counter-clockwise order; together they are the closed outline.
+    /// Edges in counter-clockwise order, which form the closed outline.
     pub edges: Vec<Edge>,
     /// Unit vector of the grain.
     pub grain: V2,
     /// Notches on the outline as worn.
     pub notches: Vec<Notch>,
-    /// Corners as worn, by their number in the seam file.
+    /// Corners as worn, in the order of their numbers in the seam file.
     pub corners: Vec<V2>,
 }
 
@@ -44,7 +44,7 @@ impl StylePiece {
             .collect()
     }
 
-    /// Turns it about the origin, counter-clockwise, rad.
+    /// Rotates the piece about the origin, counter-clockwise, radians.
     pub fn turn(&mut self, angle_rad: f64) {
         let (sin, cos) = angle_rad.sin_cos();
         let turned = |p: V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
@@ -55,16 +55,16 @@ impl StylePiece {
         self.grain = turned(self.grain);
     }
 
-    /// Moves the piece in its plane, m.
+    /// Translates the piece in its plane, m.
     pub fn shift(&mut self, by: V2) {
         self.place(|p| p + by);
     }
 
-    fn place(&mut self, at: impl Fn(V2) -> V2) {
+    fn place(&mut self, image: impl Fn(V2) -> V2) {
         for edge in &mut self.edges {
-            edge.line = edge.line.mapped(&at);
+            edge.line = edge.line.mapped(&image);
         }
-        self.notches.iter_mut().for_each(|notch| notch.at = at(notch.at));
-        self.corners.iter_mut().for_each(|corner| *corner = at(*corner));
+        self.notches.iter_mut().for_each(|notch| notch.at = image(notch.at));
+        self.corners.iter_mut().for_each(|corner| *corner = image(*corner));
     }
 }

@@ -1,12 +1,12 @@
-//! Resolving the names of a seam file against the pieces.
+//! Resolution of the names of a seam file to pieces and edges.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::corners::{cut_edge, mirror_edge, mirrored};
 use super::correspond::Lost;
-use super::follow::corners_of;
 use super::named::called;
+use super::nest_corners::corners_of;
 use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
 use crate::piece::Piece;
@@ -14,16 +14,27 @@ use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch, StyleError};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Resolves the names of one seam file.
+/// Resolver of the names of one seam file.
 pub(super) struct Reader<'a> {
     /// Name of the seam file, for messages.
     pub(super) file: &'a str,
-    /// What it says.
+    /// Entries of the seam file.
     pub(super) entries: &'a SeamFile,
 }
 
+/// An edge by its corners.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct CornerRange {
+    /// Index of the first corner.
+    from: usize,
+    /// Number of corners from the first to the last.
+    span: usize,
+    /// Name, if the seam file has one.
+    name: Option<String>,
+}
+
 impl Reader<'_> {
-    /// The style that the pieces make.
+    /// Makes a style of the pieces.
     pub(super) fn style(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut style = Style {
             name: self.entries.name.clone(),
@@ -61,7 +72,7 @@ impl Reader<'_> {
         Ok(style)
     }
 
-    /// Refuses a file that says more than what is measured.
+    /// Refuses a file with other entries than measurements.
     pub(super) fn only_measures(&self) -> Result<(), StyleError> {
         match self.entries.piece.keys().next() {
             None if self.entries.seam.is_empty() => Ok(()),
@@ -116,7 +127,7 @@ impl Reader<'_> {
         Ok(all)
     }
 
-    /// The drawn piece that an entry names by its block, or else by its piece name.
+    /// Drawn piece of an entry, by its block name or else its piece name.
     fn drawn<'p>(&self, id: &str, entry: &PieceEntry, pieces: &'p [Piece]) -> Result<&'p Piece, StyleError> {
         let place = format!("piece `{id}`");
         let found = called(pieces, &entry.block, self.entries.size.as_deref());
@@ -139,8 +150,8 @@ impl Reader<'_> {
         let corners = self.corners(&place, entry, drawn)?;
         let (drawn, corners) = self.sewn(&place, entry, drawn, corners)?;
         let outline = drawn.seam_outline();
-        // Corner ranges sorted by their first corner; gaps between them become unnamed edges.
-        let mut ranges: Vec<(usize, usize, String)> = Vec::new();
+        // Corner ranges are sorted by their first corner. Gaps between them become unnamed edges.
+        let mut ranges: Vec<CornerRange> = Vec::new();
         for (name, &[from, to]) in &entry.edges {
             if from >= corners.len() || to >= corners.len() || from == to {
                 return Err(self.contradiction(
@@ -149,12 +160,13 @@ impl Reader<'_> {
                     format!("two different corners of 0 to {}", corners.len().saturating_sub(1)),
                 ));
             }
-            ranges.push((from, (to + corners.len() - from) % corners.len(), name.clone()));
+            let span = (to + corners.len() - from) % corners.len();
+            ranges.push(CornerRange { from, span, name: Some(name.clone()) });
         }
         ranges.sort();
         let ranges = self.without_gaps(&place, ranges, corners.len())?;
         let mut edges: Vec<Edge> =
-            ranges.into_iter().map(|(from, span, name)| cut_edge(outline, &corners, from, span, name)).collect();
+            ranges.into_iter().map(|range| cut_edge(outline, &corners, range.from, range.span, range.name)).collect();
         let mut corner_places: Vec<V2> = corners.iter().map(|&vertex| outline[vertex]).collect();
         let mut grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
         let mut notches = drawn.notches.clone();
@@ -171,7 +183,7 @@ impl Reader<'_> {
         Ok(StylePiece { id: id.to_owned(), role: entry.role, edges, grain, notches, corners: corner_places })
     }
 
-    /// Outline vertices of the corners that the edges of an entry count.
+    /// Corners, as vertices of the outline, that the edges of an entry count.
     fn corners(&self, place: &str, entry: &PieceEntry, drawn: &Piece) -> Result<Vec<usize>, StyleError> {
         corners_of(drawn, self.entries.size.as_deref(), &entry.corners_at).map_err(|Lost { corner, away_m }| {
             let found = format!(
@@ -183,8 +195,8 @@ impl Reader<'_> {
         })
     }
 
-    /// The piece with the line that is sewn, and the vertices of its corners there: inside the cut line where that is all a piece
-    /// has and the file says an allowance.
+    /// The piece with its sew line, and its corners as vertices of that. The sew line is made by the allowance of the
+    /// file for a piece that has only a cut line.
     fn sewn<'p>(
         &self,
         place: &str,
@@ -215,14 +227,14 @@ impl Reader<'_> {
         Ok((Cow::Owned(piece), corners))
     }
 
-    /// Fills the gaps between corner ranges `(from, span, name)` that are sorted by their first corner.
+    /// Fills the gaps between corner ranges, sorted by their first corner, with unnamed ones.
     fn without_gaps(
         &self,
         place: &str,
-        ranges: Vec<(usize, usize, String)>,
+        ranges: Vec<CornerRange>,
         corners: usize,
-    ) -> Result<Vec<(usize, usize, Option<String>)>, StyleError> {
-        let Some(first) = ranges.first().map(|range| range.0) else {
+    ) -> Result<Vec<CornerRange>, StyleError> {
+        let Some(first) = ranges.first().map(|range| range.from) else {
             return Err(self.contradiction(
                 place.to_owned(),
                 "no edges".to_owned(),
@@ -230,19 +242,20 @@ impl Reader<'_> {
             ));
         };
         let mut complete = Vec::new();
-        for (k, (from, span, name)) in ranges.iter().enumerate() {
-            let next = ranges.get(k + 1).map_or(first + corners, |range| range.0);
-            let end = from + span;
+        for (k, range) in ranges.iter().enumerate() {
+            let next = ranges.get(k + 1).map_or(first + corners, |range| range.from);
+            let end = range.from + range.span;
             if end > next {
+                let (name, from) = (range.name.as_deref().unwrap_or_default(), range.from);
                 return Err(self.contradiction(
                     place.to_owned(),
                     format!("edge `{name}` (corners {from} to {}) overlaps the edge after it", end % corners),
                     "edges that share at most their end corners".to_owned(),
                 ));
             }
-            complete.push((*from, *span, Some(name.clone())));
+            complete.push(range.clone());
             if end < next {
-                complete.push((end % corners, next - end, None));
+                complete.push(CornerRange { from: end % corners, span: next - end, name: None });
             }
         }
         Ok(complete)

@@ -102,9 +102,9 @@ fn corners_come_from_turn_points_or_else_from_the_outline() {
         corner_vertices(&piece)
     };
     let corner = |x: f64, y: f64| V2::new(x, y);
-    // Sharp corners that the file leaves out are corners too, from the first that it marks.
+    // Sharp corners that the file does not mark are corners too. Numbering begins with the first marked one.
     assert_eq!(square(vec![corner(1.0, 1.0), corner(0.0, 0.0), corner(0.5, 0.0)]), [20, 30, 0, 5, 10]);
-    // Marks off the outline, as of a cut line when the sew line is sewn, are no marks.
+    // Marks off the outline, such as those of a cut line if the sew line is sewn, are ignored.
     assert_eq!(square(vec![corner(2.0, 2.0)]), [0, 10, 20, 30]);
     assert_eq!(square(Vec::new()), [0, 10, 20, 30]);
 }
@@ -142,13 +142,13 @@ fn reinforced_edges_reach_the_mesh() {
 /// A piece as a program may draw it: turned about the origin.
 fn turned(piece: &Piece, degrees: f64) -> Piece {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let at = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
-    let all = |points: &[V2]| points.iter().map(at).collect();
+    let turned = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+    let all = |points: &[V2]| points.iter().map(turned).collect();
     Piece {
         outline: all(&piece.outline),
         turn_points: all(&piece.turn_points),
-        notches: piece.notches.iter().map(|notch| Notch { at: at(&notch.at), ..*notch }).collect(),
-        grain: piece.grain.map(|ends| ends.map(|end| at(&end))),
+        notches: piece.notches.iter().map(|notch| Notch { at: turned(&notch.at), ..*notch }).collect(),
+        grain: piece.grain.map(|ends| ends.map(|end| turned(&end))),
         ..piece.clone()
     }
 }

@@ -1,4 +1,5 @@
-//! What follows of itself: darts go with their mouths, bands and yokes stretch with what they are sewn to.
+//! Parts that follow a handle: darts move with their mouths, bands and yokes stretch with the edges that they are sewn
+//! to.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,19 +13,19 @@ use geom::V2;
 /// Extent of the end of a shaped band along it, m.
 const END_M: f64 = 20e-3;
 
-/// Tips of darts go as far as their mouths do, and give way until both legs are paired.
+/// Moves the tips of darts by the mean of their mouths, and lets them give way until both legs are equally long.
 pub fn darts(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
     let touched = touched(plan);
-    for [one, other] in body.darts().into_iter().filter(|[one, _]| touched.contains(&one.piece)) {
+    for [leg, other] in body.darts().into_iter().filter(|[leg, _]| touched.contains(&leg.piece)) {
         let moved = |place: V2| -> Option<V2> {
-            let at = |m: &&Move| m.at.edge.piece == one.piece && anatomy.style().place(m.at) == place;
-            let moves: Vec<V2> = plan.moves.iter().filter(at).map(|m| m.by).collect();
+            let is_there = |m: &&Move| m.at.edge.piece == leg.piece && anatomy.style().place(m.at) == place;
+            let moves: Vec<V2> = plan.moves.iter().filter(is_there).map(|m| m.by).collect();
             (!moves.is_empty()).then(|| moves.iter().sum())
         };
-        let mouth = [anatomy.place((one, false)), anatomy.place((other, true))].map(moved);
-        let tip = anatomy.point((one, true));
-        let is_told = moved(anatomy.place((one, true))).is_some();
+        let mouth = [anatomy.place(EdgeEnd::new(leg, false)), anatomy.place(EdgeEnd::new(other, true))].map(moved);
+        let tip = anatomy.point(EdgeEnd::new(leg, true));
+        let is_told = moved(anatomy.place(EdgeEnd::new(leg, true))).is_some();
         let mean = 0.5 * mouth.iter().map(|by| by.unwrap_or_else(V2::zeros)).sum::<V2>();
         if !is_told && mean != V2::zeros() {
             plan.drive(tip, mean);
@@ -38,7 +39,8 @@ fn touched(plan: &Plan) -> BTreeSet<usize> {
     plan.moves.iter().chain(plan.gives.iter().flatten()).map(|m| m.at.edge.piece).collect()
 }
 
-/// Pieces of no role of their own, as waistbands, cuffs, collars and yokes, stretch along the edge that is sewn to what moves.
+/// Lets pieces without a role of their own (waistbands, cuffs, collars, yokes) stretch along the edge that is sewn to a
+/// moving piece.
 pub fn bands(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
     let style = anatomy.style();
@@ -64,21 +66,25 @@ pub fn bands(body: &Body<'_>, plan: &mut Plan) {
     plan.gives.extend(bands.into_iter().flat_map(|(piece, edge)| stretches(body, piece, edge)));
 }
 
-/// A piece stretched along the chord of one of its edges: each stretch between its corners by an amount of its own, half to either side
-/// of its middle.
+/// Stretching of a piece along the chord of one of its edges. Each interval between its corners changes by an amount of
+/// its own, half to either side of the middle.
 fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let anatomy = body.anatomy;
-    let chord = anatomy.place((edge, true)) - anatomy.place((edge, false));
+    let chord = anatomy.place(EdgeEnd::new(edge, true)) - anatomy.place(EdgeEnd::new(edge, false));
     let Some(along) = chord.try_normalize(0.0) else { return Vec::new() };
     let corners = corners(anatomy, piece);
     let place = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);
     let mut levels: Vec<f64> = corners.iter().map(place).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|later, earlier| *later - *earlier < END_M);
-    // Corners of one end move alike.
+    // Corners at one end move by the same.
     let reach = |corner: &EdgeEnd| {
         let at_m = place(corner);
-        levels.iter().copied().min_by(|one, other| (one - at_m).abs().total_cmp(&(other - at_m).abs())).unwrap_or(at_m)
+        levels
+            .iter()
+            .copied()
+            .min_by(|level, other| (level - at_m).abs().total_cmp(&(other - at_m).abs()))
+            .unwrap_or(at_m)
     };
     let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else {
         return Vec::new();
@@ -90,7 +96,7 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     levels.windows(2).map(stretch).collect()
 }
 
-/// How far a place lies along a stretch, from 0 to 1.
+/// Position along an interval, clamped to 0..=1.
 fn share_of(ends: &[f64], m: f64) -> f64 {
     ((m - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0)
 }

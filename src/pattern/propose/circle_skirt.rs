@@ -1,4 +1,4 @@
-//! Rings: the pieces of a circle skirt, between two arcs about one centre.
+//! Pieces of a circle skirt: annular sectors between two concentric arcs.
 
 use super::Class;
 use super::Label;
@@ -6,16 +6,17 @@ use super::align::{Alignment, Labelled};
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 
-/// Least turn of an arc that makes a ring, degrees: a flared skirt turns less.
+/// Least angle of a sector, degrees. A flared skirt has less.
 const LEAST_TURN_DEG: f64 = 60.0;
-/// Greatest difference of the two straight edges, share of their length.
+/// Greatest relative difference of the two straight edges.
 const SIDE_DIFFERENCE: f64 = 0.02;
 /// Greatest bow of an edge that counts as straight.
 const STRAIGHT_BOW: f64 = 0.01;
-/// Confidence in a ring whose name says a skirt.
+/// Confidence in a sector whose name says skirt.
 pub const CONFIDENCE: f64 = 0.9;
 
-/// The edges of a ring: its hem is the longer arc, its waist the shorter, hollow one, its sides are straight.
+/// Reads an outline as an annular sector. Its hem is the longer arc, its waist the shorter, hollow one, and its sides
+/// are straight.
 #[must_use]
 pub fn read(shape: &Shape) -> Option<Alignment> {
     if shape.len() != 4 || !shape.darts().is_empty() {
@@ -25,15 +26,15 @@ pub fn read(shape: &Shape) -> Option<Alignment> {
     let hem = (0..4).max_by(|&i, &j| shape.length(i).total_cmp(&shape.length(j)))?;
     let [side, waist, other_side] = [1, 2, 3].map(|k| (hem + k) % 4);
     let turn = |edge: usize| {
-        // The turn of an arc is twice the angle between its chord and its tangent; area over chord squared says it.
-        let stretch = shape.stretch(edge, 1);
-        let arc_over_chord = stretch.length / stretch.chord.norm().max(f64::MIN_POSITIVE);
-        (stretch.bow, turn_of(arc_over_chord))
+        // The angle of an arc follows from the ratio of its length to its chord.
+        let section = shape.section(edge, 1);
+        let arc_over_chord = section.length / section.chord.norm().max(f64::MIN_POSITIVE);
+        (section.bow, turn_of(arc_over_chord))
     };
     let ((hem_bow, hem_turn), (waist_bow, waist_turn)) = (turn(hem), turn(waist));
     let sides = [shape.length(side), shape.length(other_side)];
-    let is_straight = |edge: usize| shape.stretch(edge, 1).bow.abs() < STRAIGHT_BOW;
-    let is_ring = hem_bow > 0.0
+    let is_straight = |edge: usize| shape.section(edge, 1).bow.abs() < STRAIGHT_BOW;
+    let is_sector = hem_bow > 0.0
         && waist_bow < 0.0
         && hem_turn.min(waist_turn).to_degrees() > LEAST_TURN_DEG
         && (hem_turn - waist_turn).abs() < 0.15 * hem_turn
@@ -41,10 +42,10 @@ pub fn read(shape: &Shape) -> Option<Alignment> {
         && is_straight(side)
         && is_straight(other_side);
     let template: Template = *TEMPLATES.iter().find(|template| template.class == Class::Skirt && template.is_whole)?;
-    let up = shape.stretch(waist, 1).middle - shape.stretch(hem, 1).middle;
+    let up = shape.section(waist, 1).middle - shape.section(hem, 1).middle;
     let quarter_turns = ((90.0 - up.y.atan2(up.x).to_degrees()) / 90.0).round().rem_euclid(4.0) as usize;
     let part = |label, from, is_right| Labelled { label, from, span: 1, is_right };
-    is_ring.then(|| Alignment {
+    is_sector.then(|| Alignment {
         template,
         is_mirrored: false,
         quarter_turns,
@@ -58,9 +59,9 @@ pub fn read(shape: &Shape) -> Option<Alignment> {
     })
 }
 
-/// Angle, radians, of a circular arc that is so many times as long as its chord.
+/// Angle, radians, of a circular arc with a given ratio of arc to chord.
 fn turn_of(arc_over_chord: f64) -> f64 {
-    // arc / chord = t / sin t with t half the turn; it grows with t.
+    // arc / chord = t / sin t, where t is half the angle. It increases with t.
     let (mut low, mut high) = (0.0, std::f64::consts::PI * 0.999);
     for _ in 0..60 {
         let t = 0.5 * (low + high);

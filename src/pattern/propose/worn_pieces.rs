@@ -1,4 +1,4 @@
-//! Pieces as worn: which are cut twice, which side of the wearer they are for, and their edges by name.
+//! Pieces as worn: copies of pieces that are cut twice, their side of the wearer, and their named edges.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,6 +12,7 @@ use crate::Role;
 use crate::piece::Piece;
 use crate::seams::PieceEntry;
 use crate::style::correspond::shares;
+use crate::style::named::reference;
 use geom::V2;
 use geom::polyline::Polyline;
 
@@ -20,10 +21,10 @@ use geom::polyline::Polyline;
 pub struct WornEdge {
     /// Name within the piece.
     pub name: String,
-    /// What it is; `None` for a leg of a dart.
+    /// Kind of edge. `None` for a leg of a dart.
     pub label: Option<Label>,
-    /// Side of the wearer on which it is, where the piece has it on both; front or back half of a sleeve likewise by
-    /// [`Hand::Right`] for the front of a right sleeve.
+    /// Side of the wearer, if the piece has the edge on both. For the front or back half of a sleeve, [`Hand::Right`]
+    /// means the front of a right sleeve.
     pub hand: Option<Hand>,
     /// Length of the sew line, m.
     pub length: f64,
@@ -42,11 +43,11 @@ pub struct Worn {
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer; `None` for both.
+    /// Side of the wearer. `None` for both.
     pub hand: Option<Hand>,
-    /// Whether the whole width is drawn.
+    /// True if the whole width is drawn.
     pub is_whole: bool,
-    /// Whether it is a gore.
+    /// True for a gore.
     pub is_gore: bool,
     /// Edges, counter-clockwise as worn.
     pub edges: Vec<WornEdge>,
@@ -54,11 +55,11 @@ pub struct Worn {
     pub darts: Vec<[String; 2]>,
     /// Entry of the seam file.
     pub entry: PieceEntry,
-    /// How sure the proposal is of it, 0 to 1.
+    /// Confidence, 0 to 1.
     pub confidence: f64,
 }
 
-/// An edge of a piece, as one side of a seam runs along it; its text is that of seam files.
+/// An edge of a piece in one side of a seam. It is displayed as in seam files.
 #[derive(Clone, Copy, Debug)]
 pub struct Along<'w> {
     /// Piece that the seam joins.
@@ -76,45 +77,48 @@ impl fmt::Display for Along<'_> {
 /// Distance within which a notch belongs to an edge, m.
 const ON_EDGE_M: f64 = 12e-3;
 
-/// The pieces as worn. A second piece for the same place is left out and asked about. `drawn` is the sleeve that a whole
-/// sleeve is drawn as, where that is known.
+/// Makes the pieces as worn. A second piece for the same place is left out, with a question. `drawn` is the side for
+/// which a whole sleeve is drawn, if known.
 pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, asker: &mut Asker<'_>) -> Vec<Worn> {
-    let backs_face_inwards = recognised.iter().any(|one| {
-        one.face == Some(Face::Back) && one.hand.is_some_and(|hand| natural_hand(one).is_some_and(|n| n != hand))
+    let backs_face_inwards = recognised.iter().any(|candidate| {
+        candidate.face == Some(Face::Back)
+            && candidate.hand.is_some_and(|hand| natural_hand(candidate).is_some_and(|n| n != hand))
     });
-    // What hangs from a bodice, or the band between them, makes it one.
-    let is_bodice = recognised.iter().any(|one| matches!(one.class, Class::Skirt | Class::Leg | Class::Waistband));
-    let skirts = recognised.iter().filter(|one| one.class == Class::Skirt).count();
+    // A trunk with a skirt, legs or a waistband is a bodice.
+    let is_bodice =
+        recognised.iter().any(|candidate| matches!(candidate.class, Class::Skirt | Class::Leg | Class::Waistband));
+    let skirts = recognised.iter().filter(|candidate| candidate.class == Class::Skirt).count();
     let mut all: Vec<Worn> = Vec::new();
-    for one in recognised {
-        for is_mirror in one.gore.into_iter().flat_map(Cut::copies) {
-            let id = format!("{}_{}", id_of(one, None), all.iter().filter(|worn| worn.is_gore).count() + 1);
-            all.push(wear(pieces, one, id, None, is_mirror, Role::Other));
+    for candidate in recognised {
+        for is_mirror in candidate.gore.into_iter().flat_map(Cut::copies) {
+            let id = format!("{}_{}", id_of(candidate, None), all.iter().filter(|worn| worn.is_gore).count() + 1);
+            all.push(wear(pieces, candidate, id, None, is_mirror, Role::Other));
         }
-        if one.gore.is_some() {
+        if candidate.gore.is_some() {
             continue;
         }
-        let needs_face = matches!(one.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
-            || (one.class == Class::Skirt && skirts > 1);
-        if needs_face && one.face.is_none() && !is_whole_leg(one) {
+        let needs_face = matches!(candidate.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
+            || (candidate.class == Class::Skirt && skirts > 1);
+        if needs_face && candidate.face.is_none() && !is_whole_leg(candidate) {
             continue;
         }
-        for (hand, is_mirror) in copies(one, backs_face_inwards, drawn) {
-            let id = id_of(one, hand);
+        for PieceCopy { hand, is_mirror } in copies(candidate, backs_face_inwards, drawn) {
+            let id = id_of(candidate, hand);
             if let Some(other) = all.iter().find(|worn| worn.id == id) {
-                if other.piece != one.piece {
+                if other.piece != candidate.piece {
                     asker.tell(format!(
                         "`{}` and `{}` are both {id}: the first is taken",
-                        pieces[other.piece].name, pieces[one.piece].name
+                        pieces[other.piece].name, pieces[candidate.piece].name
                     ));
                 }
                 break;
             }
-            // A yoke over the shoulders is placed with the trunk; one below the waist follows what it is sewn to.
-            let is_trunk = one.class == Class::Yoke && one.alignment.template.has_shoulder();
-            let class = if is_trunk { Class::Body } else { one.class };
-            let role = role_of(Some(class), one.face, hand, is_bodice);
-            all.push(wear(pieces, one, id, hand, is_mirror, role));
+            // A yoke over the shoulders is placed with the trunk. One below the waist follows the pieces that it is
+            // sewn to.
+            let is_trunk = candidate.class == Class::Yoke && candidate.alignment.template.has_shoulder();
+            let class = if is_trunk { Class::Body } else { candidate.class };
+            let role = role_of(Some(class), candidate.face, hand, is_bodice);
+            all.push(wear(pieces, candidate, id, hand, is_mirror, role));
         }
     }
     all
@@ -122,7 +126,9 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, as
 
 /// Asks whether a whole sleeve is drawn as the right or the left one.
 pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut Asker<'_>) -> Option<Hand> {
-    let is_it = |one: &&Recognised| one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none();
+    let is_it = |candidate: &&Recognised| {
+        candidate.class == Class::Sleeve && candidate.alignment.template.is_whole && candidate.hand.is_none()
+    };
     let sleeve = recognised.iter().find(is_it)?;
     let text = format!("is piece `{}` as drawn the right or the left sleeve?", pieces[sleeve.piece].name);
     let choices = ["the right one: the front of its cap is on the right", "the left one"];
@@ -130,48 +136,60 @@ pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut
 }
 
 /// Side of the wearer for which half a piece is drawn, seen from outside.
-fn natural_hand(one: &Recognised) -> Option<Hand> {
-    let face = one.face.filter(|_| !one.alignment.template.is_whole)?;
-    Some(pose::natural_hand(face, one.alignment.is_mirrored))
+fn natural_hand(candidate: &Recognised) -> Option<Hand> {
+    let face = candidate.face.filter(|_| !candidate.alignment.template.is_whole)?;
+    Some(pose::natural_hand(face, candidate.alignment.is_mirrored))
 }
 
-/// Copies of a piece: the wearer's side and whether it is worn as the mirror image of what is drawn.
-fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Vec<(Option<Hand>, bool)> {
+/// One copy of a piece.
+struct PieceCopy {
+    /// Side of the wearer. `None` for both.
+    hand: Option<Hand>,
+    /// True if it is worn as the mirror image of the drawing.
+    is_mirror: bool,
+}
+
+/// Copies of a piece.
+fn copies(candidate: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Vec<PieceCopy> {
     let drawn = drawn.unwrap_or(Hand::Right);
-    if one.alignment.template.is_whole {
-        return match (one.class, one.hand) {
-            (Class::Leg, None) => vec![(Some(drawn_leg(one)), false), (Some(drawn_leg(one).other()), true)],
-            (Class::Leg, Some(hand)) => vec![(Some(hand), hand != drawn_leg(one))],
-            (Class::Sleeve, None) => vec![(Some(drawn), false), (Some(drawn.other()), true)],
+    let copy = |hand, is_mirror| PieceCopy { hand: Some(hand), is_mirror };
+    let both = |hand: Hand| vec![copy(hand, false), copy(hand.other(), true)];
+    if candidate.alignment.template.is_whole {
+        return match (candidate.class, candidate.hand) {
+            (Class::Leg, None) => both(drawn_leg(candidate)),
+            (Class::Leg, Some(hand)) => vec![copy(hand, hand != drawn_leg(candidate))],
+            (Class::Sleeve, None) => both(drawn),
             (Class::Sleeve | Class::Cuff, Some(hand)) => {
-                vec![(Some(hand), backs_face_inwards && one.face == Some(Face::Back))]
+                vec![copy(hand, backs_face_inwards && candidate.face == Some(Face::Back))]
             }
-            (Class::Waistband, Some(hand)) => vec![(Some(hand), false)],
-            (Class::Waistband, None) if one.is_pair => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
-            (Class::Cuff, None) => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
-            _ => vec![(None, backs_face_inwards && one.face == Some(Face::Back))],
+            (Class::Waistband, Some(hand)) => vec![copy(hand, false)],
+            (Class::Waistband, None) if candidate.is_pair => both(Hand::Right),
+            (Class::Cuff, None) => both(Hand::Right),
+            _ => vec![PieceCopy { hand: None, is_mirror: backs_face_inwards && candidate.face == Some(Face::Back) }],
         };
     }
-    let natural = natural_hand(one).unwrap_or(Hand::Right);
-    match one.hand {
-        Some(hand) => vec![(Some(hand), hand != natural)],
-        None => vec![(Some(natural), false), (Some(natural.other()), true)],
+    let natural = natural_hand(candidate).unwrap_or(Hand::Right);
+    match candidate.hand {
+        Some(hand) => vec![copy(hand, hand != natural)],
+        None => both(natural),
     }
 }
 
-/// The leg that a leg in one piece is drawn as, seen from outside: its back reaches further in under the seat than its front.
-fn drawn_leg(one: &Recognised) -> Hand {
-    let (framed, _) = one.shape.framed(one.alignment.quarter_turns);
+/// Side for which a leg in one piece is drawn, seen from outside. Its back reaches further in under the seat than its
+/// front.
+fn drawn_leg(candidate: &Recognised) -> Hand {
+    let (framed, _) = candidate.shape.framed(candidate.alignment.quarter_turns);
     let reach = |is_right: bool| {
-        let crotch = one.alignment.parts.iter().find(|part| part.label == Label::Crotch && part.is_right == is_right);
-        crotch.map_or(0.0, |crotch| framed.stretch(crotch.from, crotch.span).chord.x.abs())
+        let crotch =
+            candidate.alignment.parts.iter().find(|part| part.label == Label::Crotch && part.is_right == is_right);
+        crotch.map_or(0.0, |crotch| framed.section(crotch.from, crotch.span).chord.x.abs())
     };
     if reach(true) <= reach(false) { Hand::Right } else { Hand::Left }
 }
 
-/// What a piece is called in the seam file, of one side of the wearer or of both.
-pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
-    let class = match one.class {
+/// Identifier of a piece in the seam file, for one side of the wearer or for both.
+pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
+    let class = match candidate.class {
         Class::Body | Class::Other => None,
         Class::SidePanel => Some("side"),
         Class::Leg => Some("leg"),
@@ -181,29 +199,12 @@ pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
         Class::Waistband => Some("waistband"),
         Class::Cuff => Some("cuff"),
     };
-    let parts = [class, one.face.map(Face::as_str), hand.map(Hand::as_str)];
+    let parts = [class, candidate.face.map(Face::as_str), hand.map(Hand::as_str)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 
-/// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number. Blocks of
-/// a nest hold the size in their names, so there the number among those of its name comes first.
-pub fn reference(pieces: &[Piece], index: usize) -> String {
-    let piece = &pieces[index];
-    let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
-    let number = |is: fn(&Piece) -> &str| pieces[..=index].iter().filter(|p| is(p) == is(piece)).count();
-    if is_only(&piece.name) {
-        piece.name.clone()
-    } else if piece.size.is_some() && piece.name != piece.block {
-        format!("{}#{}", piece.name, number(|piece| &piece.name))
-    } else if is_only(&piece.block) {
-        piece.block.clone()
-    } else {
-        format!("{}#{}", piece.block, number(|piece| &piece.block))
-    }
-}
-
-fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool, role: Role) -> Worn {
-    let (shape, n) = (&one.shape, one.shape.len());
+fn wear(pieces: &[Piece], candidate: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool, role: Role) -> Worn {
+    let (shape, n) = (&candidate.shape, candidate.shape.len());
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut unique = |base: String| {
         let count = names.entry(base.clone()).or_default();
@@ -213,9 +214,9 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
     let mut edges = Vec::new();
     let mut corners: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     let mut legs: BTreeMap<usize, String> = BTreeMap::new();
-    for part in &one.alignment.parts {
-        let is_twice = one.alignment.parts.iter().filter(|other| other.label == part.label).count() == 2;
-        let side = is_twice.then(|| side_of(one, part.is_right, hand, is_mirror));
+    for part in &candidate.alignment.parts {
+        let is_twice = candidate.alignment.parts.iter().filter(|other| other.label == part.label).count() == 2;
+        let side = is_twice.then(|| side_of(candidate, part.is_right, hand, is_mirror));
         let base = match side {
             Some(side) => format!("{}_{}", part.label.as_str(), side.as_str()),
             None => part.label.as_str().to_owned(),
@@ -233,7 +234,7 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
             }
             corners.insert(name.clone(), [from, (from + span) % n]);
             let length = (0..span).map(|k| shape.length((from + k) % n)).sum();
-            let mut notches = notches_on(&pieces[one.piece], shape, from, span);
+            let mut notches = notches_on(&pieces[candidate.piece], shape, from, span);
             if is_mirror {
                 notches.iter_mut().for_each(|arc| *arc = length - *arc);
             }
@@ -247,28 +248,28 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
     let dart =
         |dart: &Dart| Some([legs.get(&((dart.apex + n - dart.span) % n))?.clone(), legs.get(&dart.apex)?.clone()]);
     Worn {
-        piece: one.piece,
+        piece: candidate.piece,
         id,
-        class: one.class,
-        face: one.face,
+        class: candidate.class,
+        face: candidate.face,
         hand,
-        is_whole: one.alignment.template.is_whole,
-        is_gore: one.gore.is_some(),
+        is_whole: candidate.alignment.template.is_whole,
+        is_gore: candidate.gore.is_some(),
         darts: shape.darts().iter().filter_map(dart).collect(),
         entry: PieceEntry {
-            block: reference(pieces, one.piece),
+            block: reference(pieces, candidate.piece),
             role,
             mirror: is_mirror,
-            corners_at: shares(pieces[one.piece].seam_outline(), shape.corners()),
+            corners_at: shares(pieces[candidate.piece].seam_outline(), shape.corners()),
             allowance_mm: BTreeMap::new(),
             edges: corners,
         },
         edges,
-        confidence: one.confidence,
+        confidence: candidate.confidence,
     }
 }
 
-/// Arc lengths, m, of the notches along a stretch of outline as drawn; those at its ends mark nothing of it.
+/// Arc lengths, m, of the notches along consecutive edges as drawn, without those at the ends.
 fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usize) -> Vec<f64> {
     let mut points: Vec<V2> = (0..span).flat_map(|k| shape.points((from + k) % shape.len())).collect();
     points.dedup();
@@ -286,12 +287,12 @@ fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usi
     found.filter(|(distance, _)| *distance < ON_EDGE_M).map(|(_, arc)| arc).filter(is_inside).collect()
 }
 
-/// Side of the wearer on which one of two like edges lies.
-fn side_of(one: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool) -> Hand {
+/// Side of the wearer on which one of two equal edges lies.
+fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool) -> Hand {
     let is_right_as_worn = is_right != is_mirror;
-    let is_back = one.face == Some(Face::Back);
-    // Seen from outside the right of a front is the wearer's left; a sleeve's or band's is named as it lies.
-    match (one.class, hand) {
+    let is_back = candidate.face == Some(Face::Back);
+    // Seen from outside, the right of a front is the wearer's left. That of a sleeve or band is named as it lies.
+    match (candidate.class, hand) {
         (Class::Sleeve | Class::Cuff | Class::Leg, _) => {
             if is_right_as_worn {
                 Hand::Right
@@ -305,12 +306,12 @@ fn side_of(one: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool
 }
 
 impl Worn {
-    /// Whether it has an edge of this kind.
+    /// True if it has an edge with this label.
     pub fn has(&self, label: Label) -> bool {
         self.edges.iter().any(|edge| edge.label == Some(label))
     }
 
-    /// Edges with a label, counter-clockwise as worn, of one side where the piece has it on both.
+    /// Edges with a label, counter-clockwise as worn, of one side if the piece has them on both.
     pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         let is_it = |edge: &&WornEdge| {
             edge.label == Some(label) && (hand.is_none() || edge.hand.is_none() || edge.hand == hand)
@@ -318,7 +319,7 @@ impl Worn {
         self.edges.iter().filter(is_it).map(|edge| Along { piece: self, edge }).collect()
     }
 
-    /// [`Worn::chain`] in the order in which the other side of a seam is written: clockwise.
+    /// Edges of [`Worn::chain`] in reverse order, as the other side of a seam is written: clockwise.
     pub fn chain_back(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         self.chain(label, hand).into_iter().rev().collect()
     }

@@ -1,53 +1,56 @@
-//! Corners followed over the sizes of a nest, from the size that a seam file was made on to the next, and so on.
+//! Corners tracked over the sizes of a nest, from the size that a seam file was made on to the next, and so on.
 //!
-//! From one size to the next an outline changes little. Most programs grade the vertices of an outline one by one: then all
-//! sizes have the same vertices in the same order, and a corner is the vertex of its number. Where curves are drawn anew in
-//! each size, a corner is the vertex that lies and turns as it does, and that has its grade rule.
+//! Between neighbouring sizes an outline changes little. Most programs grade the vertices of an outline one by one. All
+//! sizes then have the same vertices in the same order, and a corner is the vertex with its index. If curves are
+//! redrawn in each size, a corner is the vertex with the nearest position, headings and grade rule.
 
 use super::corners::corner_vertices;
 use super::correspond::{CORNER_WORTH, Lost, corresponding, extent, matched, places};
 use crate::piece::Piece;
 use geom::V2;
 
-/// Length of the sides along which an outline heads at a vertex, over the size of the piece.
+/// Length over which the heading of an outline at a vertex is taken, over the size of the piece.
 const HEADING_REACH: f64 = 0.02;
-/// Distance over the size of the piece that a side which heads otherwise by a radian is worth. The curve beside a fork heads
-/// otherwise by a right angle on one side: it is no fork, though it were nearer by a twelfth of the leg.
+/// Penalty of a heading that differs by a radian, as a distance over the size of the piece. A vertex on the curve
+/// beside a fork differs by a right angle on one side. It is not taken for the fork, even if it were nearer by a
+/// twelfth of the leg.
 const RADIAN_WORTH: f64 = 0.05;
-/// Greatest change of a heading at a corner from size to size where vertices are graded one by one, radians.
+/// Greatest change of a heading at a corner between neighbouring sizes for vertices that are graded one by one,
+/// radians.
 const SAME_HEADING: f64 = 0.35;
 /// Distance within which a grade point lies on a vertex, m.
 const ON_VERTEX_M: f64 = 0.5e-3;
 
-/// Outline vertices of the corners that the edges of a seam file count: `places` as its `corners_at` has them, or those that the
-/// piece shows. They are found on the size `made_on`, where the nest of the piece has it, and followed from there.
+/// Corners, as vertices of an outline, that the edges of a seam file count. `places` are the shares of its
+/// `corners_at`; if empty, the corners are those of the piece. They are located on the size `made_on`, if the nest of
+/// the piece has it, and tracked from there.
 ///
 /// # Errors
-/// [`Lost`] where a corner has no like.
+/// [`Lost`] if a corner has no counterpart.
 pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2]]) -> Result<Vec<usize>, Lost> {
     let found = |piece: &Piece| match places {
         [] => Ok(corner_vertices(piece)),
         places => corresponding(piece, places),
     };
-    let is = |size: Option<&str>| {
+    let index_of = |size: Option<&str>| {
         let size = size?;
         piece
             .beside
             .sizes
             .iter()
-            .position(|one| one.size.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(size)))
+            .position(|sized| sized.size.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(size)))
     };
-    let (Some(first), Some(last)) = (is(made_on), is(piece.size.as_deref())) else { return found(piece) };
+    let (Some(first), Some(last)) = (index_of(made_on), index_of(piece.size.as_deref())) else { return found(piece) };
     let low = first.min(last);
     let nest = &piece.beside.sizes[low..=first.max(last)];
     let mut corners = in_sizes(nest, first - low, &found(&piece.beside.sizes[first])?).map_err(|(_, lost)| lost)?;
     Ok(corners.swap_remove(last - low))
 }
 
-/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size `sample`.
+/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size with the index `sample`.
 ///
 /// # Errors
-/// The size in which a corner has no like, by its place, and [`Lost`].
+/// The index of the size in which a corner has no counterpart, and [`Lost`].
 pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Result<Vec<Vec<usize>>, (usize, Lost)> {
     let mut found = vec![corners.to_vec(); sizes.len()];
     for size in sample + 1..sizes.len() {
@@ -59,13 +62,13 @@ pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Res
     Ok(found)
 }
 
-/// Vertices of a piece that correspond to corners of it in the size before.
+/// Vertices of a piece that correspond to corners of it in the neighbouring size.
 fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, Lost> {
     let (before, after) = (headings(from.seam_outline()), headings(to.seam_outline()));
     let unlike = |corner: usize, vertex: usize| -> [f64; 2] {
         [0, 1].map(|side| (after[vertex][side] - before[corner][side]).sin_cos()).map(|(sin, cos)| sin.atan2(cos))
     };
-    if let Some(turn) = by_number(from, to) {
+    if let Some(turn) = index_offset(from, to) {
         let vertices: Vec<usize> = corners.iter().map(|corner| (corner + turn) % after.len()).collect();
         let is_alike =
             |(&corner, &vertex): (&usize, &usize)| unlike(corner, vertex).iter().all(|by| by.abs() < SAME_HEADING);
@@ -77,15 +80,15 @@ fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, L
     let cost = |k: usize, vertex: usize| {
         let corner = corners[k];
         let heading: f64 = unlike(corner, vertex).iter().map(|by| (RADIAN_WORTH * by).powi(2)).sum();
-        let is_other_rule = rules[0][corner].zip(rules[1][vertex]).is_some_and(|(one, other)| one != other);
+        let is_other_rule = rules[0][corner].zip(rules[1][vertex]).is_some_and(|(rule, other)| rule != other);
         let is_blunt = turns[0][corner] && !turns[1][vertex];
         heading + CORNER_WORTH.powi(2) * (f64::from(is_other_rule) + f64::from(is_blunt))
     };
     matched(to.seam_outline(), &places(from.seam_outline(), corners), cost)
 }
 
-/// By how many vertices the numbers of an outline differ from those of the size before; `None` where it has more or fewer.
-fn by_number(from: &Piece, to: &Piece) -> Option<usize> {
+/// Offset between the vertex indices of an outline and those of the neighbouring size. `None` if their counts differ.
+fn index_offset(from: &Piece, to: &Piece) -> Option<usize> {
     let (from, to) = (from.seam_outline(), to.seam_outline());
     let count = to.len();
     (from.len() == count).then_some(())?;
@@ -94,15 +97,15 @@ fn by_number(from: &Piece, to: &Piece) -> Option<usize> {
     let scaled: Vec<V2> =
         places(from, &all).into_iter().map(|place| low + place.component_mul(&(high - low))).collect();
     let apart = |turn: usize| -> f64 { (0..count).map(|k| (scaled[k] - to[(k + turn) % count]).norm_squared()).sum() };
-    (0..count).min_by(|one, other| apart(*one).total_cmp(&apart(*other)))
+    (0..count).min_by(|turn, other| apart(*turn).total_cmp(&apart(*other)))
 }
 
-/// How an outline heads before and after each vertex, radians.
+/// Headings of an outline before and after each vertex, radians.
 fn headings(outline: &[V2]) -> Vec<[f64; 2]> {
     let count = outline.len();
     let [low, high] = extent(outline);
     let reach_m = HEADING_REACH * (high - low).norm();
-    // The first vertex that far along the outline in one direction.
+    // First vertex at that distance along the outline in one direction.
     let far = |from: usize, step: usize| {
         let (mut at, mut way_m) = (from, 0.0);
         while way_m < reach_m && (at + step) % count != from {
@@ -112,27 +115,27 @@ fn headings(outline: &[V2]) -> Vec<[f64; 2]> {
         }
         outline[at]
     };
-    let of = |vertex: usize| {
+    let headings_at = |vertex: usize| {
         let [back, on] = [outline[vertex] - far(vertex, count - 1), far(vertex, 1) - outline[vertex]];
         [back, on].map(|along| along.y.atan2(along.x))
     };
-    (0..count).map(of).collect()
+    (0..count).map(headings_at).collect()
 }
 
-/// Which vertices turn.
+/// True for each vertex that is a corner.
 fn turning(piece: &Piece) -> Vec<bool> {
     let mut turns = vec![false; piece.seam_outline().len()];
     corner_vertices(piece).into_iter().for_each(|vertex| turns[vertex] = true);
     turns
 }
 
-/// The grade rule of each vertex that has one.
+/// Grade rule of each vertex that has one.
 fn rules(piece: &Piece) -> Vec<Option<u32>> {
-    let of = |vertex: &V2| {
+    let rule_at = |vertex: &V2| {
         let is_on = |point: &&crate::piece::GradePoint| !point.is_inner && (point.at - vertex).norm() < ON_VERTEX_M;
         piece.grade_points.iter().find(is_on).map(|point| point.rule)
     };
-    piece.seam_outline().iter().map(of).collect()
+    piece.seam_outline().iter().map(rule_at).collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,154 @@
+//! Girths of a garment at the levels of the body that is to wear it. Ease needs no more, before anything is draped.
+//!
+//! A top hangs from the side neck points, a skirt from the waist. The fork of trousers lies at the crotch.
+
+use super::anatomy::Anatomy;
+use super::legs::Legs;
+use super::top::Trunk;
+use super::{Garb, Point, PointOfMeasure};
+use crate::style::{PathPart, Style};
+
+/// Heights of the levels of a standing body above the floor, and distances along its arm from the shoulder point, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Side neck points.
+    pub side_neck_m: f64,
+    /// Underbust.
+    pub underbust_m: f64,
+    /// Waist level (ISO 8559-1).
+    pub waist_m: f64,
+    /// Hip, at the greatest protrusion of the buttocks.
+    pub hip_m: f64,
+    /// Crotch, at the upper end of the inside leg.
+    pub crotch_m: f64,
+    /// Middle of the knee.
+    pub knee_m: f64,
+    /// Distance of the forearm level along the arm.
+    pub forearm_along_m: f64,
+    /// Distance of the wrist along the arm.
+    pub wrist_along_m: f64,
+}
+
+/// Girth or width of a garment at a level of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WornLength {
+    /// Level: `neck`, `across_shoulder`, `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, `forearm`, `wrist`.
+    pub level: &'static str,
+    /// Girth of the cloth, or its width across the shoulders, m.
+    pub length_m: f64,
+    /// Height above the floor at which the body is measured, m, if it differs from that of the level. This is so at the
+    /// upper edge of trousers.
+    pub height_m: Option<f64>,
+    /// Path on the cloth. For a girth that is measured by its half, it is that half.
+    pub path: Vec<PathPart>,
+}
+
+/// Greatest distance of a sleeve end above the wrist, m, at which it still counts for the wrist.
+const SHORT_OF_WRIST_M: f64 = 0.040;
+/// Distance within which a waist seam lies at the waist, m.
+const AT_WAIST_M: f64 = 0.060;
+
+impl Style {
+    /// Girths and widths of the style at the levels of a body that it covers, from the neck down.
+    #[must_use]
+    pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
+        self.worn_lengths_on(std::slice::from_ref(stand)).pop().unwrap_or_default()
+    }
+
+    /// The same for several bodies. The pieces are identified once.
+    #[must_use]
+    pub fn worn_lengths_on(&self, stands: &[Stand]) -> Vec<Vec<WornLength>> {
+        let anatomy = Anatomy::of(self);
+        let garb = Garb::of(&anatomy);
+        let points = garb.points();
+        stands.iter().map(|stand| lengths_on(self, &anatomy, &garb, &points, stand)).collect()
+    }
+}
+
+/// A length with its path on the cloth.
+struct OnCloth {
+    length_m: f64,
+    path: Vec<PathPart>,
+}
+
+/// Girths and widths of a garment at the levels of one body.
+fn lengths_on(
+    style: &Style,
+    anatomy: &Anatomy<'_>,
+    garb: &Garb<'_>,
+    points: &[PointOfMeasure],
+    stand: &Stand,
+) -> Vec<WornLength> {
+    let Garb { trunk, sleeve, legs, .. } = garb;
+    let flat = |point: Point| {
+        let found = points.iter().find(|measure: &&PointOfMeasure| measure.point == point)?;
+        Some(OnCloth { length_m: found.length_m, path: found.path.clone() })
+    };
+    let mut found = Vec::new();
+    let mut add = |level, length: Option<OnCloth>, height_m| {
+        found.extend(length.map(|OnCloth { length_m, path }| WornLength { level, length_m, height_m, path }));
+    };
+    let doubled = |half: OnCloth| OnCloth { length_m: 2.0 * half.length_m, ..half };
+    let measured = |path: Vec<PathPart>| OnCloth { length_m: style.path_length_m(&path), path };
+    add("neck", flat(Point::Neck), None);
+    // The width of the shoulders of a garment without sleeves is a matter of design.
+    add("across_shoulder", flat(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
+    add("chest", flat(Point::HalfChest).map(doubled), None);
+    let hangs = Hangs::of(anatomy, trunk.as_ref(), legs.as_ref(), stand);
+    let girth_at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.round(anatomy, height_m)).map(measured);
+    add("underbust", girth_at(stand.underbust_m), None);
+    match (trunk, legs) {
+        (Some(trunk), _) => {
+            let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
+            let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
+            add("waist", if is_seam { flat(Point::HalfWaist).map(doubled) } else { girth_at(stand.waist_m) }, None);
+        }
+        (None, Some(legs)) => {
+            let top_m = stand.crotch_m + legs.top_above_fork_m();
+            add("waist", flat(Point::HalfWaist).map(doubled), Some(top_m));
+        }
+        (None, None) => add("waist", flat(Point::HalfWaist).map(doubled), None),
+    }
+    add("hip", girth_at(stand.hip_m), None);
+    add("thigh", flat(Point::HalfThigh).map(doubled), None);
+    let knee = legs.as_ref().and_then(|legs| legs.round(stand.knee_m - stand.crotch_m)).map(measured);
+    add("knee", knee, None);
+    add("upper_arm", flat(Point::HalfBicep).map(doubled), None);
+    if let (Some(sleeve), Some(whole)) = (sleeve, flat(Point::SleeveLength)) {
+        add("forearm", sleeve.round(stand.forearm_along_m).map(measured), None);
+        let reaches = whole.length_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
+        add("wrist", flat(Point::HalfCuff).filter(|_| reaches).map(doubled), None);
+    }
+    found
+}
+
+/// Path down the front of a garment, with the height of its beginning.
+struct Hangs {
+    path: Vec<PathPart>,
+    top_m: f64,
+    /// Height below which the cloth goes all round, m.
+    round_m: f64,
+}
+
+impl Hangs {
+    fn of(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: Option<&Legs<'_>>, stand: &Stand) -> Option<Self> {
+        if let Some(trunk) = trunk {
+            let down = trunk.way_down()?;
+            let top_m = stand.side_neck_m - down.below_neck_m;
+            return Some(Self { path: down.path, top_m, round_m: stand.side_neck_m - trunk.chest_below_neck_m()? });
+        }
+        if let Some(legs) = legs {
+            let down = legs.way_down()?;
+            let top_m = stand.crotch_m + down.above_fork_m;
+            return Some(Self { path: down.path, top_m, round_m: top_m });
+        }
+        let path = super::skirt::way_down(anatomy)?;
+        Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
+    }
+
+    /// Path round the cloth at a height above the floor, m. `None` if it does not go round there.
+    fn round(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<Vec<PathPart>> {
+        let point = anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
+        anatomy.ways.round_through(point)
+    }
+}
