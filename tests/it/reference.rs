@@ -20,7 +20,7 @@ const DATE: &str = "1979-05-27";
 pub struct Row {
     /// Words between backquotes in its first cell.
     pub keys: Vec<String>,
-    /// Its cells: key, value, unit, default, meaning.
+    /// Its cells: key, value, default, meaning.
     pub cells: Vec<String>,
 }
 
@@ -258,7 +258,7 @@ fn what_a_study_file_needs_is_what_the_reference_says() {
     for section in &STUDY {
         let told = section.told(&readers, &[], "");
         let rows = section.rows(&page);
-        let is_required = |row: &&&Row| row.cells[3].starts_with("required");
+        let is_required = |row: &&&Row| row.cells[2].starts_with("required");
         let required: BTreeSet<&String> = rows.iter().filter(is_required).flat_map(|row| &row.keys).collect();
         let missing = |key: &&String| told.iter().any(|problem| problem.contains(&format!("`{key}` is missing")));
         let needed: BTreeSet<&String> = rows.iter().flat_map(|row| &row.keys).filter(missing).collect();
@@ -295,7 +295,7 @@ fn defaults_are_those_of_the_reference() {
     let rows: Vec<&Row> = sections.iter().flat_map(|section| section.rows(&page)).collect();
     assert_eq!(rows.len(), defaults.len());
     for row in rows {
-        let (key, told) = (&row.keys[0], row.cells[3].trim_matches('`'));
+        let (key, told) = (&row.keys[0], row.cells[2].trim_matches('`'));
         let is_so = match &defaults[key] {
             Value::Null => told == "none",
             Value::String(word) => told == word,
