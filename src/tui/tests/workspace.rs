@@ -24,7 +24,7 @@ fn follows_a_run_and_acts_on_it() {
     let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
     let read = |workspace: &Workspace, focus: &Focus| reading::snapshot(workspace, focus).expect("readable");
     let mut bench = Bench::new(80, 24, read(&workspace, &Focus::default()));
-    assert!(bench.state.is_first_start());
+    assert!(bench.app.state.is_first_start());
 
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
     let study = workspace.load_study(&path).expect("the quickstart is right");
@@ -35,16 +35,16 @@ fn follows_a_run_and_acts_on_it() {
     let jobs = data.jobs.len();
     assert!(jobs > 0 && data.jobs.iter().all(|job| job.status == Status::Failed));
     let first = data.grid.as_ref().and_then(|grid| grid.cells[0][0][0].job).expect("queued");
-    bench.state.update(Message::Data(Box::new(data)));
-    assert_eq!(bench.state.focus.job, Some(first));
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    bench.app.update(Message::Data(Box::new(data)));
+    assert_eq!(bench.app.state.focus.job, Some(first));
+    bench.app.update(Message::Data(Box::new(read(&workspace, &bench.app.state.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
     assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is queued again"));
     assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is not run again"));
     assert!(carry_out(&mut workspace, &Command::Pause(study.name.clone())).expect("allowed").contains("is paused"));
     assert!(carry_out(&mut workspace, &Command::Pause("none".into())).is_err());
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    bench.app.update(Message::Data(Box::new(read(&workspace, &bench.app.state.focus.clone()))));
     let screen = bench.screen();
     assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
 }

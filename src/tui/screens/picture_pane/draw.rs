@@ -84,7 +84,7 @@ pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pi
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
 }
 
-/// What the colours mean: name, least value, the run of colours, greatest value with its unit.
+/// Draws the legend of the colours: name, least value, the run of colours, greatest value with its unit.
 pub fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(scale) = state.pictures.map.scale() else { return };
     let before = format!("{} {} ", scale.label, text::whole(scale.low));

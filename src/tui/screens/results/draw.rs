@@ -5,8 +5,8 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
+use crate::screens::measurements::{self, draw as measured};
 use crate::screens::picture_pane::draw::draw_drape;
-use crate::screens::results::measurements;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
@@ -45,8 +45,9 @@ pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
 /// Rows and panes that can be gone to.
 pub fn targets(state: &State, area: Rect) -> Vec<Target> {
     let panes = panes(area, state);
-    let rows =
-        panes.table.map_or(vec![], |table| jump::rows(0, jump::inside(table), 1, state.chi().len(), state.results.row));
+    let rows = panes.table.map_or(vec![], |table| {
+        jump::rows(0, jump::inside(table), 1, measurements::rows(state).len(), state.measurements.row)
+    });
     rows.into_iter().chain(panes.picture.map(|picture| jump::pane(picture, 1))).collect()
 }
 
@@ -58,10 +59,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if let Some(area) = panes.numbers {
         let block = pane(state.theme, "numbers", false);
         let columns = usize::from(block.inner(area).width);
-        let mut lines = measurements::numbers(state, columns);
-        lines.extend(
-            measurements::provenance(state).iter().map(|(name, value)| measurements::fact(name, value, columns)),
-        );
+        let mut lines = measured::numbers(state, columns);
+        lines.extend(measured::provenance(state).iter().map(|(name, value)| measured::fact(name, value, columns)));
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
     if let Some(area) = panes.picture {
@@ -80,25 +79,28 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let title = match state.job() {
         Some(job) => {
             let simulator = text::sim(job.simulator);
-            let stage = state.stage().map_or(String::new(), |stage| format!(" · {stage}"));
+            let stage = state
+                .detail()
+                .and_then(|detail| state.measurements.stage(detail))
+                .map_or(String::new(), |stage| format!(" · {stage}"));
             let mark = state.mark_of(Some(job.id));
             format!("{} {} · {} · {simulator}{stage}{mark}", job.garment, job.size, job.subject)
         }
         None => "no result".into(),
     };
     let block = pane(state.theme, title, focused)
-        .title_bottom(Line::styled(measurements::LEGEND, state.theme.legend()).right_aligned());
+        .title_bottom(Line::styled(measured::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
-    if state.chi().is_empty() {
+    if measurements::rows(state).is_empty() {
         let paragraph = Paragraph::new(why_empty(state)).wrap(Wrap { trim: true }).block(block);
         frame.render_widget(paragraph, area);
         return;
     }
-    let lines = measurements::table(state, usize::from(inner.width), usize::from(inner.height), Some(focused));
+    let lines = measured::table(state, usize::from(inner.width), usize::from(inner.height), Some(focused));
     frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
-/// Why there is no table.
+/// Reason why there is no table.
 fn why_empty(state: &State) -> String {
     match state.job() {
         None => "Choose a job on screen 1 or 4 and press Enter.".into(),
