@@ -7,7 +7,7 @@
 //! The folders, each of which knows only those after it:
 //!
 //! - `app`: the update loop and the frame around the screens;
-//! - `screens`: a folder a screen, with its state, its actions and its drawing;
+//! - `screens`: a folder a screen, with its state, its actions and its drawing, and the state that they share;
 //! - `overlays`: what opens above a screen;
 //! - `threads`, `terminal`: the outside, which knows no screen;
 //! - `messages`: what threads and screens tell each other;
@@ -53,23 +53,23 @@ use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 use widgets::theme_file;
 
-/// How the workbench is started.
+/// Options of a start of the workbench.
 pub struct Options {
     /// Path of the database file.
     pub database: PathBuf,
-    /// Whether it was named, so that commands have to name it too.
+    /// True where it was named, so that commands have to name it too.
     pub is_database_named: bool,
-    /// Whether nothing may be changed.
+    /// True where nothing may be changed.
     pub readonly: bool,
-    /// Whether colours are off, whatever the environment says.
+    /// True where colours are off, whatever the environment says.
     pub no_color: bool,
-    /// How pictures are shown.
+    /// Way in which pictures are shown.
     pub images: Images,
-    /// Folder of the study that comes with the program, offered while the database has none, or where it is written then.
+    /// Folder of the study that comes with the program, which is offered while the database has none. It is written there then.
     pub quickstart: PathBuf,
 }
 
-/// Why the workbench ended.
+/// Reason why the workbench ended.
 #[derive(Debug, thiserror::Error)]
 pub enum TuiError {
     /// The workspace could not be opened.
@@ -118,7 +118,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     Ok(outcome?)
 }
 
-/// Where new studies and reports go: beside the study that comes with the program.
+/// Folders of new studies and reports: beside the study that comes with the program.
 fn folders(options: &Options) -> Folders {
     let home = options.quickstart.parent().and_then(Path::parent).unwrap_or(Path::new(""));
     Folders { studies: home.join("studies"), reports: home.join("reports") }
