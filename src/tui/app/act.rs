@@ -138,8 +138,7 @@ impl App {
     fn copy(&mut self) -> Vec<Effect> {
         let Self { state, screens } = self;
         let Some((text, name)) = screens.page(state.nav.screen).copied(state) else {
-            state.say("nothing to copy here");
-            return vec![];
+            return state.reply("nothing to copy here");
         };
         state.say(format!("copied {name}"));
         vec![Effect::Copy(text)]

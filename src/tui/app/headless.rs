@@ -70,7 +70,7 @@ impl Headless {
         Ok(())
     }
 
-    /// Presses a key; returns whether something has to be read for it.
+    /// Presses a key; returns true if something has to be read for it.
     pub fn press(&mut self, code: KeyCode) -> bool {
         let effects = self.app.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
         effects.iter().any(|effect| matches!(effect, Effect::Read(_)))

@@ -1,4 +1,4 @@
-//! What the workbench remembers from one start to the next: the screen, what is selected, filters, orders, queries. One
+//! Memory of the workbench from one start to the next: screen, selections, filters, orders, queries. One
 //! small file a database, in the state folder; one that cannot be read means a fresh start, never an error.
 
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use study::JobId;
 /// The longest name of a file.
 const LONGEST: usize = 200;
 
-/// What is remembered.
+/// Memory from one start to the next.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Session {
@@ -109,7 +109,7 @@ impl Session {
     }
 }
 
-/// Where it is kept for a database: `toile` in the state folder.
+/// Path of its file for a database: in `toile` of the state folder.
 #[must_use]
 pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
@@ -142,8 +142,11 @@ mod tests {
     #[test]
     fn databases_have_files_of_their_own() {
         let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
-        let of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
-        assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
-        assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
+        let file_of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
+        assert_eq!(file_of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
+        assert_ne!(
+            file_of(&format!("/{}/a.sqlite", "long".repeat(80))),
+            file_of(&format!("/{}/b.sqlite", "long".repeat(80)))
+        );
     }
 }

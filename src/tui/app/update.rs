@@ -14,7 +14,7 @@ use crate::messages::snapshot::Focus;
 use crate::messages::taught;
 use crate::overlays::Overlay;
 use crate::overlays::outcome::Outcome;
-use crate::overlays::path_prompt::PathPrompt;
+use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::screens::compare::actions::to_compare;
 use crate::screens::fit::actions::wearer;
 use crate::screens::measurements;
@@ -128,7 +128,10 @@ impl App {
             Outcome::Jump(goal) => self.jump(goal),
             Outcome::Tour(step) => self.tour(step),
             Outcome::Query(text) => screens.sql.take_query(state, &text),
-            Outcome::Rename(name) => state.overlay = Some(Overlay::Path(PathPrompt::rename_query(name))),
+            Outcome::Rename(name) => {
+                let prompt = PathPrompt::new(Purpose::RenameQuery(name.clone()), name);
+                state.overlay = Some(Overlay::Path(prompt));
+            }
             Outcome::Sent(effects) => {
                 state.overlay = Some(overlay);
                 return effects;

@@ -5,7 +5,7 @@ use study::{
     RecommendationRow, SizeRow, StageRow, Step, StudyRow, SubjectRow, Why,
 };
 
-/// What the user looks at; whatever is `None` or gone is chosen when it is read.
+/// The study, garment and jobs that the user looks at. Those that are `None` or gone are chosen when the database is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
     /// Name of the study.
@@ -16,7 +16,7 @@ pub struct Focus {
     pub job: Option<JobId>,
     /// Jobs to compare.
     pub compare: Vec<JobId>,
-    /// Subject on whom it is told how the garment sits.
+    /// Subject on whom the fit of the garment is shown.
     pub wearer: Option<String>,
 }
 
@@ -56,9 +56,9 @@ pub struct Snapshot {
     pub detail: Option<Detail>,
     /// The jobs compared, those that are gone left out.
     pub compared: Vec<Compared>,
-    /// Which simulator the study's garments are to be trusted to; read for comparisons only.
+    /// Recommended simulators of the study's garments; read for comparisons only.
     pub recommendations: Vec<RecommendationRow>,
-    /// How the garment sits on the wearer.
+    /// Fit of the garment on the wearer.
     pub worn: Option<GarmentWorn>,
 }
 
@@ -127,7 +127,7 @@ impl Snapshot {
     }
 }
 
-/// What is stored of one job.
+/// Stored results, steps and log of one job.
 #[derive(Clone, Debug)]
 pub struct Detail {
     /// Number of the job.
@@ -142,7 +142,7 @@ pub struct Detail {
     pub log: Vec<LogLine>,
     /// Why the cache did not have it.
     pub why: Why,
-    /// Where its inputs came from.
+    /// Stages of the job, each from the cache or made.
     pub stages: Vec<StageRow>,
 }
 
@@ -155,6 +155,6 @@ pub struct Compared {
     pub chi: Vec<ChiRow>,
     /// Numbers of its result.
     pub metrics: Option<MetricsRow>,
-    /// What it was made of.
+    /// Inputs that it was made of.
     pub inputs: Inputs,
 }

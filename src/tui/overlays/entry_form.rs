@@ -30,12 +30,12 @@ const FAR: f64 = 3.0;
 /// Columns of values in a form.
 const VALUE: usize = 12;
 
-/// What stands beside a value.
+/// Note beside a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// The value needs no remark.
     None,
-    /// Where it stands among adults of the sex, or among the fabrics of the catalogue.
+    /// Percentile among adults of the sex, or range among the fabrics of the catalogue.
     Place(String),
     /// It is possible but rare.
     Doubt(String),
@@ -46,9 +46,9 @@ pub enum Note {
 /// The values of a subject or a fabric, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// What is filled in: a subject or a fabric.
+    /// Part of the catalogue: a subject or a fabric.
     pub part: Part,
-    /// Whether the entry is new.
+    /// Mode of saving: a new entry, or other values of a known one.
     pub mode: Mode,
     /// The entry whose values a new one starts with.
     pub like: Option<String>,
@@ -58,11 +58,11 @@ pub struct Form {
     known: Vec<[f64; 2]>,
     /// Line that is typed in.
     pub at: usize,
-    /// Whether all problems are told, also those of empty lines.
+    /// True where all problems are told, also those of empty lines.
     is_tried: bool,
-    /// Whether it is being saved.
+    /// True while it is being saved.
     pub is_busy: bool,
-    /// Why it could not be saved.
+    /// Reason why it could not be saved.
     pub problem: Option<String>,
 }
 
@@ -115,12 +115,12 @@ impl Form {
         self.texts[NAME].trim()
     }
 
-    /// Whether a line can be typed in: the name of an entry stays.
+    /// True if a line can be typed in: the name of a known entry stays.
     fn is_open(&self, line: usize) -> bool {
         line != NAME || self.mode == Mode::Add
     }
 
-    /// Whether a line holds a number.
+    /// True if a line holds a number.
     #[must_use]
     pub fn is_number(line: usize) -> bool {
         line >= FIRST_NUMBER
@@ -152,7 +152,7 @@ impl Form {
         if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
     }
 
-    /// What stands beside a line.
+    /// Note beside a line.
     #[must_use]
     pub fn note(&self, line: usize) -> Note {
         let text = self.texts[line].as_str();
@@ -170,7 +170,7 @@ impl Form {
         noted.unwrap_or_else(Note::Problem)
     }
 
-    /// Where a measurement stands among adults.
+    /// Note on the percentile of a measurement among adults.
     fn subject_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let field = &MEASUREMENTS[k];
         let stands = |value: f64| percentile(self.sex()?, field.key, value);
@@ -183,7 +183,7 @@ impl Form {
         })
     }
 
-    /// Where a number stands among the fabrics of the catalogue: far from all of them it is in another unit, perhaps.
+    /// Note on the range of a number among the fabrics of the catalogue. A number far from all of them may be in another unit.
     fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let value = FABRIC_NUMBERS[k].read(text)?;
         let Some((value, [low, high])) =
@@ -244,7 +244,7 @@ impl Form {
     }
 }
 
-/// Name of a number of fabrics, without what the command line adds to it.
+/// Name of a number of fabrics, without the unit that the command line adds to it.
 #[must_use]
 pub fn fabric_label(k: usize) -> &'static str {
     let label = FABRIC_NUMBERS[k].label;
@@ -286,7 +286,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     draw_frame(frame, area, width, title, keys, lines, theme);
 }
 
-/// A line of a form: name, value, and what there is to say of it.
+/// A line of a form: name, value, note.
 pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
     let is_focused = k == form.at && !form.is_busy;
     let mark = if is_focused { "▸" } else { " " };

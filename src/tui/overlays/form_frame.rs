@@ -11,7 +11,7 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 
-/// Whether a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
+/// True if a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
 pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
     match event.code {
         KeyCode::F(5) => true,
@@ -36,7 +36,7 @@ pub fn draw_frame(
     frame.render_widget(Paragraph::new(lines).block(block), place);
 }
 
-/// What goes on, or what went wrong.
+/// Lines below a form: the work that goes on, and the problem there is.
 pub fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> =
         busy.iter().map(|text| Line::styled(format!(" {text}"), theme.busy())).collect();

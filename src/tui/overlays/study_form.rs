@@ -1,4 +1,4 @@
-//! What is filled in for a new study: its name, and what of the catalogue it is made of.
+//! The form of a new study: its name, and the entries of the catalogue that it is made of.
 
 use std::path::PathBuf;
 
@@ -52,14 +52,14 @@ impl FormLine {
     }
 }
 
-/// What the lines of a part must contain to be shown.
+/// Filter of the lines of a part.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
     /// Heading of the part whose lines are narrowed.
     section: &'static str,
-    /// What its lines contain, in small letters.
+    /// Text that its lines contain, in lower case.
     text: String,
-    /// Whether it is being typed.
+    /// True while it is being typed.
     is_typed: bool,
 }
 
@@ -80,13 +80,13 @@ pub struct StudyForm {
     pub sizes: Vec<(Wearable, bool)>,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
-    /// What the sizes or subjects shown contain.
+    /// Filter of the sizes or subjects.
     pub filter: Filter,
     /// Index of the line selected.
     pub at: usize,
-    /// Whether it is being written.
+    /// True while it is being written.
     pub is_busy: bool,
-    /// Why it could not be, or what is missing.
+    /// Reason why it could not be, or note on a part that is missing.
     pub problem: Option<String>,
 }
 
@@ -103,7 +103,7 @@ impl StudyForm {
         lines
     }
 
-    /// Whether a line passes the filter of its part.
+    /// True if a line passes the filter of its part.
     fn passes(&self, line: FormLine) -> bool {
         let words = match line {
             FormLine::Size(k) => format!("{} {}", self.sizes[k].0.style, self.sizes[k].0.size),
@@ -119,7 +119,7 @@ impl StudyForm {
         self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
     }
 
-    /// Simulations that the study will have.
+    /// Numbers of subjects, sizes and simulators that are chosen.
     #[must_use]
     pub fn jobs(&self) -> [usize; 3] {
         let sizes = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).count();
@@ -128,7 +128,7 @@ impl StudyForm {
         [subjects, sizes, simulators]
     }
 
-    /// Whether a line is chosen; `None` for those that are not chosen but filled in.
+    /// True for a line that is chosen; `None` for those that are not chosen but filled in.
     #[must_use]
     pub fn choice(&self, line: FormLine) -> Option<bool> {
         match line {
@@ -191,7 +191,7 @@ impl StudyForm {
         Outcome::Open
     }
 
-    /// Leaves the filter or the part in hand; returns whether there was any to leave.
+    /// Leaves the filter or the part in hand; returns true if there was any to leave.
     fn leave(&mut self) -> bool {
         if self.is_busy {
             return false;
@@ -222,7 +222,7 @@ impl StudyForm {
         }
     }
 
-    /// What the keys do on the selected line.
+    /// Legend of the keys on the selected line.
     fn keys(&self) -> &'static str {
         match self.line() {
             _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
@@ -259,7 +259,7 @@ impl StudyForm {
         }
     }
 
-    /// Sends it off, or goes to what is missing.
+    /// Sends it off, or goes to the part that is missing.
     fn save(&mut self) -> Outcome {
         let [subjects, sizes, simulators] = self.jobs();
         let missing = [

@@ -1,4 +1,4 @@
-//! What is filled in to import a style: its pattern, and what the pattern's file does not say.
+//! The form to import a style: its pattern, and the values that the pattern's file does not have.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -23,7 +23,7 @@ const SIZE: usize = 2;
 const UNIT: usize = 3;
 const SEAMS: usize = 4;
 
-/// Letters of what is said of many sizes: the first tells enough.
+/// Letters of a message about many sizes: the first sizes tell enough.
 const LONGEST: usize = 400;
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
@@ -35,14 +35,14 @@ pub struct StyleForm {
     pub texts: [String; 5],
     /// Line that is typed in.
     pub at: usize,
-    /// Whether the files are being read.
+    /// True while the files are being read.
     pub is_busy: bool,
-    /// Why they could not be, or what is to be filled in.
+    /// Reason why they could not be, or note on a line that is to be filled in.
     pub problem: Option<String>,
 }
 
 impl StyleForm {
-    /// What an empty line means.
+    /// Meaning of an empty line.
     #[must_use]
     pub fn hint(&self, line: usize) -> String {
         match line {
@@ -90,7 +90,7 @@ impl StyleForm {
         Outcome::Open
     }
 
-    /// Completes the path of the line; whether there was more to it.
+    /// Completes the path of the line; returns true if there was more to it.
     fn complete(&mut self) -> bool {
         let text = &mut self.texts[self.at];
         let more = if [PATTERN, SEAMS].contains(&self.at) && !text.is_empty() { completed(text) } else { None };

@@ -6,7 +6,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::overlays::Overlay;
 use crate::overlays::entry_form::Form;
-use crate::overlays::path_prompt::PathPrompt;
+use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::screens::state::State;
 use study::Part;
 
@@ -41,7 +41,7 @@ pub fn fill_in(state: &mut State, form: Option<Form>, otherwise: &str) {
 /// Asks for a file with entries.
 pub fn import(state: &mut State, part: Part) {
     if may_change(state, part) {
-        state.overlay = Some(Overlay::Path(PathPrompt::import(part)));
+        state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Import(part), "")));
     }
 }
 

@@ -21,13 +21,17 @@ pub trait Page {
     fn go(&mut self, state: &mut State, movement: Movement);
 
     /// Goes to the next match of the filter, or back.
-    fn go_to_match(&mut self, state: &mut State, step: isize);
+    fn go_to_match(&mut self, state: &mut State, step: isize) {
+        self.go(state, Movement::Round(step));
+    }
 
     /// Sorts by the next column.
     fn sort(&mut self, state: &mut State);
 
-    /// Reverses the order.
-    fn reverse(&mut self, state: &mut State);
+    /// Reverses the order; where it has two values, as sorting does.
+    fn reverse(&mut self, state: &mut State) {
+        self.sort(state);
+    }
 
     /// The text that stands for what is selected, tab-separated, and its name.
     fn copied(&self, state: &State) -> Option<(String, &'static str)>;

@@ -283,6 +283,12 @@ impl State {
         self.told.notice = Some(Notice { text: text.into(), is_error: false });
     }
 
+    /// Says something in the status line, and nothing else follows.
+    pub fn reply(&mut self, text: impl Into<String>) -> Vec<Effect> {
+        self.say(text);
+        vec![]
+    }
+
     /// Says in the status line that something went wrong.
     pub fn complain(&mut self, text: impl Into<String>) {
         self.told.notice = Some(Notice { text: text.into(), is_error: true });
@@ -300,8 +306,7 @@ impl State {
             return vec![];
         }
         if self.running.target.is_some() {
-            self.say("a run goes on here already; X stops it");
-            return vec![];
+            return self.reply("a run goes on here already; X stops it");
         }
         self.running.target = Some(target.clone());
         self.say("run started; it goes on in the background");

@@ -1,4 +1,4 @@
-//! What to change of the example's T-shirt so that it fits: what the threads answer, and what the Fit screen makes of it.
+//! Changes of the example's T-shirt so that it fits, as threads answer them and the Fit screen shows them.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ fn moved(handle: Handle, amount_mm: f64) -> MovedHandle {
     MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth }
 }
 
-/// What is found: of M and on subject ii nothing to change, of other sizes four handles that do not reach the hip.
+/// The change that is found: of M and on subject ii none, of other sizes four handles that do not reach the hip.
 pub fn found(request: &AlterRequest) -> Alteration {
     let is_right = request.size == "M" && request.subject == "ii";
     let level = |(level, target_mm, [before_mm, after_mm]): LevelMm| AlteredLevel {

@@ -1,4 +1,4 @@
-//! What keys do.
+//! Keys and their effects.
 
 use super::{Bench, fixture};
 use crate::app::App;

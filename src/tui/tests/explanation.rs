@@ -1,4 +1,4 @@
-//! What is told about the numbers of a screen.
+//! Explanations of the numbers of a screen.
 
 use super::Bench;
 use crate::glossary::TERMS;

@@ -1,4 +1,4 @@
-//! What keys do on the Fabrics screen.
+//! Keys on the Fabrics screen.
 
 use super::Bench;
 use crate::app::App;

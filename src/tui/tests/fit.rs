@@ -1,4 +1,4 @@
-//! How the example's T-shirt sits: what the threads answer, and what the Fit screen makes of it.
+//! Fit of the example's T-shirt, as threads answer it and the Fit screen shows it.
 
 use insta::assert_snapshot;
 
@@ -99,7 +99,7 @@ fn drape(k: usize, job: i64) -> SizeWorn {
     }
 }
 
-/// How the T-shirt sits on a subject: drapes of three sizes on the first, of one on the second, of none on the third.
+/// Fit of the T-shirt on a subject: drapes of three sizes on the first, of one on the second, of none on the third.
 pub fn worn(subject: &str) -> GarmentWorn {
     let sizes: Vec<SizeWorn> = match subject {
         "i" => [1, 7, 13].into_iter().enumerate().map(|(k, job)| drape(k, job)).collect(),
@@ -118,7 +118,7 @@ fn ellipse(at: f64, across: f64, deep: f64) -> CutLine {
     CutLine { points: (0..60).map(point).collect(), closed: true }
 }
 
-/// What the thread that cuts answers: a trunk at three levels, arms beside its chest.
+/// Answer of the thread that cuts: a trunk at three levels, arms beside its chest.
 pub fn sections(jobs: &[JobId]) -> Vec<CrossSection> {
     let size = |job: &JobId| if job.0 == 3 { 0 } else { job.0 as usize / 6 };
     let section = |(level, height_mm, across, deep): (&str, f64, f64, f64)| CrossSection {

@@ -1,4 +1,4 @@
-//! What the screens look like, at 80 by 24 and at 160 by 50.
+//! Snapshots of the screens, at 80 by 24 and at 160 by 50.
 
 use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;

@@ -29,7 +29,7 @@ use crate::widgets::theme::{Colours, Theme};
 /// A workbench without a terminal.
 struct Bench {
     app: App,
-    /// What it asked for since last looked at.
+    /// Effects that it asked for since last looked at.
     effects: Vec<Effect>,
 }
 
@@ -107,7 +107,7 @@ impl Bench {
         self
     }
 
-    /// What it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
+    /// Effects that it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
         let is_done = |e: &Effect| {

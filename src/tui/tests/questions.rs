@@ -36,7 +36,7 @@ fn answer(rows: i64) -> SqlAnswer {
     SqlAnswer { table: Table { columns, rows: (1..=rows).map(row).collect() }, is_cut: false }
 }
 
-/// What the thread that asks the database answers.
+/// Answer of the thread that asks the database.
 fn ask(bench: &mut Bench) {
     for effect in bench.asked() {
         match effect {
@@ -246,8 +246,8 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
     assert!(bench.screen().contains("another process"), "{}", bench.screen());
     bench.press("R");
     assert!(bench.asked().contains(&Effect::Watch(Some(JobId(7)))));
-    let at = |k: usize| geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
-    let positions: Vec<_> = (0..400).map(at).collect();
+    let vertex = |k: usize| geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
+    let positions: Vec<_> = (0..400).map(vertex).collect();
     bench.send(Message::Live(LiveFrame { job: JobId(7), positions }));
     let screen = bench.screen();
     assert!(screen.contains("residual 5.5e-2") && screen.chars().any(|c| ('⠁'..='⣿').contains(&c)), "{screen}");

@@ -1,4 +1,4 @@
-//! What keys do on the Styles screen.
+//! Keys on the Styles screen.
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
@@ -203,8 +203,8 @@ fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
 fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     let mut bench = Bench::example(160, 50);
     let sewn = |bench: &Bench| -> Vec<PreviewRequest> {
-        let of = |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
-        bench.effects.iter().filter_map(of).collect()
+        let preview = |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
+        bench.effects.iter().filter_map(preview).collect()
     };
     bench.press("3");
     let first = sewn(&bench).pop().expect("it is asked for");

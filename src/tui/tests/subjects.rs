@@ -1,4 +1,4 @@
-//! What keys do on the Subjects screen.
+//! Keys on the Subjects screen.
 
 use super::{Bench, fixture};
 use crate::app::App;

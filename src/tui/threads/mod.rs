@@ -33,9 +33,9 @@ use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use study::{JobId, Live, Workspace};
 
-/// The threads, and what they say.
+/// The threads, and their messages.
 pub struct Threads {
-    /// What they say.
+    /// Their messages.
     pub messages: Receiver<Message>,
     /// The keyboard that one of them reads.
     pub keyboard: Keyboard,

@@ -1,4 +1,4 @@
-//! Reading what the screens show, in one go.
+//! Reading the contents that the screens show, in one go.
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use study::{FitCard, GarmentWorn, JobFilter, JobId, Result, StudyError, Workspace, now_ms};
@@ -43,7 +43,7 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     Ok(snapshot)
 }
 
-/// What was read before, with what another job or comparison needs; for when nothing was written since.
+/// Updates an earlier reading for another job or comparison, where nothing was written since.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -67,7 +67,7 @@ fn add_compared(workspace: &Workspace, snapshot: &mut Snapshot, focus: &Focus) -
     Ok(())
 }
 
-/// How the garment looked at sits on the wearer; a card without sizes where no ease is known of them.
+/// Fit of the garment looked at on the wearer; a card without sizes where no ease is known of them.
 fn worn(workspace: &Workspace, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
     let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
     match workspace.worn(&grid.study, Some(&grid.garment), Some(subject)) {

@@ -71,7 +71,7 @@ impl ResultTable {
         self.answer.table.rows.len()
     }
 
-    /// Whether the query has more rows than are here.
+    /// True if the query has more rows than are here.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         self.answer.is_cut

@@ -15,7 +15,7 @@ use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::lists::{listed, pane};
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
@@ -100,16 +100,8 @@ impl CompareScreen {
         let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
         let mut lines = self.header(state, runs, &columns).to_vec();
         let room = usize::from(inner.height).saturating_sub(lines.len());
-        let first = first_shown(self.row, rows.len(), room);
-        for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-            let line = line(state, row, &columns);
-            let is_selected = k == self.row;
-            lines.push(if is_selected {
-                selected_line(line, state.theme.selection(!state.in_second_pane()))
-            } else {
-                line
-            });
-        }
+        let selection = state.theme.selection(!state.in_second_pane());
+        lines.extend(listed(&rows, self.row, room, selection, |row| line(state, row, &columns)));
         if rows.is_empty() {
             let is_cut = self.differences_only || !state.filter().is_empty();
             let text = if is_cut { "no measurement differs or matches the filter" } else { "no measurements yet" };

@@ -44,10 +44,6 @@ impl Page for CompareScreen {
         self.sorts_by_difference = !self.sorts_by_difference;
     }
 
-    fn reverse(&mut self, state: &mut State) {
-        self.sort(state);
-    }
-
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         self.table(state).map(|table| (table, "the comparison"))
     }

@@ -12,7 +12,7 @@ use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
+use crate::widgets::lists::{listed, pane, scrolled};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use study::{FABRIC_NUMBERS, FabricRow};
 
@@ -132,8 +132,6 @@ impl FabricsScreen {
         let longest = fabrics.iter().map(|row| text::width(&row.fabric.name)).max().unwrap_or(0);
         let name = width.saturating_sub(MARKS + numbers(shown)).min(longest.max(LEAST_NAME));
         let at = self.index_in(&fabrics);
-        let height = usize::from(height).saturating_sub(1);
-        let first = first_shown(at, fabrics.len(), height);
         let left_over = width.saturating_sub(name + MARKS + numbers(HEADINGS.len()));
         let follows = FOLLOWS.iter().map(|(_, columns)| columns).sum::<usize>() <= left_over;
         let mut head = self.header(name, shown);
@@ -141,11 +139,16 @@ impl FabricsScreen {
             head.extend(FOLLOWS.iter().map(|(title, columns)| right(title, *columns)));
         }
         let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
-        for (k, row) in fabrics.iter().enumerate().skip(first).take(height) {
-            let tail = if follows { tail(row) } else { String::new() };
-            let line = Line::raw(shortened(&(list_line(row, name, shown) + &tail), width));
-            lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
-        }
+        lines.extend(listed(
+            &fabrics,
+            at,
+            usize::from(height).saturating_sub(1),
+            state.theme.selection(focused),
+            |row| {
+                let tail = if follows { tail(row) } else { String::new() };
+                Line::raw(shortened(&(list_line(row, name, shown) + &tail), width))
+            },
+        ));
         if fabrics.is_empty() {
             lines.push(Line::raw("no fabric matches the filter"));
         }
@@ -153,15 +156,9 @@ impl FabricsScreen {
     }
 
     fn header(&self, name: usize, shown: usize) -> String {
-        let order = self.order;
-        let titled = |title: &str, by: FabricOrder| match (order.by == by, order.reversed) {
-            (false, _) => title.to_owned(),
-            (true, false) => format!("{title}▲"),
-            (true, true) => format!("{title}▼"),
-        };
-        let mut text = left(&titled("fabric", FabricOrder::Name), name + MARKS);
+        let mut text = left(&self.order.titled("fabric", FabricOrder::Name), name + MARKS);
         for (k, (title, columns, _)) in HEADINGS.iter().take(shown).enumerate() {
-            text += &right(&titled(title, FabricOrder::Number(k)), *columns);
+            text += &right(&self.order.titled(title, FabricOrder::Number(k)), *columns);
         }
         text
     }

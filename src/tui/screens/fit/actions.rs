@@ -1,10 +1,11 @@
 //! Choosing a level and a quantity; asking for cross sections.
 
 use crate::keys::screen::Screen;
+use crate::messages::answered::Answered;
 use crate::messages::effect::Effect;
 use crate::overlays::explanation::Selected;
 use crate::screens::fit::quantities::{Quantity, quantities};
-use crate::screens::fit::state::{Cut, FitScreen, Sections, View};
+use crate::screens::fit::state::{FitScreen, Sections, View};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
 use crate::widgets::text::words;
@@ -51,7 +52,7 @@ impl FitScreen {
     #[must_use]
     pub fn sections(&self, state: &State) -> Option<&Sections> {
         let jobs = jobs_of(worn(state)?);
-        self.cut.as_ref().filter(|cut| cut.jobs == jobs).map(|cut| &cut.sections)
+        self.cut.as_ref().filter(|cut| cut.request == jobs).map(|cut| &cut.outcome)
     }
 
     fn known_sections(&self, state: &State) -> &[CrossSection] {
@@ -150,7 +151,7 @@ impl FitScreen {
     /// Takes in sections that are still wanted.
     pub fn take_sections(&mut self, jobs: Vec<JobId>, sections: Sections) {
         if jobs == self.asked {
-            self.cut = Some(Cut { jobs, sections });
+            self.cut = Some(Answered { request: jobs, outcome: sections });
         }
     }
 

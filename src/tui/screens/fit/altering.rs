@@ -4,7 +4,7 @@ use crate::keys::screen::Screen;
 use crate::messages::alterations::AlterRequest;
 use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
-use crate::overlays::path_prompt::PathPrompt;
+use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::screens::fit::actions::worn;
 use crate::screens::fit::state::{Alter, Draping};
 use crate::screens::movement::Movement;
@@ -56,16 +56,14 @@ impl Alter {
     pub fn step_size(&mut self, state: &mut State, step: isize) -> Vec<Effect> {
         let asked = self.asked.clone().filter(|_| self.is_open);
         let Some((asked, grid)) = asked.zip(state.grid()) else {
-            state.say(CLOSED);
-            return vec![];
+            return state.reply(CLOSED);
         };
         let at = grid.sizes.iter().position(|size| *size == asked.size);
         match at.and_then(|at| grid.sizes.get(at.checked_add_signed(step)?)).cloned() {
             Some(size) => vec![self.ask(AlterRequest { size, ..asked })],
             None => {
                 let way = if step > 0 { "larger" } else { "smaller" };
-                state.say(format!("there is no {way} size than {}", asked.size));
-                vec![]
+                state.reply(format!("there is no {way} size than {}", asked.size))
             }
         }
     }
@@ -86,8 +84,7 @@ impl Alter {
                 return vec![Effect::Alter(request)];
             }
         };
-        state.say(why_not);
-        vec![]
+        state.reply(why_not)
     }
 
     /// Expected duration of a drape of what is asked for, in words.
@@ -112,7 +109,7 @@ impl Alter {
     pub fn write(&self, state: &mut State) {
         match self.found().filter(|_| self.is_open) {
             Some(found) => {
-                let prompt = PathPrompt::write(folder(found), found.files.clone());
+                let prompt = PathPrompt::new(Purpose::Write(found.files.clone()), folder(found));
                 state.overlay = Some(Overlay::Path(prompt));
             }
             None if self.is_open => state.say("there is no changed pattern to write"),

@@ -67,14 +67,8 @@ impl Page for FitScreen {
         state.step_subject(step);
     }
 
-    fn go_to_match(&mut self, state: &mut State, step: isize) {
-        self.go(state, Movement::Round(step));
-    }
-
     /// Levels and quantities have one order.
     fn sort(&mut self, _state: &mut State) {}
-
-    fn reverse(&mut self, _state: &mut State) {}
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         match self.view {

@@ -6,7 +6,7 @@ use crate::screens::fit::actions::{quantities_shown, worn};
 use crate::screens::fit::card::headed;
 use crate::screens::fit::state::FitScreen;
 use crate::screens::state::State;
-use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::lists::{first_shown, listed};
 use crate::widgets::text::{self, left, shortened};
 use study::GarmentWorn;
 
@@ -34,13 +34,10 @@ impl FitScreen {
         let mut told = vec![header(state, worn, name, &shown)];
         let room = lines.saturating_sub(1);
         let at = self.row.min(rows.len().saturating_sub(1));
-        let first = first_shown(at, rows.len(), room);
-        for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-            let cells: String =
-                shown.clone().map(|size| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ").collect();
-            let line = Line::raw(left(&shortened(&row.name, name - 1), name) + &cells);
-            told.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
-        }
+        told.extend(listed(&rows, at, room, state.theme.selection(focused), |row| {
+            let cell = |size: usize| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ";
+            Line::raw(left(&shortened(&row.name, name - 1), name) + &shown.clone().map(cell).collect::<String>())
+        }));
         if rows.is_empty() {
             told.push(Line::raw("no quantity matches the filter"));
         }

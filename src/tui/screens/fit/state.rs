@@ -1,6 +1,7 @@
 //! State of the screen of fit.
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::answered::Answered;
 use study::{Alteration, CrossSection, JobId};
 
 /// A part of the screen; with little room it alone is shown.
@@ -50,15 +51,6 @@ pub struct Alter {
     pub down: usize,
 }
 
-/// Cross sections with the results that were cut.
-#[derive(Debug)]
-pub struct Cut {
-    /// Results that were cut.
-    pub jobs: Vec<JobId>,
-    /// Their cross sections.
-    pub sections: Sections,
-}
-
 /// The screen of fit.
 #[derive(Default)]
 pub struct FitScreen {
@@ -70,8 +62,8 @@ pub struct FitScreen {
     pub row: usize,
     /// Results whose sections are asked for.
     pub asked: Vec<JobId>,
-    /// The sections that came last.
-    pub cut: Option<Cut>,
+    /// The sections that came last, and the results that they are of.
+    pub cut: Option<Answered<Vec<JobId>, Vec<CrossSection>>>,
     /// The change of a size.
     pub alter: Alter,
 }

@@ -9,6 +9,9 @@ use crate::screens::state::State;
 use crate::widgets::text;
 use study::{JobId, JobRow, Step, why_no_retry};
 
+/// Message where there is no job to act on.
+const NO_JOB: &str = "no job is selected";
+
 impl JobsScreen {
     /// Jobs that pass the filter, in order.
     #[must_use]
@@ -67,10 +70,9 @@ pub fn pause(state: &State) -> Vec<Effect> {
 
 /// Asks whether the selected job is to be cancelled.
 pub fn cancel(state: &mut State) -> Vec<Effect> {
-    let Some(job) = state.job() else { return no_job(state) };
+    let Some(job) = state.job() else { return state.reply(NO_JOB) };
     if job.status.is_final() {
-        state.say(format!("job {} has ended ({}): nothing to cancel", job.id, text::status(job.status)));
-        return vec![];
+        return state.reply(format!("job {} has ended ({}): nothing to cancel", job.id, text::status(job.status)));
     }
     let JobRow { id, garment, size, subject, .. } = job;
     let text = format!("Cancel job {id}, {garment} {size} on {subject} by {}?", text::sim(job.simulator));
@@ -81,24 +83,18 @@ pub fn cancel(state: &mut State) -> Vec<Effect> {
 
 /// Queues the selected job again.
 pub fn retry(state: &mut State) -> Vec<Effect> {
-    let Some(job) = state.job() else { return no_job(state) };
+    let Some(job) = state.job() else { return state.reply(NO_JOB) };
     let id = job.id;
     if let Some(reason) = why_no_retry(job.status) {
-        state.say(format!("job {id} is not run again: {reason}"));
-        return vec![];
+        return state.reply(format!("job {id} is not run again: {reason}"));
     }
     vec![Effect::Do(Command::Retry(id))]
 }
 
 /// Runs the selected job so much earlier.
 pub fn prioritise(state: &mut State, step: i64) -> Vec<Effect> {
-    let Some(job) = state.job() else { return no_job(state) };
+    let Some(job) = state.job() else { return state.reply(NO_JOB) };
     vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
-}
-
-fn no_job(state: &mut State) -> Vec<Effect> {
-    state.say("no job is selected");
-    vec![]
 }
 
 /// Runs the study, or the quickstart where there is none.

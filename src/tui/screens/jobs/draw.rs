@@ -10,7 +10,7 @@ use crate::screens::jobs::state::{JobOrder, JobsScreen};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
-use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::lists::{first_shown, listed, pane};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, LogLine, Status};
@@ -51,15 +51,11 @@ impl JobsScreen {
     fn table(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let jobs = self.shown(state);
         let columns = Columns::new(&jobs, usize::from(width));
-        let height = usize::from(height).saturating_sub(1);
-        let selected = jobs.iter().position(|job| Some(job.id) == state.focus.job);
-        let first = first_shown(selected.unwrap_or(0), jobs.len(), height);
+        let room = usize::from(height).saturating_sub(1);
+        let at = jobs.iter().position(|job| Some(job.id) == state.focus.job);
+        let selection = at.map(|_| state.theme.selection(focused));
         let mut lines = vec![self.header(state, &columns)];
-        for (k, job) in jobs.iter().enumerate().skip(first).take(height) {
-            let line = line(state, job, &columns);
-            let is_selected = selected == Some(k);
-            lines.push(if is_selected { selected_line(line, state.theme.selection(focused)) } else { line });
-        }
+        lines.extend(listed(&jobs, at.unwrap_or(0), room, selection, |job| line(state, job, &columns)));
         if jobs.is_empty() {
             let text =
                 if state.filter().is_empty() { "no jobs yet: R runs the study" } else { "no job matches the filter" };

@@ -6,7 +6,7 @@ use crate::overlays::explanation::Selected;
 use crate::screens::measurements::rows;
 use crate::screens::measurements::state::ChiOrder;
 use crate::screens::state::State;
-use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::lists::listed;
 use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
 use crate::widgets::theme::glyph;
 use study::{ChiRow, FitCell, MetricsRow};
@@ -43,16 +43,9 @@ pub fn table(state: &State, columns: usize, lines: usize, selected: Option<bool>
     let rows = rows(state);
     let columns = Columns::new(&rows, columns);
     let mut table = vec![header(state, &columns)];
-    let height = lines.saturating_sub(1);
-    let first = first_shown(state.measurements.row, rows.len(), height);
-    for (k, row) in rows.iter().enumerate().skip(first).take(height) {
-        let line = line(state, row, &columns);
-        let style = selected.filter(|_| k == state.measurements.row).map(|focused| state.theme.selection(focused));
-        table.push(match style {
-            Some(style) => selected_line(line, style),
-            None => line,
-        });
-    }
+    let selection = selected.map(|focused| state.theme.selection(focused));
+    let room = lines.saturating_sub(1);
+    table.extend(listed(&rows, state.measurements.row, room, selection, |row| line(state, row, &columns)));
     table
 }
 

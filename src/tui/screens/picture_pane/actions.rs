@@ -4,6 +4,7 @@ use ratatui::layout::{Rect, Size};
 
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
+use crate::messages::answered::Answered;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::picture_pane::draw::cells;
@@ -61,11 +62,12 @@ impl Pictures {
     }
 
     /// Takes in a picture that is still wanted, in the place of the one before of the same.
-    pub fn take(&mut self, request: PictureRequest, drawn: Result<Drawn, String>) {
+    pub fn take(&mut self, request: PictureRequest, outcome: Result<Drawn, String>) {
         if self.requests.contains(&request) {
             let requests = &self.requests;
-            self.drawn.retain(|(old, _)| old.of != request.of && requests.iter().any(|wanted| wanted.of == old.of));
-            self.drawn.push((request, drawn));
+            let is_wanted = |of: Pictured| of != request.of && requests.iter().any(|wanted| wanted.of == of);
+            self.drawn.retain(|old| is_wanted(old.request.of));
+            self.drawn.push(Answered { request, outcome });
         }
     }
 }

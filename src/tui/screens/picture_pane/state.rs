@@ -1,5 +1,6 @@
 //! View and pictures of drapes.
 
+use crate::messages::answered::Answered;
 use crate::widgets::picture::{Drawn, FRONT, PictureRequest};
 use study::{Look, Map};
 
@@ -14,7 +15,7 @@ pub struct Pictures {
     /// The pictures asked for.
     pub requests: Vec<PictureRequest>,
     /// The picture of each that came last.
-    pub drawn: Vec<(PictureRequest, Result<Drawn, String>)>,
+    pub drawn: Vec<Answered<PictureRequest, Drawn>>,
 }
 
 impl Default for Pictures {

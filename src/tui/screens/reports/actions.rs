@@ -42,17 +42,14 @@ impl ReportsScreen {
     /// Builds the report of the study.
     pub fn build(&mut self, state: &mut State) -> Vec<Effect> {
         let Some(study) = state.study() else {
-            state.say("there is no study yet");
-            return vec![];
+            return state.reply("there is no study yet");
         };
         if let Some(name) = &self.building {
-            state.say(format!("the report of {name} is being built"));
-            return vec![];
+            return state.reply(format!("the report of {name} is being built"));
         }
         let (name, has_results) = (study.name.clone(), study.counts[2] + study.counts[3] > 0);
         if !has_results {
-            state.say(format!("{name} has no result yet: nothing to report"));
-            return vec![];
+            return state.reply(format!("{name} has no result yet: nothing to report"));
         }
         state.show(Screen::Reports);
         state.say(format!("the report of {name} is being built in the background"));
@@ -74,13 +71,11 @@ impl ReportsScreen {
     /// Opens the selected report in a browser where there is a display; otherwise its address is copied.
     pub fn open(&self, state: &mut State) -> Vec<Effect> {
         let Some(row) = self.selected(state) else {
-            state.say("no report is here yet: b builds that of the study");
-            return vec![];
+            return state.reply("no report is here yet: b builds that of the study");
         };
         let address = address(&row.page);
         if is_opened(&address) {
-            state.say(format!("opened {address}"));
-            return vec![];
+            return state.reply(format!("opened {address}"));
         }
         state.say(format!("no display here; copied {address}"));
         vec![Effect::Copy(address)]

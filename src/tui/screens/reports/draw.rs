@@ -2,7 +2,6 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
@@ -10,7 +9,7 @@ use crate::screens::reports::actions::address;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
-use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::lists::{listed, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
@@ -44,11 +43,9 @@ impl ReportsScreen {
         let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
         let room = usize::from(inner.height).saturating_sub(1);
         let at = self.row.min(rows.len().saturating_sub(1));
-        let first = first_shown(at, rows.len(), room);
-        for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-            let style = if k == at { state.theme.selected() } else { Style::new() };
-            lines.push(Line::styled(shortened(&line(row, name), width), style));
-        }
+        lines.extend(listed(&rows, at, room, state.theme.selected(), |row| {
+            Line::raw(shortened(&line(row, name), width))
+        }));
         if rows.is_empty() {
             lines.push(Line::raw(if state.filter().is_empty() {
                 "no report yet: b builds that of the study"

@@ -24,16 +24,8 @@ impl Page for ReportsScreen {
         self.row = movement.from(self.row, self.shown(state).len());
     }
 
-    fn go_to_match(&mut self, state: &mut State, step: isize) {
-        self.go(state, Movement::Round(step));
-    }
-
     fn sort(&mut self, _state: &mut State) {
         self.by_time = !self.by_time;
-    }
-
-    fn reverse(&mut self, state: &mut State) {
-        self.sort(state);
     }
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {

@@ -7,7 +7,7 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
 use crate::overlays::explanation::Selected;
-use crate::overlays::path_prompt::PathPrompt;
+use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::sql::state::{Recalled, SqlScreen};
 use crate::screens::state::State;
@@ -54,12 +54,10 @@ impl SqlScreen {
         if text.is_empty() {
             // What was refused is gone from the editor, and with it why.
             self.outcome = self.outcome.take().filter(Result::is_ok);
-            state.say("no query is typed yet; o offers saved ones");
-            return vec![];
+            return state.reply("no query is typed yet; o offers saved ones");
         }
         if self.running.is_some() {
-            state.say("a query is being answered; C-c cancels it");
-            return vec![];
+            return state.reply("a query is being answered; C-c cancels it");
         }
         self.history.retain(|known| *known != text);
         self.history.push(text.clone());
@@ -126,7 +124,7 @@ impl SqlScreen {
             return;
         }
         let name = self.saved.iter().find(|saved| saved.sql.trim() == text).map(|saved| saved.name.clone());
-        state.overlay = Some(Overlay::Path(PathPrompt::save_query(text, name.unwrap_or_default())));
+        state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::SaveQuery(text), name.unwrap_or_default())));
     }
 
     /// Asks for the file that the rows go into.
@@ -135,7 +133,7 @@ impl SqlScreen {
             state.say("nothing to export yet: F5 runs the query");
             return;
         }
-        state.overlay = Some(Overlay::Path(PathPrompt::export(self.answered.clone())));
+        state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Export(self.answered.clone()), "query.csv")));
     }
 
     /// Finds which rows of the answer pass the filter.

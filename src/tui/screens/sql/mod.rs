@@ -38,10 +38,6 @@ impl Page for SqlScreen {
         self.table.iter_mut().for_each(|table| table.sideways(step));
     }
 
-    fn go_to_match(&mut self, state: &mut State, step: isize) {
-        self.go(state, Movement::Round(step));
-    }
-
     fn sort(&mut self, state: &mut State) {
         self.table.iter_mut().for_each(|table| table.sort(state.filter()));
     }

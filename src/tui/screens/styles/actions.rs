@@ -1,6 +1,7 @@
 //! Choosing a size, an edge, a line of its table; importing and removing.
 
 use crate::keys::screen::Screen;
+use crate::messages::answered::Answered;
 use crate::messages::effect::Effect;
 use crate::messages::seams::{LayoutRequest, SeamTask, SizeLayout};
 use crate::overlays::Overlay;
@@ -33,9 +34,9 @@ impl StylesScreen {
     #[must_use]
     pub fn layout(&self, state: &State) -> Option<Result<&SizeLayout, &str>> {
         let row = self.size_row(state)?;
-        let (request, layout) = self.layout.as_ref()?;
+        let Answered { request, outcome } = self.layout.as_ref()?;
         let is_shown = request.style == row.style && request.key.size == row.key.size;
-        is_shown.then(|| layout.as_deref().map_err(String::as_str))
+        is_shown.then(|| outcome.as_deref().map_err(String::as_str))
     }
 
     /// The layout of the selected size, where there is one.
@@ -47,7 +48,9 @@ impl StylesScreen {
     /// True if the layout there is is the one that was asked for last.
     #[must_use]
     pub fn is_current(&self) -> bool {
-        matches!(&self.layout, Some((request, Ok(_))) if Some(request) == self.requested.as_ref())
+        self.layout
+            .as_ref()
+            .is_some_and(|layout| layout.outcome.is_ok() && Some(&layout.request) == self.requested.as_ref())
     }
 
     /// The line of the table that is selected.
@@ -81,8 +84,8 @@ impl StylesScreen {
         if self.requested.as_ref() != Some(&request) {
             return;
         }
-        let is_other = self.layout.as_ref().is_none_or(|(before, _)| before.key.size != request.key.size);
-        self.layout = Some((request, outcome));
+        let is_other = self.layout.as_ref().is_none_or(|before| before.request.key.size != request.key.size);
+        self.layout = Some(Answered { request, outcome });
         self.marks.clear();
         if is_other {
             (self.line, self.edge) = (0, (0, 0));

@@ -138,10 +138,7 @@ impl StylesScreen {
         match step {
             Some(step) if self.may_sew(state) => self.step_of_work(state, step),
             Some(_) => vec![],
-            None => {
-                state.say("there is no such answer; the digits before the answers choose");
-                vec![]
-            }
+            None => state.reply("there is no such answer; the digits before the answers choose"),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::lists::{first_shown, listed, pane, selected_line};
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
@@ -164,14 +164,10 @@ impl StylesScreen {
         let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
         let key = self.size_row(state).map(|row| row.key);
         let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
-        let first = first_shown(at, sizes.len(), height);
         let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
         let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
-        for (k, row) in sizes.iter().enumerate().skip(first).take(height) {
-            let line = Line::raw(self.list_line(state, row, width));
-            let style = state.theme.selection(!state.in_second_pane());
-            lines.push(if k == at { selected_line(line, style) } else { line });
-        }
+        let selection = state.theme.selection(!state.in_second_pane());
+        lines.extend(listed(&sizes, at, height, selection, |row| Line::raw(self.list_line(state, row, width))));
         if sizes.is_empty() {
             let is_filtered = !state.filter().is_empty();
             lines.push(Line::raw(if is_filtered {

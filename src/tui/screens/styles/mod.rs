@@ -27,9 +27,6 @@ use crate::widgets::jump::Target;
 use crate::widgets::picture::PictureRequest;
 use study::Part;
 
-/// Message about the order.
-const ORDER: &str = "styles are listed by name, sizes as they came";
-
 impl Page for StylesScreen {
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         self.draw_panes(frame, area, state);
@@ -54,11 +51,7 @@ impl Page for StylesScreen {
     }
 
     fn sort(&mut self, state: &mut State) {
-        state.say(ORDER);
-    }
-
-    fn reverse(&mut self, state: &mut State) {
-        state.say(ORDER);
+        state.say("styles are listed by name, sizes as they came");
     }
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {

@@ -6,6 +6,7 @@ use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
 use crate::keys::screen::Screen;
+use crate::messages::answered::Answered;
 use crate::messages::effect::Effect;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed};
 use crate::screens::picture_pane::draw::{draw_shot, parts};
@@ -62,12 +63,10 @@ impl StylesScreen {
         state.show(Screen::Styles);
         let subject = state.subject_in_hand().map(|subject| (subject.id, subject.name.clone()));
         let (Some((subject, name)), Some(size)) = (subject, self.dressed_size(state)) else {
-            state.say("a size and a subject are needed: i imports a style, 2 shows the subjects");
-            return vec![];
+            return state.reply("a size and a subject are needed: i imports a style, 2 shows the subjects");
         };
         if !state.setup.abilities.pictures {
-            state.say("pictures are off (--images off)");
-            return vec![];
+            return state.reply("pictures are off (--images off)");
         }
         self.preview.is_chosen = true;
         state.say(format!("draping {} {} on {name}…", size.style, self.size_row(state).map_or("", |row| &row.size)));
@@ -86,7 +85,7 @@ impl StylesScreen {
                 Err(error) => state.complain(error.clone()),
             }
         }
-        self.preview.seen = Some((request, outcome));
+        self.preview.seen = Some(Answered { request, outcome });
     }
 
     /// Shows the garment from the next side; where there is no room for both, the pieces come after the last.
@@ -107,7 +106,7 @@ impl StylesScreen {
     /// The picture of the pane.
     #[must_use]
     pub fn previewed(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
-        let number = self.preview.seen.as_ref().filter(|(_, seen)| seen.is_ok()).map(|(request, _)| request.number);
+        let number = self.preview.seen.as_ref().filter(|seen| seen.outcome.is_ok()).map(|seen| seen.request.number);
         let pane = self
             .preview_place(state, area)
             .map(|pane| Rect { height: pane.height.saturating_sub(told_lines(pane)), ..pane });
@@ -128,7 +127,7 @@ impl StylesScreen {
     /// Draws the garment, and below it how far it was sewn.
     pub fn draw_preview(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let view = look_name(state.pictures.look);
-        let seen = self.preview.seen.as_ref();
+        let seen = self.preview.seen.as_ref().map(|Answered { request, outcome }| (request, outcome));
         let on = match seen {
             Some((_, Ok(seen))) => format!("on {} in {} · {view}", seen.subject, seen.fabric),
             _ => "on the body".to_owned(),

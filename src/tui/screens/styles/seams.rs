@@ -3,7 +3,7 @@
 use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
 use crate::messages::requests::Command;
-use crate::messages::seams::{LayoutRequest, SeamTask};
+use crate::messages::seams::{LayoutRequest, SeamTask, SeamWork};
 use crate::messages::taught;
 use crate::screens::catalogue::may_change;
 use crate::screens::state::State;
@@ -52,8 +52,7 @@ impl StylesScreen {
         let Some(layout) = self.laid_out(state) else { return vec![] };
         let [first, others @ ..] = sides.as_slice() else { return vec![] };
         if others.is_empty() {
-            state.say("m marks an edge; then go to the edge it is sewn to, and a sews them");
-            return vec![];
+            return state.reply("m marks an edge; then go to the edge it is sewn to, and a sews them");
         }
         let length = |(piece, edge): &EdgeAt| layout.out.desk.pieces[*piece].edges[*edge].length_mm;
         let (a_mm, b_mm) = (length(first), others.iter().map(length).sum::<f64>());
@@ -147,16 +146,12 @@ impl StylesScreen {
     pub fn step_of_work(&mut self, state: &State, step: SeamStep) -> Vec<Effect> {
         let Some(request) = self.layout_request(state) else { return vec![] };
         self.is_busy = true;
-        vec![Effect::Seams(SeamTask::Sew(request, step))]
+        vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step }))]
     }
 
     /// Takes in a seam file after a step of work.
-    pub fn sewn(
-        &mut self,
-        state: &mut State,
-        (request, step): (LayoutRequest, SeamStep),
-        outcome: Result<SourceFile, String>,
-    ) {
+    pub fn sewn(&mut self, state: &mut State, work: SeamWork, outcome: Result<SourceFile, String>) {
+        let SeamWork { size: request, step } = work;
         self.is_busy = false;
         let size = state.data.iter().flat_map(|data| &data.sizes).find(|row| row.key.size == request.key.size);
         let size = size.map_or_else(|| request.style.clone(), |row| format!("{}/{}", row.style, row.size));
@@ -212,8 +207,7 @@ impl StylesScreen {
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return vec![] };
         let Some(seams) = self.edits.get(&style).and_then(|edits| edits.last()).map(|edited| edited.seams.clone())
         else {
-            state.say(format!("{style} is as saved: nothing to save"));
-            return vec![];
+            return state.reply(format!("{style} is as saved: nothing to save"));
         };
         vec![Effect::Do(Command::SaveSeams(style, seams))]
     }
@@ -229,10 +223,9 @@ impl StylesScreen {
             let edits = self.edits.remove(style).unwrap_or_default();
             state.told.commands.extend(edits.iter().map(|edited| taught::sewn(&edited.size, &edited.step)));
         }
-        let desk = self.layout.as_ref().filter(|(request, _)| request.style == style);
-        let home = desk
-            .and_then(|(_, layout)| layout.as_ref().ok())
-            .and_then(|layout| layout.home.clone().zip(layout.stored.clone()));
+        let layout = self.layout.as_ref().filter(|layout| layout.request.style == style);
+        let layout = layout.and_then(|layout| layout.outcome.as_ref().ok());
+        let home = layout.and_then(|layout| layout.home.clone().zip(layout.stored.clone()));
         state.say(text);
         if let Some((path, before)) = home.filter(|_| state.overlay.is_none()) {
             let text = format!("Write {} of the study too? Its comments stay; the next run uses it.", path.display());
@@ -258,12 +251,11 @@ impl StylesScreen {
         text: String,
     ) -> Vec<Effect> {
         if text.as_bytes() == &*file.bytes {
-            state.say("the seams are as they were");
-            return vec![];
+            return state.reply("the seams are as they were");
         }
         let file = SourceFile { name: file.name, bytes: text.into_bytes().into() };
         self.is_busy = true;
-        vec![Effect::Seams(SeamTask::Sew(request, SeamStep::Written(file)))]
+        vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step: SeamStep::Written(file) }))]
     }
 
     /// Styles with edits that are not saved.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::messages::answered::Answered;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use study::files::SourceFile;
 use study::seams::SeamStep;
@@ -25,7 +26,7 @@ pub struct StylesScreen {
     /// The size whose layout was asked for.
     pub requested: Option<LayoutRequest>,
     /// The layout that came last, or why there is none.
-    pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
+    pub layout: Option<Answered<LayoutRequest, Box<SizeLayout>>>,
     /// Edge selected: its piece and its index there.
     pub edge: EdgeAt,
     /// Line of the table selected.
@@ -76,8 +77,8 @@ pub enum Own {
 pub struct Preview {
     /// The request made last.
     pub asked: Option<PreviewRequest>,
-    /// The garment that came last, and its request.
-    pub seen: Option<(PreviewRequest, Result<Previewed, String>)>,
+    /// The garment that came last.
+    pub seen: Option<Answered<PreviewRequest, Previewed>>,
     /// True where it is shown instead of the pieces where there is no room for both.
     pub is_chosen: bool,
 }

@@ -11,7 +11,7 @@ use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
+use crate::widgets::lists::{listed, pane, scrolled};
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
@@ -105,13 +105,11 @@ impl SubjectsScreen {
         let width = usize::from(width);
         let (name, shown) = columns(width);
         let at = self.index_in(&subjects);
-        let height = usize::from(height).saturating_sub(1);
-        let first = first_shown(at, subjects.len(), height);
         let mut lines = vec![self.header(state, name, shown)];
-        for (k, row) in subjects.iter().enumerate().skip(first).take(height) {
-            let line = Line::raw(shortened(&list_line(row, name, shown), width));
-            lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
-        }
+        let room = usize::from(height).saturating_sub(1);
+        lines.extend(listed(&subjects, at, room, state.theme.selection(focused), |row| {
+            Line::raw(shortened(&list_line(row, name, shown), width))
+        }));
         if subjects.is_empty() {
             let is_filtered = !state.filter().is_empty();
             lines.push(Line::raw(if is_filtered {
@@ -125,15 +123,10 @@ impl SubjectsScreen {
 
     fn header(&self, state: &State, name: usize, shown: usize) -> Line<'static> {
         let order = self.order;
-        let titled = |title: &str, by: SubjectOrder| match (order.by == by, order.reversed) {
-            (false, _) => title.to_owned(),
-            (true, false) => format!("{title}▲"),
-            (true, true) => format!("{title}▼"),
-        };
-        let mut text = left(&titled("subject", SubjectOrder::Name), name);
-        text += &format!(" {}", left(&titled("s", SubjectOrder::Sex), 2));
+        let mut text = left(&order.titled("subject", SubjectOrder::Name), name);
+        text += &format!(" {}", left(&order.titled("s", SubjectOrder::Sex), 2));
         for (k, (title, columns)) in HEADINGS.iter().take(shown).enumerate() {
-            text += &right(&titled(title, SubjectOrder::Measurement(k)), *columns);
+            text += &right(&order.titled(title, SubjectOrder::Measurement(k)), *columns);
         }
         Line::styled(text, state.theme.dim())
     }
