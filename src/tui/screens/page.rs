@@ -12,11 +12,29 @@ use crate::screens::state::State;
 use crate::widgets::jump::Target;
 use crate::widgets::picture::PictureRequest;
 
-/// A screen: drawing, keys and actions. What it shares with others is in the state that its methods take.
-pub trait Page {
+/// Drawing of a screen.
+pub trait Draw {
     /// Draws the screen.
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State);
 
+    /// Rows, panes and other things that can be gone to.
+    fn targets(&self, _state: &State, _area: Rect) -> Vec<Target> {
+        vec![]
+    }
+
+    /// The selected thing, and the names of its numbers and of the columns here, as the glossary has them.
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::default()
+    }
+
+    /// Requests for the pictures that there is room for.
+    fn pictures(&self, _state: &State, _area: Rect) -> Vec<PictureRequest> {
+        vec![]
+    }
+}
+
+/// Keys and actions of a screen. What it shares with others is in the state that its methods take.
+pub trait Page: Draw {
     /// Moves up or down in the pane that has the focus.
     fn go(&mut self, state: &mut State, movement: Movement);
 
@@ -36,11 +54,6 @@ pub trait Page {
     /// The text that stands for what is selected, tab-separated, and its name.
     fn copied(&self, state: &State) -> Option<(String, &'static str)>;
 
-    /// Rows, panes and other things that can be gone to.
-    fn targets(&self, _state: &State, _area: Rect) -> Vec<Target> {
-        vec![]
-    }
-
     /// Gives a pane the focus.
     fn focus(&mut self, state: &mut State, pane: usize) {
         state.nav.second_pane[state.nav.screen as usize] = pane == 1;
@@ -48,11 +61,6 @@ pub trait Page {
 
     /// Goes to something that the screen counts itself.
     fn go_to_item(&mut self, _state: &mut State, _item: usize) {}
-
-    /// The selected thing, and the names of its numbers and of the columns here, as the glossary has them.
-    fn explained(&self, _state: &State) -> Selected {
-        Selected::default()
-    }
 
     /// Moves left or right.
     fn sideways(&mut self, _state: &mut State, _step: isize) {}
@@ -77,11 +85,6 @@ pub trait Page {
 
     /// Asks for what is read while the screen is shown, where that was not asked for yet.
     fn wanted(&mut self, _state: &State) -> Vec<Effect> {
-        vec![]
-    }
-
-    /// Requests for the pictures that there is room for.
-    fn pictures(&self, _state: &State, _area: Rect) -> Vec<PictureRequest> {
         vec![]
     }
 

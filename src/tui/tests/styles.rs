@@ -203,7 +203,8 @@ fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
 fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     let mut bench = Bench::example(160, 50);
     let sewn = |bench: &Bench| -> Vec<PreviewRequest> {
-        let preview = |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
+        let preview =
+            |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
         bench.effects.iter().filter_map(preview).collect()
     };
     bench.press("3");

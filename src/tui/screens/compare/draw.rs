@@ -11,11 +11,14 @@ use crate::overlays::explanation::Selected;
 use crate::screens::compare::actions::{compared, recommended, to_compare};
 use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
 use crate::screens::compare::state::CompareScreen;
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{listed, pane};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
@@ -35,32 +38,8 @@ const DELTA: usize = 9;
 /// Names of what is shown, as the glossary has them.
 const NAMES: [&str; 8] = ["chi", "diff", "L2D", "E(chi)", "EI", "measurement", "FEM", "HYB"];
 
-impl CompareScreen {
-    /// The selected measurement, and what is shown of all.
-    pub fn explanation(&self, state: &State) -> Selected {
-        let rows = self.rows(state);
-        let what = rows.get(self.row).map_or(String::new(), |row| {
-            let chi: Vec<String> =
-                row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
-            format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
-        });
-        Selected::new(what, &NAMES, &[])
-    }
-
-    /// Rows and panes that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        if compared(state).is_empty() {
-            return vec![];
-        }
-        let panes = panes(area, state);
-        let rows = panes
-            .table
-            .map_or(vec![], |table| jump::rows(0, jump::inside(table), HEAD, self.rows(state).len(), self.row));
-        rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
-    }
-
-    /// Draws the table, the verdict and the pictures.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for CompareScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let runs = compared(state);
         if runs.is_empty() {
             let text = if to_compare(state).is_empty() {
@@ -87,6 +66,33 @@ impl CompareScreen {
         }
     }
 
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        if compared(state).is_empty() {
+            return vec![];
+        }
+        let panes = panes(area, state);
+        let rows = panes
+            .table
+            .map_or(vec![], |table| jump::rows(0, jump::inside(table), HEAD, self.rows(state).len(), self.row));
+        rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let rows = self.rows(state);
+        let what = rows.get(self.row).map_or(String::new(), |row| {
+            let chi: Vec<String> =
+                row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
+            format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
+        });
+        Selected::new(what, &NAMES, &[])
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        requests(state, picture_panes(area, state))
+    }
+}
+
+impl CompareScreen {
     fn draw_table(&self, frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
         let rows = self.rows(state);
         let legend = if self.differences_only {

@@ -9,6 +9,7 @@ use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
 use crate::overlays::entry_form::{fabric_label, unit_of};
 use crate::overlays::explanation::Selected;
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
@@ -66,9 +67,8 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
-impl FabricsScreen {
-    /// Draws the list, and of the selected fabric its table, source and curves.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for FabricsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         if is_narrow(area) {
             frame.render_widget(Paragraph::new(self.list(state, area.width, area.height, true)), area);
             return;
@@ -95,8 +95,19 @@ impl FabricsScreen {
         draw_facts(frame, facts_area, state, fabric);
     }
 
-    /// The selected fabric, the column that sorts, and what is shown of all.
-    pub fn explanation(&self, state: &State) -> Selected {
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let fabrics = self.shown(state);
+        let at = self.index_in(&fabrics);
+        if is_narrow(area) {
+            return jump::rows(0, area, 1, fabrics.len(), at);
+        }
+        let [list, table, _] = panes(area);
+        let mut targets = jump::rows(0, jump::inside(list), 1, fabrics.len(), at);
+        targets.push(jump::pane(table, 1));
+        targets
+    }
+
+    fn explained(&self, state: &State) -> Selected {
         let Some(row) = self.selected(state) else { return Selected::default() };
         let bends = row.fabric.bending_lengths_m().map(text::mm).join(" and ");
         let what = format!("{}: {:.0} g/m², bends at {bends} mm", row.fabric.name, row.fabric.density_kg_m2 * 1e3);
@@ -109,20 +120,9 @@ impl FabricsScreen {
         let names: Vec<&str> = headings.chain(numbers).chain(["fabric", "value", "among"]).collect();
         Selected::new(what, &[sorted], &names)
     }
+}
 
-    /// Rows and panes that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        let fabrics = self.shown(state);
-        let at = self.index_in(&fabrics);
-        if is_narrow(area) {
-            return jump::rows(0, area, 1, fabrics.len(), at);
-        }
-        let [list, table, _] = panes(area);
-        let mut targets = jump::rows(0, jump::inside(list), 1, fabrics.len(), at);
-        targets.push(jump::pane(table, 1));
-        targets
-    }
-
+impl FabricsScreen {
     /// The list with its header; the name takes what the numbers leave.
     fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let fabrics = self.shown(state);

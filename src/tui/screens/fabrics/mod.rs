@@ -5,25 +5,16 @@ mod actions;
 mod draw;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::catalogue;
 use crate::screens::fabrics::state::FabricsScreen;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 use study::Part;
 
 impl Page for FabricsScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
             state.scroll_table(movement, draw::table_lines().saturating_sub(draw::table_rows(state.body())));
@@ -50,14 +41,6 @@ impl Page for FabricsScreen {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         self.line(state).map(|line| (line, "the fabric"))
-    }
-
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        self.explanation(state)
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

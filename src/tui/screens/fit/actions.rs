@@ -3,7 +3,6 @@
 use crate::keys::screen::Screen;
 use crate::messages::answered::Answered;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::fit::quantities::{Quantity, quantities};
 use crate::screens::fit::state::{FitScreen, Sections, View};
 use crate::screens::movement::{Movement, stepped};
@@ -154,40 +153,7 @@ impl FitScreen {
             self.cut = Some(Answered { request: jobs, outcome: sections });
         }
     }
-
-    /// The selected level or quantity, and what is shown of all.
-    #[must_use]
-    pub fn explanation(&self, state: &State) -> Selected {
-        let quantities = quantities_shown(state);
-        let quantity = quantities.get(self.row).filter(|_| self.view == View::Sizes);
-        let (what, name) = match quantity {
-            Some(quantity) => {
-                let cells: Vec<&str> = quantity.cells.iter().flatten().map(String::as_str).collect();
-                (format!("{}: {}", quantity.name, cells.join("; ")), quantity.name.clone())
-            }
-            None => {
-                let level = words(self.level(state).unwrap_or_default());
-                (level.clone(), level)
-            }
-        };
-        Selected::new(what, &[&name], &NAMES)
-    }
 }
-
-/// Names of what is shown, as the glossary has them.
-const NAMES: [&str; 11] = [
-    "ease",
-    "target",
-    "body",
-    "wear",
-    "level",
-    "mean gap",
-    "hem",
-    "side seam lean",
-    "greatest pressure",
-    "folds",
-    "drag lines",
-];
 
 /// The results of the sizes that have one.
 fn jobs_of(worn: &GarmentWorn) -> Vec<JobId> {

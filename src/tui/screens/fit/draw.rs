@@ -5,14 +5,16 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
+use crate::overlays::explanation::Selected;
 use crate::screens::fit::actions::{quantities_shown, worn};
 use crate::screens::fit::state::{FitScreen, View};
 use crate::screens::fit::{alteration, card, sizes};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::WIDE;
 use crate::widgets::lists::pane;
-use crate::widgets::text;
+use crate::widgets::text::{self, words};
 
 /// Bodies of at least so many rows have room for the card above the comparison.
 const TALL: u16 = 34;
@@ -21,9 +23,23 @@ const CARD: u16 = 94;
 /// The fewest columns of a section beside the card.
 const SECTION: u16 = 40;
 
-impl FitScreen {
-    /// Draws the screen: all parts where there is room, card or comparison beside the section, or one of them.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 11] = [
+    "ease",
+    "target",
+    "body",
+    "wear",
+    "level",
+    "mean gap",
+    "hem",
+    "side seam lean",
+    "greatest pressure",
+    "folds",
+    "drag lines",
+];
+
+impl Draw for FitScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         if self.alter.is_open {
             self.draw_alteration(frame, area, state);
             return;
@@ -40,6 +56,39 @@ impl FitScreen {
         }
     }
 
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        if self.alter.is_open {
+            return vec![];
+        }
+        let targets = |(part, area): (View, Rect)| {
+            let inner = jump::inside(area);
+            match part {
+                View::Card => self.card_targets(state, inner),
+                View::Section => vec![jump::pane(area, part as usize)],
+                View::Sizes => jump::rows(part as usize, inner, 1, quantities_shown(state).len(), self.row),
+            }
+        };
+        self.parts(area, state).into_iter().flat_map(targets).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let quantities = quantities_shown(state);
+        let quantity = quantities.get(self.row).filter(|_| self.view == View::Sizes);
+        let (what, name) = match quantity {
+            Some(quantity) => {
+                let cells: Vec<&str> = quantity.cells.iter().flatten().map(String::as_str).collect();
+                (format!("{}: {}", quantity.name, cells.join("; ")), quantity.name.clone())
+            }
+            None => {
+                let level = words(self.level(state).unwrap_or_default());
+                (level.clone(), level)
+            }
+        };
+        Selected::new(what, &[&name], &NAMES)
+    }
+}
+
+impl FitScreen {
     /// The parts that there is room for, each with its place.
     fn parts(&self, area: Rect, state: &State) -> Vec<(View, Rect)> {
         let view = self.view;
@@ -59,22 +108,6 @@ impl FitScreen {
         }
         let left_view = if view == View::Sizes { View::Sizes } else { View::Card };
         vec![section, (left_view, left)]
-    }
-
-    /// Rows and parts that can be gone to; none while it is shown what to change.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        if self.alter.is_open {
-            return vec![];
-        }
-        let targets = |(part, area): (View, Rect)| {
-            let inner = jump::inside(area);
-            match part {
-                View::Card => self.card_targets(state, inner),
-                View::Section => vec![jump::pane(area, part as usize)],
-                View::Sizes => jump::rows(part as usize, inner, 1, quantities_shown(state).len(), self.row),
-            }
-        };
-        self.parts(area, state).into_iter().flat_map(targets).collect()
     }
 
     /// Number of lines of what to change that there is no room for.

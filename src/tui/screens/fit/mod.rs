@@ -11,18 +11,13 @@ mod section;
 mod sizes;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::fit::state::{FitScreen, View};
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
 /// Keys and what they do; Tab leads to the next part.
 const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
@@ -51,10 +46,6 @@ const ALTER_HINTS: [(&str, &str); 8] = [
 ];
 
 impl Page for FitScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if self.alter.is_open {
             self.alter.scroll(movement, self.hidden_lines(state));
@@ -78,16 +69,8 @@ impl Page for FitScreen {
         }
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
     fn focus(&mut self, _state: &mut State, pane: usize) {
         self.view = View::ALL[pane];
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        self.explanation(state)
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

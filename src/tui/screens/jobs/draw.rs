@@ -7,6 +7,7 @@ use ratatui::widgets::Paragraph;
 
 use crate::overlays::explanation::Selected;
 use crate::screens::jobs::state::{JobOrder, JobsScreen};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
@@ -15,9 +16,8 @@ use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, LogLine, Status};
 
-impl JobsScreen {
-    /// Draws the queue, and below it the log and the course of the selected job.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for JobsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         if is_narrow(area) {
             frame.render_widget(Paragraph::new(self.list(state, area)), area);
             return;
@@ -35,8 +35,7 @@ impl JobsScreen {
         self.draw_log(frame, log_area, state);
     }
 
-    /// Rows and panes that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
         let jobs = self.shown(state);
         let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
         if is_narrow(area) {
@@ -48,6 +47,16 @@ impl JobsScreen {
         targets
     }
 
+    fn explained(&self, state: &State) -> Selected {
+        let what = state.job().map_or(String::new(), |job| {
+            let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
+            format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
+        });
+        Selected::new(what, &NAMES, &[])
+    }
+}
+
+impl JobsScreen {
     fn table(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let jobs = self.shown(state);
         let columns = Columns::new(&jobs, usize::from(width));
@@ -172,15 +181,6 @@ fn panes(area: Rect) -> [Rect; 2] {
 /// Names of what is shown, as the glossary has them.
 const NAMES: [&str; 13] =
     ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
-
-/// The selected job, and what is shown of all.
-pub fn explanation(state: &State) -> Selected {
-    let what = state.job().map_or(String::new(), |job| {
-        let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
-        format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
-    });
-    Selected::new(what, &NAMES, &[])
-}
 
 /// Columns of phase and percent.
 const PROGRESS: usize = 10;

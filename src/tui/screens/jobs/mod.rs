@@ -4,23 +4,14 @@ pub mod actions;
 mod draw;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::jobs::state::JobsScreen;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
 impl Page for JobsScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
             self.go_in_log(state, movement);
@@ -43,14 +34,6 @@ impl Page for JobsScreen {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         actions::job_line(state).map(|line| (line, "the job"))
-    }
-
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        draw::explanation(state)
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
+use crate::screens::page::Draw;
 use crate::screens::reports::actions::address;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
@@ -13,20 +14,20 @@ use crate::widgets::lists::{listed, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
-impl ReportsScreen {
-    /// Draws the list and the place of the selected report.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for ReportsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let [list, facts] = panes(area);
         self.draw_list(frame, list, state);
         self.draw_facts(frame, facts, state);
     }
 
-    /// Rows that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
         let rows = self.shown(state).len();
         jump::rows(0, jump::inside(panes(area)[0]), 1, rows, self.row.min(rows.saturating_sub(1)))
     }
+}
 
+impl ReportsScreen {
     fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let rows = self.shown(state);
         let title = match &self.building {

@@ -4,22 +4,14 @@ mod actions;
 mod draw;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
 impl Page for ReportsScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         self.row = movement.from(self.row, self.shown(state).len());
     }
@@ -30,10 +22,6 @@ impl Page for ReportsScreen {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         self.selected(state).map(|row| (row.page.display().to_string(), "the path"))
-    }
-
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -3,29 +3,18 @@
 mod actions;
 mod draw;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::measurements;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
-use crate::screens::picture_pane::actions::{drape_in, requests};
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
-use crate::widgets::picture::PictureRequest;
 
 /// The screen of a result. All that it shows is shared with other screens.
 #[derive(Default)]
 pub struct ResultsScreen;
 
 impl Page for ResultsScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        draw::draw(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if !(state.in_second_pane() && state.pictures.raise(movement)) {
             measurements::go(state, movement);
@@ -56,14 +45,6 @@ impl Page for ResultsScreen {
         actions::chi_table(state).map(|table| (table, "the table of measurements"))
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        draw::targets(state, area)
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        measurements::draw::explained(state)
-    }
-
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         match action {
             Action::OtherSimulator => actions::other_simulator(state),
@@ -75,10 +56,6 @@ impl Page for ResultsScreen {
 
     fn shrink(&mut self, state: &mut State) -> bool {
         std::mem::take(&mut state.pictures.enlarged)
-    }
-
-    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
-        requests(state, drape_in(state, draw::picture_pane(area, state)))
     }
 
     fn needs_study(&self) -> bool {

@@ -6,13 +6,12 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
-use crate::overlays::explanation::Selected;
 use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::sql::state::{Recalled, SqlScreen};
 use crate::screens::state::State;
 use crate::widgets::editor::Mode;
-use crate::widgets::result_table::{ResultTable, cell_text};
+use crate::widgets::result_table::ResultTable;
 
 /// Queries that the history keeps.
 const MOST_KEPT: usize = 200;
@@ -148,15 +147,5 @@ impl SqlScreen {
     pub fn selected_row(&self) -> Option<String> {
         let table = self.table.as_ref().filter(|table| table.len() > 0)?;
         Some(table.copied(std::iter::once(table.row)))
-    }
-
-    /// The selected value, and the other columns of the answer.
-    #[must_use]
-    pub fn explanation(&self) -> Selected {
-        let Some(table) = &self.table else { return Selected::default() };
-        let names: Vec<&str> = table.names().iter().map(String::as_str).collect();
-        let Some(column) = names.get(table.column) else { return Selected::default() };
-        let value = table.values(table.row).map_or(String::new(), |values| cell_text(&values[table.column]));
-        Selected::new(format!("{column}: {value}"), &[column], &names)
     }
 }

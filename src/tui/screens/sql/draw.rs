@@ -6,6 +6,8 @@ use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
+use crate::overlays::explanation::Selected;
+use crate::screens::page::Draw;
 use crate::screens::sql::actions::is_editing;
 use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
@@ -25,28 +27,36 @@ const KEYWORDS: [&str; 34] = [
 /// Words offered at once.
 const OFFERED: usize = 6;
 
-impl SqlScreen {
-    /// Draws editor and answer.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for SqlScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let [editor, result] = self.panes(area);
         self.draw_result(frame, result, state);
         self.draw_editor(frame, editor, area, state);
     }
 
-    /// Editor and answer.
-    fn panes(&self, area: Rect) -> [Rect; 2] {
-        let lines = self.editor.text().matches('\n').count() as u16 + 1;
-        let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
-        Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
-    }
-
-    /// Rows and panes that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
         let [editor, result] = self.panes(area);
         let inner = jump::inside(result);
         let head = 1 + self.refusal(state, inner.width).len();
         let rows = self.table.as_ref().map_or(vec![], |table| jump::rows(1, inner, head, table.len(), table.row));
         rows.into_iter().chain([jump::pane(editor, 0)]).collect()
+    }
+
+    fn explained(&self, _state: &State) -> Selected {
+        let Some(table) = &self.table else { return Selected::default() };
+        let names: Vec<&str> = table.names().iter().map(String::as_str).collect();
+        let Some(column) = names.get(table.column) else { return Selected::default() };
+        let value = table.values(table.row).map_or(String::new(), |values| cell_text(&values[table.column]));
+        Selected::new(format!("{column}: {value}"), &[column], &names)
+    }
+}
+
+impl SqlScreen {
+    /// Editor and answer.
+    fn panes(&self, area: Rect) -> [Rect; 2] {
+        let lines = self.editor.text().matches('\n').count() as u16 + 1;
+        let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
+        Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
     }
 
     fn draw_editor(&self, frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {

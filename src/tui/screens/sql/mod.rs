@@ -5,29 +5,21 @@ pub mod draw;
 pub mod state;
 
 use crossterm::event::KeyEvent;
-use ratatui::Frame;
-use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
-use crate::overlays::explanation::Selected;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::sql::actions::is_editing;
 use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
 /// The keys that matter while a query is typed.
 const EDITOR_HINTS: [(&str, &str); 5] =
     [("F5", "run"), ("Tab", "complete, or rows"), ("C-p", "history"), ("Esc", "rows and commands"), ("C-c", "cancel")];
 
 impl Page for SqlScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, _state: &mut State, movement: Movement) {
         if let Some(table) = &mut self.table {
             table.row = movement.from(table.row, table.len());
@@ -48,14 +40,6 @@ impl Page for SqlScreen {
 
     fn copied(&self, _state: &State) -> Option<(String, &'static str)> {
         self.selected_row().map(|rows| (rows, "the row"))
-    }
-
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
-    fn explained(&self, _state: &State) -> Selected {
-        self.explanation()
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -9,13 +9,19 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 use crate::messages::snapshot::Place;
+use crate::overlays::explanation::Selected;
 use crate::screens::measurements::{self, draw as measured};
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::drape_in;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::picture_pane::draw::draw_drape;
 use crate::screens::state::State;
-use crate::screens::study::actions::{is_match, places};
+use crate::screens::study::StudyScreen;
+use crate::screens::study::actions::{self, is_match, places};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
 use study::{Cell, Grid, Status};
@@ -25,21 +31,58 @@ const LEAST_PICTURE: u16 = 14;
 /// Meaning of the marks of fits.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let Some(grid) = state.grid() else {
-        let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";
-        frame.render_widget(Paragraph::new(text), area);
-        return;
-    };
-    if is_narrow(area) {
-        draw_list(frame, area, state, grid);
-        return;
+impl Draw for StudyScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let Some(grid) = state.grid() else {
+            let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";
+            frame.render_widget(Paragraph::new(text), area);
+            return;
+        };
+        if is_narrow(area) {
+            draw_list(frame, area, state, grid);
+            return;
+        }
+        let panes = Panes::new(area, grid);
+        draw_grid(frame, panes.grid, state, grid);
+        draw_detail(frame, panes.detail, state, grid);
+        if let Some(area) = panes.picture {
+            draw_drape(frame, area, state, false, "");
+        }
     }
-    let panes = Panes::new(area, grid);
-    draw_grid(frame, panes.grid, state, grid);
-    draw_detail(frame, panes.detail, state, grid);
-    if let Some(area) = panes.picture {
-        draw_drape(frame, area, state, false, "");
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let Some(grid) = state.grid() else { return vec![] };
+        let places = places(state);
+        let cell = |place: &Place| places.iter().position(|other| other == place).unwrap_or(0);
+        if is_narrow(area) {
+            let selected = cell(&state.place);
+            let first = first_shown(selected, places.len(), usize::from(area.height));
+            let rows = jump::rows(0, area, 0, places.len(), selected).into_iter().enumerate();
+            return rows.map(|(k, row)| Target { goal: Goal::Item(first + k), ..row }).collect();
+        }
+        let panes = Panes::new(area, grid);
+        let inner = jump::inside(panes.grid);
+        let Shown { subjects, lines } = Shown::of(inner, state, grid);
+        let of_size = grid.simulators.len() + 1;
+        let cells = lines.clone().filter(|line| line % of_size + 1 < of_size).flat_map(|line| {
+            let y = inner.y + 1 + (line - lines.start) as u16;
+            subjects.clone().map(move |subject| (line, subject, y))
+        });
+        let target = |(line, subject, y): (usize, usize, u16)| {
+            let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
+            let place = Place { size: line / of_size, simulator: line % of_size, subject };
+            Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
+        };
+        let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
+        cells.map(target).chain([other]).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        if state.in_second_pane() { measured::explained(state) } else { actions::explained(state) }
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        requests(state, drape_in(state, picture_pane(area, state)))
     }
 }
 
@@ -104,34 +147,6 @@ impl Shown {
         let from = first_shown(place.size * of_size + place.simulator, all, height);
         Self { subjects: first..(first + shown).min(grid.subjects.len()), lines: from..(from + height).min(all) }
     }
-}
-
-/// Cells and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let Some(grid) = state.grid() else { return vec![] };
-    let places = places(state);
-    let cell = |place: &Place| places.iter().position(|other| other == place).unwrap_or(0);
-    if is_narrow(area) {
-        let selected = cell(&state.place);
-        let first = first_shown(selected, places.len(), usize::from(area.height));
-        let rows = jump::rows(0, area, 0, places.len(), selected).into_iter().enumerate();
-        return rows.map(|(k, row)| Target { goal: Goal::Item(first + k), ..row }).collect();
-    }
-    let panes = Panes::new(area, grid);
-    let inner = jump::inside(panes.grid);
-    let Shown { subjects, lines } = Shown::of(inner, state, grid);
-    let of_size = grid.simulators.len() + 1;
-    let cells = lines.clone().filter(|line| line % of_size + 1 < of_size).flat_map(|line| {
-        let y = inner.y + 1 + (line - lines.start) as u16;
-        subjects.clone().map(move |subject| (line, subject, y))
-    });
-    let target = |(line, subject, y): (usize, usize, u16)| {
-        let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
-        let place = Place { size: line / of_size, simulator: line % of_size, subject };
-        Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
-    };
-    let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
-    cells.map(target).chain([other]).collect()
 }
 
 /// Title of the pane: study, garment and its number.

@@ -3,30 +3,19 @@
 pub mod actions;
 mod draw;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::jobs::actions::job_line;
 use crate::screens::measurements;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
-use crate::screens::picture_pane::actions::{drape_in, requests};
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
-use crate::widgets::picture::PictureRequest;
 
 /// The screen of the study. All that it shows is shared with other screens.
 #[derive(Default)]
 pub struct StudyScreen;
 
 impl Page for StudyScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        draw::draw(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
             measurements::go(state, movement);
@@ -55,16 +44,8 @@ impl Page for StudyScreen {
         job_line(state).map(|line| (line, "the job"))
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        draw::targets(state, area)
-    }
-
     fn go_to_item(&mut self, state: &mut State, item: usize) {
         actions::go_to_cell(state, item);
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        if state.in_second_pane() { measurements::draw::explained(state) } else { actions::explained(state) }
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
@@ -77,10 +58,6 @@ impl Page for StudyScreen {
             _ => return None,
         }
         Some(vec![])
-    }
-
-    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
-        requests(state, drape_in(state, draw::picture_pane(area, state)))
     }
 
     fn needs_study(&self) -> bool {

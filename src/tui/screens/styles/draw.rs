@@ -7,12 +7,16 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, Paragraph};
 
 use crate::messages::seams::SizeLayout;
+use crate::overlays::explanation::Selected;
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
 use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, listed, pane, selected_line};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
@@ -37,6 +41,55 @@ struct Panes {
     pieces: Option<Rect>,
 }
 
+impl Draw for StylesScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
+        let panes = self.panes(area, state);
+        if let Some(area) = panes.list {
+            self.draw_list(frame, area, state, is_bare);
+        }
+        if let Some(area) = panes.table {
+            match (self.asked(state), self.layout(state)) {
+                (Some(asked), _) => self.draw_question(frame, area, state, &asked),
+                (None, Some(Ok(layout))) if is_bare => {
+                    frame.render_widget(Paragraph::new(self.table(state, layout, area.width, area.height)), area);
+                }
+                (None, _) => self.draw_table(frame, area, state, on_desk),
+            }
+        }
+        if let Some(area) = panes.pieces {
+            let is_alone = panes.table.is_none();
+            self.draw_pieces(frame, area, state, is_alone || on_desk && self.asking.is_none());
+        }
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let Panes { list, table, pieces } = self.panes(area, state);
+        let is_bare = is_narrow(area);
+        let inner = |area: Rect| if is_bare { area } else { jump::inside(area) };
+        let sizes = self.sizes(state);
+        let key = self.size_row(state).map(|row| row.key);
+        let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
+        let mut targets = list.map_or(vec![], |area| jump::rows(0, inner(area), 1, sizes.len(), at));
+        if let Some(layout) = self.laid_out(state) {
+            let lines = table.filter(|_| self.asked(state).is_none());
+            targets.extend(lines.into_iter().flat_map(|area| self.line_targets(state, layout, inner(area))));
+            let pieces = pieces.map(|area| self.beside_preview(state, area)).filter(|area| area.width > 0);
+            targets.extend(pieces.into_iter().flat_map(|area| pieces::targets(layout, area)));
+        }
+        targets
+    }
+
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::new(String::new(), &HEADINGS, &[])
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        let panes = self.pieces_area(state, area).map_or(vec![], |area| self.previewed(state, area));
+        requests(state, panes)
+    }
+}
+
 impl StylesScreen {
     fn panes(&self, area: Rect, state: &State) -> Panes {
         // While something is asked it has to be seen.
@@ -58,46 +111,6 @@ impl StylesScreen {
         let list = (self.sizes(state).len().max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
         let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
         Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
-    }
-
-    /// Draws the list, the table or what is asked, and the pieces.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
-        let panes = self.panes(area, state);
-        if let Some(area) = panes.list {
-            self.draw_list(frame, area, state, is_bare);
-        }
-        if let Some(area) = panes.table {
-            match (self.asked(state), self.layout(state)) {
-                (Some(asked), _) => self.draw_question(frame, area, state, &asked),
-                (None, Some(Ok(layout))) if is_bare => {
-                    frame.render_widget(Paragraph::new(self.table(state, layout, area.width, area.height)), area);
-                }
-                (None, _) => self.draw_table(frame, area, state, on_desk),
-            }
-        }
-        if let Some(area) = panes.pieces {
-            let is_alone = panes.table.is_none();
-            self.draw_pieces(frame, area, state, is_alone || on_desk && self.asking.is_none());
-        }
-    }
-
-    /// Rows, seams and edges that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        let Panes { list, table, pieces } = self.panes(area, state);
-        let is_bare = is_narrow(area);
-        let inner = |area: Rect| if is_bare { area } else { jump::inside(area) };
-        let sizes = self.sizes(state);
-        let key = self.size_row(state).map(|row| row.key);
-        let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
-        let mut targets = list.map_or(vec![], |area| jump::rows(0, inner(area), 1, sizes.len(), at));
-        if let Some(layout) = self.laid_out(state) {
-            let lines = table.filter(|_| self.asked(state).is_none());
-            targets.extend(lines.into_iter().flat_map(|area| self.line_targets(state, layout, inner(area))));
-            let pieces = pieces.map(|area| self.beside_preview(state, area)).filter(|area| area.width > 0);
-            targets.extend(pieces.into_iter().flat_map(|area| pieces::targets(layout, area)));
-        }
-        targets
     }
 
     /// The lines of the table that can be gone to: a selected question takes several.

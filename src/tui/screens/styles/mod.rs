@@ -10,28 +10,18 @@ mod seams;
 pub mod state;
 
 use crossterm::event::KeyEvent;
-use ratatui::Frame;
-use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::catalogue::may_change;
 use crate::screens::movement::Movement;
 use crate::screens::page::{Page, open_editor};
-use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
 use crate::screens::styles::state::Own;
 use crate::screens::styles::state::StylesScreen;
-use crate::widgets::jump::Target;
-use crate::widgets::picture::PictureRequest;
 use study::Part;
 
 impl Page for StylesScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
             self.go_in_seams(state, movement);
@@ -58,16 +48,8 @@ impl Page for StylesScreen {
         self.laid_out(state).map(|layout| (actions::seam_table(layout), "the table of seams"))
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
     fn go_to_item(&mut self, state: &mut State, item: usize) {
         self.go_to_edge(state, item);
-    }
-
-    fn explained(&self, _state: &State) -> Selected {
-        Selected::new(String::new(), &draw::HEADINGS, &[])
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
@@ -103,11 +85,6 @@ impl Page for StylesScreen {
 
     fn take_key(&mut self, state: &mut State, event: &KeyEvent) -> Option<Vec<Effect>> {
         self.answer(state, event)
-    }
-
-    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
-        let panes = self.pieces_area(state, area).map_or(vec![], |area| self.previewed(state, area));
-        requests(state, panes)
     }
 
     fn write(&mut self, state: &mut State) -> Vec<Effect> {

@@ -6,14 +6,18 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
 use crate::overlays::explanation::Selected;
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{listed, pane, scrolled};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
+use ratatui::layout::Size;
 use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
@@ -44,9 +48,8 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
-impl SubjectsScreen {
-    /// Draws the list, and the table and the body of the selected subject.
-    pub fn draw_panes(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+impl Draw for SubjectsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         if is_narrow(area) {
             frame.render_widget(Paragraph::new(self.list(state, area.width, area.height, true)), area);
             return;
@@ -71,8 +74,19 @@ impl SubjectsScreen {
         draw_picture(frame, picture_area, state, subject);
     }
 
-    /// The selected subject, the column that sorts, and what is shown of all.
-    pub fn explanation(&self, state: &State) -> Selected {
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let subjects = self.shown(state);
+        let at = self.index_in(&subjects);
+        if is_narrow(area) {
+            return jump::rows(0, area, 1, subjects.len(), at);
+        }
+        let [list, table, _] = panes(area);
+        let mut targets = jump::rows(0, jump::inside(list), 1, subjects.len(), at);
+        targets.push(jump::pane(table, 1));
+        targets
+    }
+
+    fn explained(&self, state: &State) -> Selected {
         let Some(subject) = self.selected(state) else { return Selected::default() };
         let sorted = match self.order.by {
             SubjectOrder::Name => "subject",
@@ -86,19 +100,15 @@ impl SubjectsScreen {
         Selected::new(what, &[sorted], &names)
     }
 
-    /// Rows and panes that can be gone to.
-    pub fn jump_targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        let subjects = self.shown(state);
-        let at = self.index_in(&subjects);
-        if is_narrow(area) {
-            return jump::rows(0, area, 1, subjects.len(), at);
-        }
-        let [list, table, _] = panes(area);
-        let mut targets = jump::rows(0, jump::inside(list), 1, subjects.len(), at);
-        targets.push(jump::pane(table, 1));
-        targets
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        let Some(body) = self.selected(state).map(|row| Pictured::Body(row.id)) else { return vec![] };
+        let wanted = requests(state, picture_pane(area).map(|pane| (body, pane)).into_iter().collect());
+        // A body is measured where there is no room for its picture, too.
+        if wanted.is_empty() { vec![state.pictures.request(body, Size::ZERO)] } else { wanted }
     }
+}
 
+impl SubjectsScreen {
     /// The list with its header; the name takes what the numbers leave.
     fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let subjects = self.shown(state);

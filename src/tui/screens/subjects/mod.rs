@@ -4,27 +4,16 @@ mod actions;
 pub mod draw;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::{Rect, Size};
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
-use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectsScreen};
-use crate::widgets::jump::Target;
-use crate::widgets::picture::{PictureRequest, Pictured};
 use study::{MEASUREMENTS, Part};
 
 impl Page for SubjectsScreen {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        self.draw_panes(frame, area, state);
-    }
-
     fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
             state.scroll_table(movement, MEASUREMENTS.len().saturating_sub(draw::table_rows(state.body())));
@@ -53,14 +42,6 @@ impl Page for SubjectsScreen {
         self.line(state).map(|line| (line, "the subject"))
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        self.jump_targets(state, area)
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        self.explanation(state)
-    }
-
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         match action {
             Action::Add(Part::Subject) => actions::add(state),
@@ -70,12 +51,5 @@ impl Page for SubjectsScreen {
             _ => return None,
         }
         Some(vec![])
-    }
-
-    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
-        let Some(body) = self.selected(state).map(|row| Pictured::Body(row.id)) else { return vec![] };
-        let wanted = requests(state, draw::picture_pane(area).map(|pane| (body, pane)).into_iter().collect());
-        // A body is measured where there is no room for its picture, too.
-        if wanted.is_empty() { vec![state.pictures.request(body, Size::ZERO)] } else { wanted }
     }
 }
