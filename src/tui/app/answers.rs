@@ -39,37 +39,27 @@ impl App {
         let Self { state, screens } = self;
         let awaited = state.told.awaited.take();
         state.told.commands.extend(awaited.filter(|_| outcome.is_ok()));
-        let waits = match &mut state.overlay {
-            Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
-            Some(Overlay::StyleForm(form)) if form.is_busy => {
-                match outcome {
-                    Err(text) => form.refused(text),
-                    Ok(text) => {
-                        screens.styles.selected = Some((form.style(), form.size()));
-                        state.overlay = None;
-                        state.say(text);
+        match (outcome, &mut state.overlay) {
+            (Err(text), Some(Overlay::Form(form))) if form.sending.is_busy => form.sending.refuse(text),
+            (Err(text), Some(Overlay::Path(prompt))) if prompt.sending.is_busy => prompt.sending.refuse(text),
+            (Err(text), Some(Overlay::StyleForm(form))) if form.sending.is_busy => form.refused(text),
+            (Err(text), _) => state.complain(text),
+            (Ok(text), overlay) => {
+                match overlay {
+                    Some(Overlay::Form(form)) if form.sending.is_busy => {
+                        let chosen = match form.part {
+                            Part::Fabric => &mut screens.fabrics.chosen,
+                            _ => &mut screens.subjects.chosen,
+                        };
+                        *chosen = Some(form.name().to_owned());
+                        *overlay = None;
                     }
-                }
-                return;
-            }
-            Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
-            _ => None,
-        };
-        match (outcome, waits) {
-            (Err(text), Some((is_busy, problem))) => {
-                *is_busy = false;
-                *problem = Some(text);
-            }
-            (Err(text), None) => state.complain(text),
-            (Ok(text), waits) => {
-                if waits.is_some()
-                    && let Some(Overlay::Form(form)) = state.overlay.take()
-                {
-                    let chosen = match form.part {
-                        Part::Fabric => &mut screens.fabrics.chosen,
-                        _ => &mut screens.subjects.chosen,
-                    };
-                    *chosen = Some(form.name().to_owned());
+                    Some(Overlay::StyleForm(form)) if form.sending.is_busy => {
+                        screens.styles.selected = Some((form.style(), form.size()));
+                        *overlay = None;
+                    }
+                    Some(Overlay::Path(prompt)) if prompt.sending.is_busy => *overlay = None,
+                    _ => {}
                 }
                 state.say(text);
             }

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::overlays::form_frame::{draw_frame, end, ended, is_done};
+use crate::overlays::form_frame::{Sending, draw_frame, ended, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, shortened};
@@ -60,16 +60,14 @@ pub struct Form {
     pub at: usize,
     /// True where all problems are told, also those of empty lines.
     is_tried: bool,
-    /// True while it is being saved.
-    pub is_busy: bool,
-    /// Reason why it could not be saved.
-    pub problem: Option<String>,
+    /// Progress of saving it.
+    pub sending: Sending,
 }
 
 impl Form {
     fn new(part: Part, mode: Mode, texts: Vec<String>) -> Self {
         let at = if mode == Mode::Add { NAME } else { FIRST_NUMBER };
-        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, is_busy: false, problem: None }
+        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, sending: Sending::default() }
     }
 
     /// The form of a new subject.
@@ -202,7 +200,7 @@ impl Form {
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if self.sending.is_busy {
             return Outcome::Open;
         }
         match event.code {
@@ -235,7 +233,7 @@ impl Form {
             self.at = line;
             return Outcome::Open;
         }
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         let word = if self.part == Part::Fabric { "source" } else { "sex" };
         let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
         let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
@@ -268,12 +266,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let width = area.width.min(if form.part == Part::Fabric { 100 } else { 76 });
     let columns = usize::from(width.saturating_sub(2));
     // The line has little room for what is wrong with its value.
-    let wrong = match form.note(form.at) {
-        Note::Problem(problem) => Some(problem),
-        _ => form.problem.clone(),
-    };
-    let busy = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
-    let end = end(form.is_busy.then_some(busy), wrong.as_deref(), columns, theme);
+    let mut sending = form.sending.clone();
+    if let Note::Problem(problem) = form.note(form.at) {
+        sending.problem = Some(problem);
+    }
+    let work = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
+    let end = sending.lines(work, columns, theme);
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(end.len());
     let first = first_shown(form.at, form.texts.len(), room);
     let shown = (first..form.texts.len()).take(room);
@@ -288,7 +286,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
 
 /// A line of a form: name, value, note.
 pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
-    let is_focused = k == form.at && !form.is_busy;
+    let is_focused = k == form.at && !form.sending.is_busy;
     let mark = if is_focused { "▸" } else { " " };
     let value = if is_focused { format!("{}▏", form.texts[k]) } else { form.texts[k].clone() };
     let (note, style) = match form.note(k) {

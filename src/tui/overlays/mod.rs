@@ -4,7 +4,7 @@ pub mod action_list;
 pub mod commands;
 pub mod entry_form;
 pub mod explanation;
-mod form_frame;
+pub mod form_frame;
 pub mod jump;
 pub mod outcome;
 pub mod path_prompt;

@@ -9,7 +9,7 @@ use ratatui::text::Line;
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest};
-use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::form_frame::{Sending, draw_frame, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
@@ -88,17 +88,15 @@ pub struct PathPrompt {
     pub purpose: Purpose,
     /// The text that is typed.
     pub text: String,
-    /// True while the file is being read or written.
-    pub is_busy: bool,
-    /// Reason why it could not be.
-    pub problem: Option<String>,
+    /// Progress of reading or writing the file.
+    pub sending: Sending,
 }
 
 impl PathPrompt {
     /// A prompt that begins with a text.
     #[must_use]
     pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
-        Self { purpose, text: text.into(), is_busy: false, problem: None }
+        Self { purpose, text: text.into(), sending: Sending::default() }
     }
 
     /// True if a name is asked for, not a path.
@@ -108,7 +106,7 @@ impl PathPrompt {
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if self.sending.is_busy {
             return Outcome::Open;
         }
         if event.code == KeyCode::Tab && !self.is_name() {
@@ -123,7 +121,7 @@ impl PathPrompt {
         if path.is_empty() {
             return Outcome::Closed;
         }
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         let path = path_of(path);
         Outcome::Sent(vec![match &self.purpose {
             Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
@@ -168,7 +166,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
     let columns = usize::from(width.saturating_sub(2));
     // The end of a long path is what is being typed.
     let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
-    lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
+    lines.extend(prompt.sending.lines(prompt.purpose.busy(), columns, theme));
     if lines.len() == 1 {
         let home = if prompt.is_name() { "" } else { "; ~/ is home" };
         lines.push(Line::styled(format!(" {}{home}", prompt.purpose.hint()), theme.dim()));

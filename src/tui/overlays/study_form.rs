@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::FileTask;
-use crate::overlays::form_frame::{draw_frame, end, is_done};
+use crate::overlays::form_frame::{Sending, draw_frame, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
@@ -84,10 +84,8 @@ pub struct StudyForm {
     pub filter: Filter,
     /// Index of the line selected.
     pub at: usize,
-    /// True while it is being written.
-    pub is_busy: bool,
-    /// Reason why it could not be, or note on a part that is missing.
-    pub problem: Option<String>,
+    /// Progress of writing it.
+    pub sending: Sending,
 }
 
 impl StudyForm {
@@ -153,10 +151,10 @@ impl StudyForm {
         if is_ctrl_c(event) || event.code == KeyCode::Esc && !self.leave() {
             return Outcome::Closed;
         }
-        if self.is_busy || event.code == KeyCode::Esc {
+        if self.sending.is_busy || event.code == KeyCode::Esc {
             return Outcome::Open;
         }
-        self.problem = None;
+        self.sending.problem = None;
         if self.filter.is_typed {
             self.narrow(event);
             return Outcome::Open;
@@ -193,7 +191,7 @@ impl StudyForm {
 
     /// Leaves the filter or the part in hand; returns true if there was any to leave.
     fn leave(&mut self) -> bool {
-        if self.is_busy {
+        if self.sending.is_busy {
             return false;
         }
         let line = self.line();
@@ -272,7 +270,7 @@ impl StudyForm {
         if let Some((_, section, problem)) = missing.into_iter().find(|(is_missing, ..)| *is_missing) {
             self.filter = Filter::default();
             self.at = self.lines().iter().position(|line| line.section() == section).unwrap_or(0);
-            self.problem = Some(problem.to_owned());
+            self.sending.problem = Some(problem.to_owned());
             return Outcome::Open;
         }
         fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
@@ -287,7 +285,7 @@ impl StudyForm {
             simulators: chosen(&self.simulators),
             fit: None,
         };
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])
     }
 }
@@ -315,7 +313,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
         let text = format!(" {}: {shown} that contain /{}{cursor}", form.filter.section, form.filter.text);
         below.push(Line::styled(shortened(&text, columns), theme.warn()));
     }
-    below.extend(end(form.is_busy.then_some("writing and checking…"), form.problem.as_deref(), columns, theme));
+    below.extend(form.sending.lines("writing and checking…", columns, theme));
     let lines = form.lines();
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(below.len());
     let first = first_shown(form.at, lines.len(), room);
@@ -329,7 +327,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
 fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme: Theme) -> Line<'static> {
     let lines = form.lines();
     let line = lines[k];
-    let is_focused = k == form.at && !form.is_busy;
+    let is_focused = k == form.at && !form.sending.is_busy;
     let begins = k == 0 || is_first_shown || lines[k - 1].section() != line.section();
     let section = if begins { line.section() } else { "" };
     let mark = match form.choice(line) {

@@ -362,9 +362,9 @@ fn escape_leaves_the_part_before_the_form_and_enter_makes_it_at_the_last() {
     check("<Enter>/t<Esc><Esc>", true);
     check("<Enter>/t<Enter><Esc><Esc><Esc>", false);
     check("<Enter><C-c>", false);
-    let made = |keys: &str| form(keys).expect("open").is_busy;
+    let made = |keys: &str| form(keys).expect("open").sending.is_busy;
     assert!(!made("<Enter> <Enter> <Enter><Enter>"), "at the last part, not made yet");
     assert!(made("<Enter> <Enter> <Enter><Enter><Enter>"));
     assert!(made("<Enter> <Enter> <F5>"));
-    assert!(form("<F5>").expect("open").problem.is_some_and(|problem| problem.contains("choose a size")));
+    assert!(form("<F5>").expect("open").sending.problem.is_some_and(|problem| problem.contains("choose a size")));
 }

@@ -8,6 +8,7 @@ use crate::messages::requests::Target;
 use crate::messages::snapshot::Place;
 use crate::overlays::Overlay;
 use crate::overlays::explanation::Selected;
+use crate::overlays::form_frame::Sending;
 use crate::overlays::study_form::{Filter, StudyForm};
 use crate::screens::measurements::draw as measured;
 use crate::screens::movement::{Movement, stepped};
@@ -123,8 +124,7 @@ pub fn new_study(state: &mut State) {
         subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
         filter: Filter::default(),
         at: 0,
-        is_busy: false,
-        problem: None,
+        sending: Sending::default(),
     };
     state.overlay = Some(Overlay::StudyForm(Box::new(form)));
 }
@@ -142,7 +142,7 @@ pub fn study_created(state: &mut State, name: &str, outcome: Result<PathBuf, Str
             (state.focus.study, state.focus.garment, state.focus.job) = (Some(name.to_owned()), None, None);
             state.say(format!("{} is written and its jobs are queued: R runs them", path.display()));
         }
-        (Err(text), Some(Overlay::StudyForm(form))) => (form.is_busy, form.problem) = (false, Some(text)),
+        (Err(text), Some(Overlay::StudyForm(form))) => form.sending.refuse(text),
         (Err(text), _) => state.complain(text),
     }
 }
