@@ -12,6 +12,7 @@ use crate::overlays::jump::Jump;
 use crate::overlays::things::Thing;
 use crate::overlays::tour::Tour;
 use crate::screens::movement::Movement;
+use crate::screens::page::Copied;
 use crate::screens::state::State;
 use crate::widgets::jump::Goal;
 
@@ -137,7 +138,7 @@ impl App {
 
     fn copy(&mut self) -> Vec<Effect> {
         let Self { state, screens } = self;
-        let Some((text, name)) = screens.page(state.nav.screen).copied(state) else {
+        let Some(Copied { name, text }) = screens.page(state.nav.screen).copied(state) else {
             return state.reply("nothing to copy here");
         };
         state.say(format!("copied {name}"));

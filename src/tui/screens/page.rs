@@ -12,6 +12,14 @@ use crate::screens::state::State;
 use crate::widgets::jump::Target;
 use crate::widgets::picture::PictureRequest;
 
+/// A text for the clipboard.
+pub struct Copied {
+    /// Its name in the message about it.
+    pub name: &'static str,
+    /// The text; values of a row or table are separated by tabs.
+    pub text: String,
+}
+
 /// Drawing of a screen.
 pub trait Draw {
     /// Draws the screen.
@@ -51,8 +59,8 @@ pub trait Page: Draw {
         self.sort(state);
     }
 
-    /// The text that stands for what is selected, tab-separated, and its name.
-    fn copied(&self, state: &State) -> Option<(String, &'static str)>;
+    /// The text that stands for the selection.
+    fn copied(&self, state: &State) -> Option<Copied>;
 
     /// Gives a pane the focus.
     fn focus(&mut self, state: &mut State, pane: usize) {

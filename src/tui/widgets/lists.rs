@@ -44,6 +44,11 @@ pub fn listed<T>(
     lines.collect()
 }
 
+/// The line in the place of rows, where a filter leaves none or there are none at all.
+pub fn no_rows(filter: &str, filtered: &'static str, none: &'static str) -> Line<'static> {
+    Line::raw(if filter.is_empty() { none } else { filtered })
+}
+
 /// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
 /// the header says that there is more.
 pub fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {

@@ -9,7 +9,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::compare::state::CompareScreen;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 impl Page for CompareScreen {
@@ -33,8 +33,8 @@ impl Page for CompareScreen {
         self.sorts_by_difference = !self.sorts_by_difference;
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        self.table(state).map(|table| (table, "the comparison"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.table(state).map(|text| Copied { name: "the comparison", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -10,7 +10,7 @@ use crate::messages::effect::Effect;
 use crate::screens::catalogue;
 use crate::screens::fabrics::state::FabricsScreen;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 use study::Part;
 
@@ -39,8 +39,8 @@ impl Page for FabricsScreen {
         self.chosen = self.selected(state).map(|row| row.fabric.name.clone());
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        self.line(state).map(|line| (line, "the fabric"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.line(state).map(|text| Copied { name: "the fabric", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -16,7 +16,7 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::screens::fit::state::{FitScreen, View};
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 /// Keys and what they do; Tab leads to the next part.
@@ -61,11 +61,11 @@ impl Page for FitScreen {
     /// Levels and quantities have one order.
     fn sort(&mut self, _state: &mut State) {}
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
+    fn copied(&self, state: &State) -> Option<Copied> {
         match self.view {
-            _ if self.alter.is_open => self.alter.command(state).map(|command| (command, "the command")),
-            View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
-            View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
+            _ if self.alter.is_open => self.alter.command(state).map(|text| Copied { name: "the command", text }),
+            View::Sizes => actions::size_table(state).map(|text| Copied { name: "the comparison of sizes", text }),
+            View::Card | View::Section => actions::card_table(state).map(|text| Copied { name: "the fit card", text }),
         }
     }
 

@@ -11,7 +11,7 @@ use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
-use crate::widgets::lists::{first_shown, listed, pane};
+use crate::widgets::lists::{first_shown, listed, no_rows, pane};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, LogLine, Status};
@@ -66,9 +66,7 @@ impl JobsScreen {
         let mut lines = vec![self.header(state, &columns)];
         lines.extend(listed(&jobs, at.unwrap_or(0), room, selection, |job| line(state, job, &columns)));
         if jobs.is_empty() {
-            let text =
-                if state.filter().is_empty() { "no jobs yet: R runs the study" } else { "no job matches the filter" };
-            lines.push(Line::raw(text));
+            lines.push(no_rows(state.filter(), "no job matches the filter", "no jobs yet: R runs the study"));
         }
         lines
     }

@@ -8,7 +8,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::jobs::state::JobsScreen;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 impl Page for JobsScreen {
@@ -32,8 +32,8 @@ impl Page for JobsScreen {
         self.order.reverse();
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        actions::job_line(state).map(|line| (line, "the job"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        actions::job_line(state).map(|text| Copied { name: "the job", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -10,7 +10,7 @@ use crate::screens::reports::actions::address;
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
-use crate::widgets::lists::{listed, pane};
+use crate::widgets::lists::{listed, no_rows, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
@@ -48,11 +48,11 @@ impl ReportsScreen {
             Line::raw(shortened(&line(row, name), width))
         }));
         if rows.is_empty() {
-            lines.push(Line::raw(if state.filter().is_empty() {
-                "no report yet: b builds that of the study"
-            } else {
-                "no report matches the filter"
-            }));
+            lines.push(no_rows(
+                state.filter(),
+                "no report matches the filter",
+                "no report yet: b builds that of the study",
+            ));
         }
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }

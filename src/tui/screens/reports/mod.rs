@@ -7,7 +7,7 @@ pub mod state;
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 
@@ -20,8 +20,8 @@ impl Page for ReportsScreen {
         self.by_time = !self.by_time;
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        self.selected(state).map(|row| (row.page.display().to_string(), "the path"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.selected(state).map(|row| Copied { name: "the path", text: row.page.display().to_string() })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

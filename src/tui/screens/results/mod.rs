@@ -7,7 +7,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::measurements;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 /// The screen of a result. All that it shows is shared with other screens.
@@ -41,8 +41,8 @@ impl Page for ResultsScreen {
         state.measurements.order.reverse();
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        actions::chi_table(state).map(|table| (table, "the table of measurements"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        actions::chi_table(state).map(|text| Copied { name: "the table of measurements", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

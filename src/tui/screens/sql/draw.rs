@@ -14,7 +14,7 @@ use crate::screens::state::State;
 use crate::widgets::editor::{Mode, Offer};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::result_table::{ResultTable, cell_text};
+use crate::widgets::result_table::{Column, ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
 
 /// Words that the editor sets off.
@@ -205,7 +205,7 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
             }
             _ => "",
         };
-        let (room, is_number) = table.column_of(k);
+        let Column { width: room, is_number } = table.column_of(k);
         let name = format!("{}{mark}", shortened(&table.names()[k], room - text::width(mark)));
         if is_number { right(&name, room) } else { left(&name, room) }
     };
@@ -248,7 +248,7 @@ fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> 
     let selection = state.theme.selection(!is_editing(state));
     let mut spans = vec![];
     for (n, &k) in shown.iter().enumerate() {
-        let (room, is_number) = table.column_of(k);
+        let Column { width: room, is_number } = table.column_of(k);
         let cell = cell_text(&values[k]);
         let cell = if is_number { right(&cell, room) } else { left(&cell, room) };
         let gap = if n == 0 {

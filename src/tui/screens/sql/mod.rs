@@ -10,7 +10,7 @@ use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::sql::actions::is_editing;
 use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
@@ -38,8 +38,8 @@ impl Page for SqlScreen {
         self.table.iter_mut().for_each(|table| table.reverse(state.filter()));
     }
 
-    fn copied(&self, _state: &State) -> Option<(String, &'static str)> {
-        self.selected_row().map(|rows| (rows, "the row"))
+    fn copied(&self, _state: &State) -> Option<Copied> {
+        self.selected_row().map(|text| Copied { name: "the row", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {

@@ -8,7 +8,7 @@ use crate::messages::effect::Effect;
 use crate::screens::jobs::actions::job_line;
 use crate::screens::measurements;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
 /// The screen of the study. All that it shows is shared with other screens.
@@ -40,8 +40,8 @@ impl Page for StudyScreen {
         state.measurements.order.reverse();
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        job_line(state).map(|line| (line, "the job"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        job_line(state).map(|text| Copied { name: "the job", text })
     }
 
     fn go_to_item(&mut self, state: &mut State, item: usize) {

@@ -45,7 +45,7 @@ impl StylesScreen {
         self.layout(state)?.ok()
     }
 
-    /// True if the layout there is is the one that was asked for last.
+    /// True if the present layout is the one that was asked for last.
     #[must_use]
     pub fn is_current(&self) -> bool {
         self.layout

@@ -15,7 +15,7 @@ use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, listed, pane, selected_line};
+use crate::widgets::lists::{first_shown, listed, no_rows, pane, selected_line};
 use crate::widgets::picture::PictureRequest;
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
@@ -182,12 +182,7 @@ impl StylesScreen {
         let selection = state.theme.selection(!state.in_second_pane());
         lines.extend(listed(&sizes, at, height, selection, |row| Line::raw(self.list_line(state, row, width))));
         if sizes.is_empty() {
-            let is_filtered = !state.filter().is_empty();
-            lines.push(Line::raw(if is_filtered {
-                "no size matches the filter"
-            } else {
-                "no styles yet: i imports one"
-            }));
+            lines.push(no_rows(state.filter(), "no size matches the filter", "no styles yet: i imports one"));
         }
         lines
     }

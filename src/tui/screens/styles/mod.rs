@@ -15,7 +15,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::catalogue::may_change;
 use crate::screens::movement::Movement;
-use crate::screens::page::{Page, open_editor};
+use crate::screens::page::{Copied, Page, open_editor};
 use crate::screens::state::State;
 use crate::screens::styles::state::Own;
 use crate::screens::styles::state::StylesScreen;
@@ -44,8 +44,8 @@ impl Page for StylesScreen {
         state.say("styles are listed by name, sizes as they came");
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        self.laid_out(state).map(|layout| (actions::seam_table(layout), "the table of seams"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.laid_out(state).map(|layout| Copied { name: "the table of seams", text: actions::seam_table(layout) })
     }
 
     fn go_to_item(&mut self, state: &mut State, item: usize) {

@@ -30,7 +30,7 @@ impl StylesScreen {
     }
 }
 
-/// The question and its answers; where there is no room for all answers, as many as there is room for and how many more there are.
+/// The question and its answers; where there is no room for all lines, the first of them and `…`.
 fn lines(state: &State, asked: &Undecided, width: usize, height: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'_>> =
         wrapped(&asked.text, width).into_iter().map(|text| Line::styled(text, state.theme.bold())).collect();

@@ -104,7 +104,7 @@ impl StylesScreen {
         edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Gives the seams the focus, and asks what is to be decided about them.
+    /// Gives the seams the focus, and asks the questions about them.
     pub fn decide(&mut self, state: &mut State) {
         let had_focus = state.in_second_pane();
         state.show(Screen::Styles);

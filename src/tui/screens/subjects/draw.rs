@@ -13,7 +13,7 @@ use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{listed, pane, scrolled};
+use crate::widgets::lists::{listed, no_rows, pane, scrolled};
 use crate::widgets::picture::PictureRequest;
 use crate::widgets::picture::Pictured;
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
@@ -121,12 +121,7 @@ impl SubjectsScreen {
             Line::raw(shortened(&list_line(row, name, shown), width))
         }));
         if subjects.is_empty() {
-            let is_filtered = !state.filter().is_empty();
-            lines.push(Line::raw(if is_filtered {
-                "no subject matches the filter"
-            } else {
-                "no subjects yet: a adds one"
-            }));
+            lines.push(no_rows(state.filter(), "no subject matches the filter", "no subjects yet: a adds one"));
         }
         lines
     }

@@ -8,7 +8,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::catalogue;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectsScreen};
 use study::{MEASUREMENTS, Part};
@@ -38,8 +38,8 @@ impl Page for SubjectsScreen {
         self.chosen = self.selected(state).map(|row| row.name.clone());
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        self.line(state).map(|line| (line, "the subject"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.line(state).map(|text| Copied { name: "the subject", text })
     }
 
     fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
