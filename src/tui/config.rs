@@ -1,4 +1,4 @@
-//! Files of one's own in the config folder: where they lie, how they are read, and how what is wrong with one is told.
+//! Files of one's own in the config folder: their paths, how they are read, and how their problems are told.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 #[error("{}", .0.join("\n"))]
 pub struct ConfigError(Vec<String>);
 
-/// Where a file is looked for: `toile` in the config folder.
+/// Path of a file in `toile` of the config folder.
 #[must_use]
 pub fn path(env: &dyn Fn(&str) -> Option<String>, file: &str) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
@@ -17,7 +17,7 @@ pub fn path(env: &dyn Fn(&str) -> Option<String>, file: &str) -> Option<PathBuf>
     Some(folder.join("toile").join(file))
 }
 
-/// What a file says; nothing where there is none.
+/// Reads a file; the default where there is none.
 ///
 /// # Errors
 /// That it cannot be read, or all that `take` finds wrong with it, each with its line.
@@ -31,7 +31,7 @@ pub fn read<T: Default>(
     parse(&path.display().to_string(), &text, take)
 }
 
-/// What a text says, under the name of its file.
+/// Reads a text, under the name of its file.
 ///
 /// # Errors
 /// All that `take` finds wrong with it, each with its line.
@@ -68,11 +68,11 @@ pub struct Entry<'a> {
     pub line: usize,
 }
 
-/// What is wrong with a file, each with its line.
+/// Problems of a file, each with its line.
 pub struct Problems(Vec<(usize, String)>);
 
 impl Problems {
-    /// Tells what is wrong with a line.
+    /// Tells a problem of a line.
     pub fn tell(&mut self, line: usize, what: String) {
         self.0.push((line, what));
     }

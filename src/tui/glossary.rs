@@ -1,4 +1,4 @@
-//! What the numbers on screens are, in words. They stand in `docs/glossary.md`, and those of points of measure in
+//! Explanations of the numbers on screens. They stand in `docs/glossary.md`, and those of points of measure in
 //! `docs/fit.md`: one place for the program and for readers.
 
 use std::sync::LazyLock;
@@ -7,16 +7,16 @@ use std::sync::LazyLock;
 const GLOSSARY: &str = include_str!("../../docs/glossary.md");
 const FIT: &str = include_str!("../../docs/fit.md");
 
-/// What a name stands for.
+/// Meaning of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
     /// Its names: its own first, then headings of screens and columns of SQL.
     pub names: Vec<String>,
     /// Its unit; empty where it is no number.
     pub unit: String,
-    /// What it is and how it is measured.
+    /// Definition, and how it is measured.
     pub about: String,
-    /// What is good or bad; empty where nothing is.
+    /// Values that are good or bad; empty where none are.
     pub good: String,
     /// The document that tells more; empty where none does.
     pub more: String,
@@ -29,7 +29,7 @@ impl Term {
         &self.names[0]
     }
 
-    /// Whether its names or words contain a text in small letters.
+    /// True if its names or words contain a text in lower case.
     #[must_use]
     pub fn contains(&self, text: &str) -> bool {
         self.names.iter().chain([&self.about]).any(|words| words.to_lowercase().contains(text))
@@ -51,7 +51,7 @@ pub static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
 /// The term of a name; where there is none, that of its part before a comma: `mean gap, chest`.
 #[must_use]
 pub fn term(name: &str) -> Option<&'static Term> {
-    let known = |name: &str| TERMS.iter().find(|term| term.names.iter().any(|one| one == name));
+    let known = |name: &str| TERMS.iter().find(|term| term.names.iter().any(|known| known == name));
     known(name).or_else(|| known(name.split_once(',')?.0))
 }
 

@@ -1,13 +1,13 @@
 //! The workbench: screens over a store that changes while one looks.
 //!
-//! One event loop takes messages one at a time, lets `State::update` turn them into a new state and effects,
+//! One event loop takes messages one at a time, lets `App::update` turn them into a new state and effects,
 //! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
 //! `threads` that answer with messages; the loop itself only waits for the next one.
 //!
 //! The folders, each of which knows only those after it:
 //!
 //! - `app`: the update loop and the frame around the screens;
-//! - `screens`: a folder a screen, with its state, its actions and its drawing;
+//! - `screens`: a folder a screen, with its state, its actions and its drawing, and the state that they share;
 //! - `overlays`: what opens above a screen;
 //! - `threads`, `terminal`: the outside, which knows no screen;
 //! - `messages`: what threads and screens tell each other;
@@ -38,13 +38,13 @@ use std::sync::mpsc::RecvTimeoutError;
 pub use app::headless::Headless;
 pub use widgets::picture::Images;
 
-use app::frame;
 use app::session::{self, Session};
+use app::{App, frame};
 use config::ConfigError;
 use keys::file as keys_file;
 use messages::effect::Effect;
 use messages::message::Message;
-use screens::state::{Abilities, Folders, State};
+use screens::state::{Abilities, Folders};
 use store::StudyError;
 use terminal::Display;
 use terminal::clipboard::osc52;
@@ -54,23 +54,23 @@ use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 use widgets::theme_file;
 
-/// How the workbench is started.
+/// Options of a start of the workbench.
 pub struct Options {
     /// Path of the database file.
     pub database: PathBuf,
-    /// Whether it was named, so that commands have to name it too.
+    /// True where it was named, so that commands have to name it too.
     pub is_database_named: bool,
-    /// Whether nothing may be changed.
+    /// True where nothing may be changed.
     pub readonly: bool,
-    /// Whether colours are off, whatever the environment says.
+    /// True where colours are off, whatever the environment says.
     pub no_color: bool,
-    /// How pictures are shown.
+    /// Way in which pictures are shown.
     pub images: Images,
-    /// Folder of the study that comes with the program, offered while the database has none, or where it is written then.
+    /// Folder of the study that comes with the program, which is offered while the database has none. It is written there then.
     pub quickstart: PathBuf,
 }
 
-/// Why the workbench ended.
+/// Reason why the workbench ended.
 #[derive(Debug, thiserror::Error)]
 pub enum TuiError {
     /// The store could not be opened.
@@ -102,42 +102,42 @@ pub fn run(options: Options) -> Result<(), TuiError> {
 
     let mut display = Display::enter()?;
     let size = display.size()?;
-    let mut state = State::new(theme, abilities, size);
-    (state.setup.bindings, state.setup.folders) = (keys.bindings, folders);
-    state.sql.editor.edit_as(keys.editing);
+    let mut app = App::new(theme, abilities, size);
+    (app.state.setup.bindings, app.state.setup.folders) = (keys.bindings, folders);
+    app.screens.sql.editor.edit_as(keys.editing);
     let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
-    state.setup.database = named;
+    app.state.setup.database = named;
     let session = session::path(&options.database, &env);
-    session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
-    let threads = Threads::start(store, encoder, options.quickstart, state.setup.folders.reports.clone());
-    let outcome = event_loop(&mut display, &mut state, &threads);
+    session.as_deref().map(Session::read).unwrap_or_default().restore(&mut app);
+    let threads = Threads::start(store, encoder, options.quickstart, app.state.setup.folders.reports.clone());
+    let outcome = event_loop(&mut display, &mut app, &threads);
     drop(display);
     if let Some(path) = session {
-        Session::of(&state).write(&path);
+        Session::of(&app).write(&path);
     }
     threads.finish();
     Ok(outcome?)
 }
 
-/// Where new studies and reports go: beside the study that comes with the program.
+/// Folders of new studies and reports: beside the study that comes with the program.
 fn folders(options: &Options) -> Folders {
     let home = options.quickstart.parent().and_then(Path::parent).unwrap_or(Path::new(""));
     Folders { studies: home.join("studies"), reports: home.join("reports") }
 }
 
 /// Takes messages, changes the state, draws, until it is time to leave.
-fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io::Result<()> {
+fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Result<()> {
     let mut silence = None;
-    threads.read(state.focus.clone());
-    terminal::take_mouse(state.terminal.has_mouse)?;
-    display.show(|frame| frame::draw(frame, state))?;
+    threads.read(app.state.focus.clone());
+    terminal::take_mouse(app.state.terminal.has_mouse)?;
+    display.show(|frame| frame::draw(frame, app))?;
     loop {
-        let message = match display.pause().filter(|_| !state.terminal.detached) {
+        let message = match display.pause().filter(|_| !app.state.terminal.detached) {
             None => threads.messages.recv().ok(),
             Some(pause) => match threads.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
                     // A terminal that is gone is noticed at the next message.
-                    let _ = display.go_on(|frame| frame::draw(frame, state));
+                    let _ = display.go_on(|frame| frame::draw(frame, app));
                     continue;
                 }
                 message => message.ok(),
@@ -154,14 +154,14 @@ fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io
             {
                 panic!("a key was pressed and TOILE_BREAK is set");
             }
-            for effect in state.update(message) {
+            for effect in app.update(message) {
                 match effect {
                     Effect::Quit => return Ok(()),
                     Effect::Copy(text) => print_raw(&osc52(&text))?,
                     Effect::Clear => display.clear()?,
                     Effect::Write(what) => {
                         let text = threads.keyboard.lend(|| display.lend(|| terminal::editor::edit(&what)))?;
-                        terminal::take_mouse(state.terminal.has_mouse)?;
+                        terminal::take_mouse(app.state.terminal.has_mouse)?;
                         waiting.push_front(Message::Written(Box::new(what), text));
                     }
                     Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
@@ -169,13 +169,13 @@ fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io
                 }
             }
         }
-        if !state.terminal.detached
-            && let Err(error) = display.show(|frame| frame::draw(frame, state))
-            && state.update(Message::Hangup).contains(&Effect::Quit)
+        if !app.state.terminal.detached
+            && let Err(error) = display.show(|frame| frame::draw(frame, app))
+            && app.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);
         }
-        if state.terminal.detached && silence.is_none() {
+        if app.state.terminal.detached && silence.is_none() {
             silence = Some(terminal::silence_input()?);
         }
     }

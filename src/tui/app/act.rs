@@ -1,5 +1,6 @@
-//! What actions do that all screens share; the rest is the screens' own.
+//! Actions that all screens share; the rest is the screens' own.
 
+use crate::app::App;
 use crate::app::frame::keys_of;
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
@@ -10,157 +11,150 @@ use crate::overlays::explanation::Explanation;
 use crate::overlays::jump::Jump;
 use crate::overlays::things::Thing;
 use crate::overlays::tour::Tour;
-use crate::screens;
 use crate::screens::movement::Movement;
+use crate::screens::page::Copied;
 use crate::screens::state::State;
 use crate::widgets::jump::Goal;
 
 /// Lines that no list has: title, borders, headers, status line.
 const FRAME_LINES: u16 = 8;
 
-impl State {
+impl App {
     /// Does an action; returns what others have to do.
     pub fn act(&mut self, action: Action) -> Vec<Effect> {
-        if let Some(effects) = screens::act(self, action) {
+        let Self { state, screens } = self;
+        if let Some(effects) = screens.act(state, action) {
             return effects;
         }
-        let page = screens::page(self.nav.screen);
-        if let Some(movement) = self.movement(action) {
-            page.go(self, movement);
+        let page = screens.page_mut(state.nav.screen);
+        if let Some(movement) = movement(state, action) {
+            page.go(state, movement);
             return vec![];
         }
         match action {
-            Action::Left => page.sideways(self, -1),
-            Action::Right => page.sideways(self, 1),
+            Action::Left => page.sideways(state, -1),
+            Action::Right => page.sideways(state, 1),
             Action::NextPane | Action::PreviousPane => {
-                let pane = &mut self.nav.second_pane[self.nav.screen as usize];
+                let pane = &mut state.nav.second_pane[state.nav.screen as usize];
                 *pane = !*pane;
             }
-            Action::Show(screen) => self.show(screen),
+            Action::Show(screen) => state.show(screen),
             Action::Back => {
                 self.back();
             }
-            Action::Leave if self.back() => {}
-            Action::Leave | Action::Quit => return self.quit(),
-            Action::Filter => self.overlay = Some(Overlay::Filter(self.filter().to_owned())),
+            Action::Leave | Action::Quit => {
+                let is_back = action == Action::Leave && self.back();
+                return if is_back { vec![] } else { self.quit() };
+            }
+            Action::Filter => state.overlay = Some(Overlay::Filter(state.filter().to_owned())),
             Action::NextMatch => self.go_to_match(1),
             Action::PreviousMatch => self.go_to_match(-1),
-            Action::Sort => page.sort(self),
-            Action::Reverse => page.reverse(self),
+            Action::Sort => page.sort(state),
+            Action::Reverse => page.reverse(state),
             Action::Copy => return self.copy(),
             Action::Ascii => {
-                self.theme.ascii = !self.theme.ascii;
-                self.terminal.chosen_ascii = Some(self.theme.ascii);
+                state.theme.ascii = !state.theme.ascii;
+                state.terminal.chosen_ascii = Some(state.theme.ascii);
             }
-            Action::Mouse => return self.take_mouse(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings, keys_of(self)))),
-            Action::Explain => self.overlay = Some(Overlay::Explanation(Explanation::of(page.explained(self)))),
+            Action::Mouse => return take_mouse(state),
+            Action::Help => self.state.overlay = Some(Overlay::Help(self.actions())),
+            Action::Explain => state.overlay = Some(Overlay::Explanation(Explanation::of(page.explained(state)))),
             Action::Jump => self.offer_jumps(),
             Action::Palette => {
-                let things = Thing::all(self.data.as_deref());
-                self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings, keys_of(self)).and(things)));
+                let things = Thing::all(state.data.as_deref());
+                self.state.overlay = Some(Overlay::Palette(self.actions().and(things)));
             }
-            Action::Write => return self.write(),
+            Action::Write => return page.write(state),
             Action::Tour => self.tour(0),
-            Action::Commands => self.overlay = Some(Overlay::Commands(CommandLog::of(&self.told.commands))),
+            Action::Commands => state.overlay = Some(Overlay::Commands(CommandLog::of(&state.told.commands))),
             Action::Redraw => return vec![Effect::Clear],
             _ => {}
         }
         vec![]
     }
 
+    /// The list of all actions, with the keys that hold now.
+    fn actions(&self) -> List {
+        List::of(self.state.setup.bindings, keys_of(self))
+    }
+
     /// Shows a step of the tour; after the last it ends.
     pub fn tour(&mut self, step: usize) {
-        if self.is_first_start() {
-            return self.say("the tour needs results: Enter runs the quickstart");
+        let state = &mut self.state;
+        if state.is_first_start() {
+            return state.say("the tour needs results: Enter runs the quickstart");
         }
-        let Some(tour) = Tour::at(step) else { return self.say("that was the tour; ? lists all keys") };
-        self.show(tour.screen());
-        self.overlay = Some(Overlay::Tour(tour));
+        let Some(tour) = Tour::at(step) else { return state.say("that was the tour; ? lists all keys") };
+        state.show(tour.screen());
+        state.overlay = Some(Overlay::Tour(tour));
     }
 
     /// Puts letters on what is to be seen.
     fn offer_jumps(&mut self) {
-        let targets = screens::page(self.nav.screen).targets(self, self.body());
-        match targets.is_empty() || self.data.is_none() {
-            true => self.say("nothing to go to is seen here"),
-            false => self.overlay = Some(Overlay::Jump(Jump { targets, typed: String::new() })),
+        let Self { state, screens } = self;
+        let targets = screens.page(state.nav.screen).targets(state, state.body());
+        match targets.is_empty() || state.data.is_none() {
+            true => state.say("nothing to go to is seen here"),
+            false => state.overlay = Some(Overlay::Jump(Jump { targets, typed: String::new() })),
         }
     }
 
     /// Goes to what is to be seen somewhere.
     pub fn jump(&mut self, goal: Goal) {
-        let page = screens::page(self.nav.screen);
+        let Self { state, screens } = self;
+        let page = screens.page_mut(state.nav.screen);
         match goal {
-            Goal::Pane(pane) => page.focus(self, pane),
+            Goal::Pane(pane) => page.focus(state, pane),
             Goal::Row(pane, step) => {
-                page.focus(self, pane);
-                page.go(self, Movement::By(step));
+                page.focus(state, pane);
+                page.go(state, Movement::By(step));
             }
-            Goal::Item(item) => page.go_to_item(self, item),
+            Goal::Item(item) => page.go_to_item(state, item),
         }
     }
 
     /// Goes to something by its name.
     pub fn look_at(&mut self, thing: Thing) {
-        self.show(thing.screen());
-        self.nav.filters[thing.screen() as usize].clear();
-        self.nav.second_pane[thing.screen() as usize] = false;
+        let Self { state, screens } = self;
+        state.show(thing.screen());
+        state.nav.filters[thing.screen() as usize].clear();
+        state.nav.second_pane[thing.screen() as usize] = false;
         match thing {
-            Thing::Study(name) => self.open_study(name),
-            Thing::Subject(name) => self.subjects.chosen = Some(name),
-            Thing::Size(style, size) => self.styles.selected = Some((style, size)),
-            Thing::Fabric(name) => self.fabrics.chosen = Some(name),
+            Thing::Study(name) => state.open_study(name),
+            Thing::Subject(name) => screens.subjects.chosen = Some(name),
+            Thing::Size(style, size) => screens.styles.selected = Some((style, size)),
+            Thing::Fabric(name) => screens.fabrics.chosen = Some(name),
         }
     }
 
-    /// The movement of an action, if it is one.
-    fn movement(&self, action: Action) -> Option<Movement> {
-        let page = (self.terminal.size.height.saturating_sub(FRAME_LINES).max(2) / 2) as isize;
-        Some(match action {
-            Action::Up => Movement::By(-1),
-            Action::Down => Movement::By(1),
-            Action::PageUp => Movement::By(-page),
-            Action::PageDown => Movement::By(page),
-            Action::First => Movement::First,
-            Action::Last => Movement::Last,
-            _ => return None,
-        })
-    }
-
     fn go_to_match(&mut self, step: isize) {
-        if self.filter().is_empty() {
-            self.say("no filter is set; / sets one");
+        let Self { state, screens } = self;
+        if state.filter().is_empty() {
+            state.say("no filter is set; / sets one");
         } else {
-            screens::page(self.nav.screen).go_to_match(self, step);
+            screens.page_mut(state.nav.screen).go_to_match(state, step);
         }
     }
 
     fn copy(&mut self) -> Vec<Effect> {
-        let Some((text, what)) = screens::page(self.nav.screen).copied(self) else {
-            self.say("nothing to copy here");
-            return vec![];
+        let Self { state, screens } = self;
+        let Some(Copied { name, text }) = screens.page(state.nav.screen).copied(state) else {
+            return state.reply("nothing to copy here");
         };
-        self.say(format!("copied {what}"));
+        state.say(format!("copied {name}"));
         vec![Effect::Copy(text)]
     }
 
-    fn take_mouse(&mut self) -> Vec<Effect> {
-        let is_taken = !self.terminal.has_mouse;
-        self.terminal.has_mouse = is_taken;
-        self.say(if is_taken { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" });
-        vec![Effect::Mouse(is_taken)]
-    }
-
-    /// Takes back the latest of filter, enlargement and screen; returns whether there was any.
+    /// Takes back the latest of filter, enlargement and screen; returns true if there was any.
     fn back(&mut self) -> bool {
-        let filter = &mut self.nav.filters[self.nav.screen as usize];
+        let Self { state, screens } = self;
+        let filter = &mut state.nav.filters[state.nav.screen as usize];
         if !filter.is_empty() {
             filter.clear();
-        } else if screens::page(self.nav.screen).shrink(self) {
+        } else if screens.page_mut(state.nav.screen).shrink(state) {
             // The pane has less room again.
-        } else if let Some(screen) = self.nav.trail.pop() {
-            self.nav.screen = screen;
+        } else if let Some(screen) = state.nav.trail.pop() {
+            state.nav.screen = screen;
         } else {
             return false;
         }
@@ -168,18 +162,39 @@ impl State {
     }
 
     fn quit(&mut self) -> Vec<Effect> {
-        let unsaved = self.unsaved();
-        if self.running.target.is_none() && unsaved.is_empty() {
+        let Self { state, screens } = self;
+        let unsaved = screens.styles.unsaved();
+        if state.running.target.is_some() {
+            state.ask(
+                "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
+                vec![Effect::StopRun, Effect::Quit],
+            );
+        } else if unsaved.is_empty() {
             return vec![Effect::Quit];
+        } else {
+            state.ask(format!("Seams of {unsaved} are not saved. Leave all the same?"), vec![Effect::Quit]);
         }
-        if self.running.target.is_none() {
-            self.ask(format!("Seams of {unsaved} are not saved. Leave all the same?"), vec![Effect::Quit]);
-            return vec![];
-        }
-        self.ask(
-            "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
-            vec![Effect::StopRun, Effect::Quit],
-        );
         vec![]
     }
+}
+
+/// The movement of an action, if it is one.
+fn movement(state: &State, action: Action) -> Option<Movement> {
+    let page = (state.terminal.size.height.saturating_sub(FRAME_LINES).max(2) / 2) as isize;
+    Some(match action {
+        Action::Up => Movement::By(-1),
+        Action::Down => Movement::By(1),
+        Action::PageUp => Movement::By(-page),
+        Action::PageDown => Movement::By(page),
+        Action::First => Movement::First,
+        Action::Last => Movement::Last,
+        _ => return None,
+    })
+}
+
+fn take_mouse(state: &mut State) -> Vec<Effect> {
+    let is_taken = !state.terminal.has_mouse;
+    state.terminal.has_mouse = is_taken;
+    state.say(if is_taken { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" });
+    vec![Effect::Mouse(is_taken)]
 }

@@ -6,11 +6,12 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
+use crate::app::App;
 use crate::keys::binding::Binding;
 use crate::keys::screen::Screen;
 use crate::overlays::Overlay;
+use crate::screens::start;
 use crate::screens::state::State;
-use crate::screens::{self, start};
 use crate::widgets::layout::{WIDE, rows};
 use crate::widgets::theme::{Theme, glyph};
 use crate::widgets::{ascii, text};
@@ -19,17 +20,19 @@ use store::Status;
 /// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
 const SHORT: u16 = 66;
 
-pub fn draw(frame: &mut Frame<'_>, state: &State) {
+/// Draws tabs, body, status line and what is open above them.
+pub fn draw(frame: &mut Frame<'_>, app: &App) {
+    let App { state, screens } = app;
     let [top, body, bottom] = rows(frame.area());
     frame.render_widget(tabs(state, top.width), top);
     if state.data.is_none() {
         frame.render_widget(Paragraph::new(" reading the database…"), body);
-    } else if is_start_shown(state) {
+    } else if is_start_shown(app) {
         start::draw(frame, body, state);
     } else {
-        screens::page(state.nav.screen).draw(frame, body, state);
+        screens.page(state.nav.screen).draw(frame, body, state);
     }
-    frame.render_widget(status_line(state, bottom.width), bottom);
+    frame.render_widget(status_line(app, bottom.width), bottom);
     draw_notice(frame, state);
     if let Some(overlay) = &state.overlay {
         overlay.draw(frame, body, state.theme);
@@ -39,15 +42,15 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     }
 }
 
-/// Whether the screen shows what may be done first, for there is no study yet.
-fn is_start_shown(state: &State) -> bool {
-    state.is_first_start() && screens::page(state.nav.screen).needs_study()
+/// True if the screen shows what may be done first, for there is no study yet.
+fn is_start_shown(app: &App) -> bool {
+    app.state.is_first_start() && app.screens.page(app.state.nav.screen).needs_study()
 }
 
 /// The screen whose keys hold: without a study, Study's for all that need one.
 #[must_use]
-pub fn keys_of(state: &State) -> Screen {
-    if is_start_shown(state) { Screen::Study } else { state.nav.screen }
+pub fn keys_of(app: &App) -> Screen {
+    if is_start_shown(app) { Screen::Study } else { app.state.nav.screen }
 }
 
 /// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
@@ -96,7 +99,7 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
 
 /// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
 fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
-    let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+    let Some(study) = state.study() else { return vec![] };
     let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
     if study.paused {
         spans.push((9, Span::styled(" paused", state.theme.warn())));
@@ -131,12 +134,13 @@ fn draw_notice(frame: &mut Frame<'_>, state: &State) {
 }
 
 /// The filter while it is typed, or the keys that matter here.
-fn status_line(state: &State, width: u16) -> Line<'static> {
+fn status_line(app: &App, width: u16) -> Line<'static> {
+    let App { state, screens } = app;
     if matches!(state.overlay, Some(Overlay::Filter(_))) {
         let hint = Span::styled("  ↵ keep  Esc undo", state.theme.dim());
         return Line::from(vec![Span::raw(format!("/{}▏", state.filter())), hint]);
     }
-    if let Some(hints) = screens::page(state.nav.screen).hints(state) {
+    if let Some(hints) = screens.page(state.nav.screen).hints(state) {
         return hint_line(hints, state.theme);
     }
     let filter = state.filter();
@@ -148,8 +152,8 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, state.theme.warn()));
     }
     // What matters most stands first in the table, but help and palette must always be found.
-    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(keys_of(state)));
-    let is_start = is_start_shown(state);
+    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(keys_of(app)));
+    let is_start = is_start_shown(app);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;

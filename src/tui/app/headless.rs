@@ -9,10 +9,10 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::{Rect, Size};
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
-use crate::app::frame;
+use crate::app::{App, frame};
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
-use crate::screens::state::{Abilities, State};
+use crate::screens::state::Abilities;
 use crate::terminal::framed::FramedBackend;
 use crate::threads::reading;
 use crate::widgets::theme::{Colours, Theme};
@@ -36,7 +36,7 @@ impl io::Write for Counter {
 /// A workbench on a database whose screen goes nowhere.
 pub struct Headless {
     store: Store,
-    state: State,
+    app: App,
     sent: Rc<Cell<usize>>,
     terminal: Terminal<FramedBackend<Counter>>,
 }
@@ -49,14 +49,14 @@ impl Headless {
     pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
         let store = catalogue::open(database, true)?;
         let abilities = Abilities { run: false, pictures: false };
-        let state = State::new(Theme::new(Colours::Indexed, false), abilities, Size::new(width, height));
+        let app = App::new(Theme::new(Colours::Indexed, false), abilities, Size::new(width, height));
         let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
         let sent = Rc::new(Cell::new(0));
         let line = FramedBackend::new(Counter(sent.clone()), Some(Size::new(width, height)));
         let terminal = line
             .and_then(|line| Terminal::with_options(line, options))
             .map_err(store::StudyError::io("a screen in memory"))?;
-        let mut headless = Self { store, state, sent, terminal };
+        let mut headless = Self { store, app, sent, terminal };
         headless.read()?;
         Ok(headless)
     }
@@ -66,22 +66,22 @@ impl Headless {
     /// # Errors
     /// When the database cannot be read.
     pub fn read(&mut self) -> Result<()> {
-        let data = reading::snapshot(&self.store, &self.state.focus)?;
-        self.state.update(Message::Data(Box::new(data)));
+        let data = reading::snapshot(&self.store, &self.app.state.focus)?;
+        self.app.update(Message::Data(Box::new(data)));
         Ok(())
     }
 
-    /// Presses a key; returns whether something has to be read for it.
+    /// Presses a key; returns true if something has to be read for it.
     pub fn press(&mut self, code: KeyCode) -> bool {
-        let effects = self.state.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        let effects = self.app.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
         effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
     }
 
     /// Draws; returns the bytes a terminal is sent in the first frame.
     pub fn draw(&mut self) -> usize {
-        let Self { terminal, state, sent, .. } = self;
+        let Self { terminal, app, sent, .. } = self;
         // A screen in memory refuses nothing.
-        let _ = terminal.draw(|frame| frame::draw(frame, state));
+        let _ = terminal.draw(|frame| frame::draw(frame, app));
         let _ = terminal.backend_mut().send(true);
         sent.take()
     }

@@ -1,7 +1,30 @@
 //! The update loop: what the workbench does with messages and actions, and the frame around its screens.
 
 mod act;
+mod answers;
 pub mod frame;
 pub mod headless;
 pub mod session;
 mod update;
+
+use ratatui::layout::Size;
+
+use crate::screens::Screens;
+use crate::screens::state::{Abilities, State};
+use crate::widgets::theme::Theme;
+
+/// The workbench: its screens, and the state that they share.
+pub struct App {
+    /// State that the screens share.
+    pub state: State,
+    /// Screens, each with its own state.
+    pub screens: Screens,
+}
+
+impl App {
+    /// The workbench before anything was read.
+    #[must_use]
+    pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
+        Self { state: State::new(theme, abilities, size), screens: Screens::default() }
+    }
+}

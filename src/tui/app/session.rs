@@ -1,21 +1,21 @@
-//! What the workbench remembers from one start to the next: the screen, what is selected, filters, orders, queries. One
+//! Memory of the workbench from one start to the next: screen, selections, filters, orders, queries. One
 //! small file a database, in the state folder; one that cannot be read means a fresh start, never an error.
 
 use std::path::{Path, PathBuf};
 
+use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::screens::fabrics::state::FabricOrder;
 use crate::screens::jobs::state::JobOrder;
+use crate::screens::measurements::state::ChiOrder;
 use crate::screens::order::Order;
-use crate::screens::results::state::ChiOrder;
-use crate::screens::state::State;
 use crate::screens::subjects::state::SubjectOrder;
 use store::JobId;
 
 /// The longest name of a file.
 const LONGEST: usize = 200;
 
-/// What is remembered.
+/// Memory from one start to the next.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Session {
@@ -42,55 +42,58 @@ pub struct Session {
 }
 
 impl Session {
-    /// What a state leaves behind.
+    /// The session that a workbench leaves behind.
     #[must_use]
-    pub fn of(state: &State) -> Self {
+    pub fn of(app: &App) -> Self {
+        let App { state, screens } = app;
         Self {
             screen: state.nav.screen as usize,
             study: state.focus.study.clone(),
             garment: state.focus.garment.clone(),
             job: state.focus.job.map(|job| job.0),
-            subject: state.subjects.chosen.clone(),
-            fabric: state.fabrics.chosen.clone(),
-            size: state.styles.selected.clone(),
-            marks: state.compare.marks.iter().map(|job| job.0).collect(),
+            subject: screens.subjects.chosen.clone(),
+            fabric: screens.fabrics.chosen.clone(),
+            size: screens.styles.selected.clone(),
+            marks: state.marks.iter().map(|job| job.0).collect(),
             filters: state.nav.filters.to_vec(),
-            subject_order: state.subjects.order,
-            fabric_order: state.fabrics.order,
-            job_order: state.jobs.order,
-            chi_order: state.results.order,
-            reports_by_time: state.reports.by_time,
-            sorts_contrasts: state.compare.sorts_by_difference,
-            differences_only: state.compare.differences_only,
+            subject_order: screens.subjects.order,
+            fabric_order: screens.fabrics.order,
+            job_order: screens.jobs.order,
+            chi_order: state.measurements.order,
+            reports_by_time: screens.reports.by_time,
+            sorts_contrasts: screens.compare.sorts_by_difference,
+            differences_only: screens.compare.differences_only,
             chosen_ascii: state.terminal.chosen_ascii,
             has_mouse: Some(state.terminal.has_mouse),
-            query: state.sql.editor.text().to_owned(),
-            history: state.sql.history.clone(),
+            query: screens.sql.editor.text().to_owned(),
+            history: screens.sql.history.clone(),
         }
     }
 
-    /// Puts it into a new state. `ascii` and the mouse stay as they are where the environment asks for them.
-    pub fn restore(self, state: &mut State) {
+    /// Puts it into a new workbench. `ascii` and the mouse stay as they are where the environment asks for them.
+    pub fn restore(self, app: &mut App) {
+        let App { state, screens } = app;
         state.nav.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
         (state.focus.study, state.focus.garment, state.focus.job) = (self.study, self.garment, self.job.map(JobId));
-        (state.subjects.chosen, state.fabrics.chosen, state.styles.selected) = (self.subject, self.fabric, self.size);
-        state.compare.marks = self.marks.into_iter().map(JobId).collect();
+        (screens.subjects.chosen, screens.fabrics.chosen, screens.styles.selected) =
+            (self.subject, self.fabric, self.size);
+        state.marks = self.marks.into_iter().map(JobId).collect();
         for (filter, kept) in state.nav.filters.iter_mut().zip(self.filters) {
             *filter = kept;
         }
-        (state.subjects.order, state.jobs.order, state.results.order) =
+        (screens.subjects.order, screens.jobs.order, state.measurements.order) =
             (self.subject_order, self.job_order, self.chi_order);
-        state.fabrics.order = self.fabric_order;
-        (state.reports.by_time, state.compare.sorts_by_difference) = (self.reports_by_time, self.sorts_contrasts);
-        state.compare.differences_only = self.differences_only;
+        screens.fabrics.order = self.fabric_order;
+        (screens.reports.by_time, screens.compare.sorts_by_difference) = (self.reports_by_time, self.sorts_contrasts);
+        screens.compare.differences_only = self.differences_only;
         state.terminal.chosen_ascii = self.chosen_ascii;
         state.theme.ascii |= self.chosen_ascii == Some(true);
         state.terminal.has_mouse = self.has_mouse.unwrap_or(state.terminal.has_mouse);
-        state.sql.editor.set(&self.query);
-        state.sql.history = self.history;
+        screens.sql.editor.set(&self.query);
+        screens.sql.history = self.history;
     }
 
-    /// What was kept in a file; nothing where there is none.
+    /// The session of a file; an empty one where there is none.
     #[must_use]
     pub fn read(path: &Path) -> Self {
         std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
@@ -106,7 +109,7 @@ impl Session {
     }
 }
 
-/// Where it is kept for a database: `toile` in the state folder.
+/// Path of its file for a database: in `toile` of the state folder.
 #[must_use]
 pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
@@ -139,8 +142,11 @@ mod tests {
     #[test]
     fn databases_have_files_of_their_own() {
         let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
-        let of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
-        assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
-        assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
+        let file_of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
+        assert_eq!(file_of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
+        assert_ne!(
+            file_of(&format!("/{}/a.sqlite", "long".repeat(80))),
+            file_of(&format!("/{}/b.sqlite", "long".repeat(80)))
+        );
     }
 }

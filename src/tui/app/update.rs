@@ -3,198 +3,176 @@
 use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Size;
 
+use crate::app::App;
 use crate::app::frame::{keys_of, tab_at};
 use crate::keys::action::Action;
 use crate::keys::binding::{Key, action_of};
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
-use crate::messages::snapshot::{Focus, Snapshot};
+use crate::messages::snapshot::Focus;
 use crate::messages::taught;
 use crate::overlays::Overlay;
 use crate::overlays::outcome::Outcome;
-use crate::overlays::path_prompt::PathPrompt;
-use crate::screens;
-use crate::screens::state::State;
+use crate::overlays::path_prompt::{PathPrompt, Purpose};
+use crate::screens::compare::actions::to_compare;
+use crate::screens::fit::actions::wearer;
+use crate::screens::measurements;
+use crate::screens::picture_pane::actions::watch;
+use crate::screens::study::actions::study_created;
 
-impl State {
+impl App {
     /// Takes in a message; returns what others have to do.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
-        let before = self.focus.clone();
-        let filter = self.nav.filters[Screen::Sql as usize].clone();
-        let mut effects = vec![];
-        match message {
-            Message::Key(event) => effects = self.key(&event),
-            Message::Mouse(event) => effects = self.mouse(&event),
-            Message::Resize(width, height) => self.terminal.size = Size::new(width, height),
-            Message::Data(snapshot) => self.receive(snapshot),
-            Message::Done(text) => self.say(text),
-            Message::Failed(text) => self.complain(text),
-            Message::Saved(outcome) => self.saved(outcome),
-            Message::Measured(id, outcome) => drop(self.subjects.measured.insert(id, outcome)),
-            Message::LaidOut(request, outcome) => self.take_layout(*request, outcome),
-            Message::Sewn(work, outcome) => self.sewn(*work, outcome),
-            Message::Written(what, text) => effects = self.written(*what, text),
-            Message::Previewed(request, outcome) => self.take_preview(*request, outcome),
-            Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
-            Message::Picture(request, drawn) => self.take_picture(request, drawn),
-            Message::Cut(jobs, sections) => self.take_sections(jobs, sections),
-            Message::Altered(request, found) => self.take_alteration(&request, found),
-            Message::Names(relations, saved) => (self.sql.relations, self.sql.saved) = (Some(relations), saved),
-            Message::Answered(ms, outcome) => self.answered(ms, outcome),
-            Message::Reports(rows) => self.reports.rows = Some(rows),
-            Message::ReportBuilt(page, rows) => self.report_built(page, rows),
-            Message::StudyCreated(name, outcome) => self.study_created(&name, outcome),
-            Message::Live(frame) if self.running.watched == Some(frame.job) => self.running.live = Some(frame),
-            Message::Live(_) => {}
-            Message::RunEnded(outcome) => effects = self.run_ended(outcome),
-            Message::Hangup if self.running.target.is_some() => self.terminal.detached = true,
-            Message::Hangup => effects = vec![Effect::Quit],
-            Message::Terminate => effects = vec![Effect::StopRun, Effect::Quit],
+        let before = self.state.focus.clone();
+        let filter = self.state.nav.filters[Screen::Sql as usize].clone();
+        let mut effects = self.take(message);
+        if self.state.nav.filters[Screen::Sql as usize] != filter {
+            self.screens.sql.arrange_rows(&self.state);
         }
-        if self.nav.filters[Screen::Sql as usize] != filter {
-            self.arrange_rows();
-        }
-        self.arrange_jobs();
-        self.focus.compare = if self.nav.screen == Screen::Compare { self.to_compare() } else { vec![] };
-        self.focus.wearer = self.wearer().filter(|_| self.nav.screen == Screen::Fit);
-        if self.focus != before {
+        self.screens.jobs.arrange(&self.state);
+        self.share();
+        if self.state.focus != before {
             self.moved(&before);
-            effects.push(Effect::Read(self.focus.clone()));
+            effects.push(Effect::Read(self.state.focus.clone()));
         }
-        let page = screens::page(self.nav.screen);
-        effects.extend(self.ask_for_pictures(page.pictures(self, self.body())));
-        effects.extend(page.wanted(self));
-        effects.extend(self.ask_to_watch());
+        let Self { state, screens } = self;
+        let page = screens.page_mut(state.nav.screen);
+        let pictures = page.pictures(state, state.body());
+        effects.extend(state.pictures.ask_for(pictures));
+        effects.extend(page.wanted(state));
+        effects.extend(watch(state));
         for effect in &effects {
             match taught::command(effect) {
-                command if taught::is_awaited(effect) => self.told.awaited = command,
-                command => self.told.commands.extend(command),
+                command if taught::is_awaited(effect) => state.told.awaited = command,
+                command => state.told.commands.extend(command),
             }
         }
         effects
+    }
+
+    /// Takes in a message, and leaves what follows from it to [`App::update`].
+    fn take(&mut self, message: Message) -> Vec<Effect> {
+        let Self { state, screens } = self;
+        match message {
+            Message::Key(event) => return self.key(&event),
+            Message::Mouse(event) => return self.mouse(&event),
+            Message::Resize(width, height) => state.terminal.size = Size::new(width, height),
+            Message::Data(snapshot) => self.receive(snapshot),
+            Message::Done(text) => state.say(text),
+            Message::Failed(text) => state.complain(text),
+            Message::Saved(outcome) => self.saved(outcome),
+            Message::Measured(id, outcome) => drop(screens.subjects.measured.insert(id, outcome)),
+            Message::LaidOut(request, outcome) => screens.styles.take_layout(state, *request, outcome),
+            Message::Sewn(work, outcome) => screens.styles.sewn(state, *work, outcome),
+            Message::Written(writing, text) => return self.written(*writing, text),
+            Message::Previewed(request, outcome) => screens.styles.take_preview(state, *request, outcome),
+            Message::SeamsSaved(style, seams, outcome) => screens.styles.seams_saved(state, &style, &seams, outcome),
+            Message::Picture(request, drawn) => state.pictures.take(request, drawn),
+            Message::Cut(jobs, sections) => screens.fit.take_sections(jobs, sections),
+            Message::Altered(request, found) => screens.fit.alter.take(state, &request, found),
+            Message::Names(relations, saved) => {
+                (screens.sql.relations, screens.sql.saved) = (Some(relations), saved);
+            }
+            Message::Answered(ms, outcome) => screens.sql.answered(state, ms, outcome),
+            Message::Reports(rows) => screens.reports.rows = Some(rows),
+            Message::ReportBuilt(page, rows) => screens.reports.built(state, page, rows),
+            Message::StudyCreated(name, outcome) => study_created(state, &name, outcome),
+            Message::Live(frame) if state.running.watched == Some(frame.job) => state.running.live = Some(frame),
+            Message::Live(_) => {}
+            Message::RunEnded(outcome) => return self.run_ended(outcome),
+            Message::Hangup if state.running.target.is_some() => state.terminal.detached = true,
+            Message::Hangup => return vec![Effect::Quit],
+            Message::Terminate => return vec![Effect::StopRun, Effect::Quit],
+        }
+        vec![]
+    }
+
+    /// Puts choices of screens into the state, for threads and other screens.
+    fn share(&mut self) {
+        let Self { state, screens } = self;
+        let screen = state.nav.screen;
+        state.focus.compare = if screen == Screen::Compare { to_compare(state) } else { vec![] };
+        state.focus.wearer = wearer(state).filter(|_| screen == Screen::Fit).cloned();
+        state.in_hand.subject = screens.subjects.selected(state).map(|row| row.id);
+        state.in_hand.fabric.clone_from(&screens.fabrics.chosen);
     }
 
     fn key(&mut self, event: &KeyEvent) -> Vec<Effect> {
         if event.kind == KeyEventKind::Release {
             return vec![];
         }
-        let Some(mut overlay) = self.overlay.take() else {
-            self.told.notice = None;
-            if let Some(effects) = screens::page(self.nav.screen).take_key(self, event) {
+        let Self { state, screens } = self;
+        let Some(mut overlay) = state.overlay.take() else {
+            state.told.notice = None;
+            if let Some(effects) = screens.page_mut(state.nav.screen).take_key(state, event) {
                 return effects;
             }
-            return action_of(self.setup.bindings, Key::of(event), keys_of(self))
-                .map_or(vec![], |action| self.act(action));
+            let action = action_of(state.setup.bindings, Key::of(event), keys_of(self));
+            return action.map_or(vec![], |action| self.act(action));
         };
-        match overlay.key(event, &mut self.nav.filters[self.nav.screen as usize]) {
+        match overlay.key(event, &mut state.nav.filters[state.nav.screen as usize]) {
             Outcome::Open => {
-                self.overlay = Some(overlay);
+                state.overlay = Some(overlay);
                 self.keep_selection_visible();
-                vec![]
             }
-            Outcome::Closed => vec![],
-            Outcome::Action(action) => self.act(action),
+            Outcome::Closed => {}
+            Outcome::Action(action) => return self.act(action),
             Outcome::Effects(effects) => {
                 if effects.iter().any(|effect| matches!(effect, Effect::Copy(_))) {
-                    self.say("copied");
+                    state.say("copied");
                 }
-                effects
+                return effects;
             }
-            Outcome::Thing(thing) => {
-                self.look_at(thing);
-                vec![]
-            }
-            Outcome::Jump(goal) => {
-                self.jump(goal);
-                vec![]
-            }
-            Outcome::Tour(step) => {
-                self.tour(step);
-                vec![]
-            }
-            Outcome::Query(text) => {
-                self.take_query(&text);
-                vec![]
-            }
+            Outcome::Thing(thing) => self.look_at(thing),
+            Outcome::Jump(goal) => self.jump(goal),
+            Outcome::Tour(step) => self.tour(step),
+            Outcome::Query(text) => screens.sql.take_query(state, &text),
             Outcome::Rename(name) => {
-                self.overlay = Some(Overlay::Path(PathPrompt::rename_query(name)));
-                vec![]
+                let prompt = PathPrompt::new(Purpose::RenameQuery(name.clone()), name);
+                state.overlay = Some(Overlay::Path(prompt));
             }
             Outcome::Sent(effects) => {
-                self.overlay = Some(overlay);
-                effects
+                state.overlay = Some(overlay);
+                return effects;
             }
         }
-    }
-
-    /// Takes in what was read of the database.
-    fn receive(&mut self, snapshot: Box<Snapshot>) {
-        self.jobs.receive(&snapshot.jobs);
-        let had_grid = self.grid().is_some();
-        self.focus.study = snapshot.study().map(|study| study.name.clone());
-        self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
-        self.data = Some(snapshot);
-        self.arrange_jobs();
-        self.subjects.chosen = self.subject().map(|row| row.name.clone());
-        self.fabrics.chosen = self.fabric().map(|row| row.fabric.name.clone());
-        self.clamp_place();
-        self.results.row = self.results.row.min(self.chi().len().saturating_sub(1));
-        let known = self.focus.job.filter(|id| self.data.as_ref().is_some_and(|data| data.job(*id).is_some()));
-        match known.and_then(|id| self.place_of(id)) {
-            Some(place) => self.study.place = place,
-            None if !had_grid || known.is_none() => {
-                self.focus.job = self.cell_at(self.study.place).and_then(|cell| cell.job)
-            }
-            None => {}
-        }
+        vec![]
     }
 
     /// Resets what belongs to the job looked at before.
     fn moved(&mut self, before: &Focus) {
-        if self.focus.job == before.job {
+        let Self { state, screens } = self;
+        if state.focus.job == before.job {
             return;
         }
-        self.jobs.log_up = 0;
-        let garment = self.job().map(|job| job.garment.clone());
+        screens.jobs.log_up = 0;
+        let garment = state.job().map(|job| job.garment.clone());
         if garment.is_some() {
-            self.focus.garment = garment;
+            state.focus.garment = garment;
         }
-        if let Some(place) = self.focus.job.and_then(|id| self.place_of(id)) {
-            self.study.place = place;
-        }
+        let place = state.data.as_ref().zip(state.focus.job).and_then(|(data, id)| data.place_of(id));
+        state.place = place.unwrap_or(state.place);
     }
 
     /// Moves the selection to a row that the filter still shows.
     fn keep_selection_visible(&mut self) {
-        self.arrange_jobs();
-        if self.nav.screen == Screen::Jobs {
-            let jobs = self.jobs();
-            let is_hidden = !jobs.iter().any(|job| Some(job.id) == self.focus.job);
-            if let Some(first) = jobs.first().filter(|_| is_hidden).map(|job| job.id) {
-                self.select(first);
-            }
+        let Self { state, screens } = self;
+        screens.jobs.arrange(state);
+        if state.nav.screen == Screen::Jobs {
+            screens.jobs.keep_visible(state);
         }
-        self.results.row = self.results.row.min(self.chi().len().saturating_sub(1));
+        measurements::clamp(state);
     }
 
-    fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
-        self.running.target = None;
-        match outcome {
-            Ok(text) => self.say(text),
-            Err(text) => self.complain(text),
-        }
-        if self.terminal.detached { vec![Effect::Quit] } else { vec![] }
-    }
-
-    /// What the mouse does: tabs show screens, the wheel scrolls.
+    /// Does what the mouse asks for: tabs show screens, the wheel scrolls.
     fn mouse(&mut self, event: &MouseEvent) -> Vec<Effect> {
         match event.kind {
-            _ if self.overlay.is_some() => vec![],
+            _ if self.state.overlay.is_some() => vec![],
             MouseEventKind::ScrollUp => self.act(Action::Up),
             MouseEventKind::ScrollDown => self.act(Action::Down),
             MouseEventKind::Down(MouseButton::Left) if event.row == 0 => {
-                tab_at(self, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
+                tab_at(&self.state, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
             }
             _ => vec![],
         }

@@ -1,9 +1,9 @@
-//! What a user can do.
+//! Actions of a user.
 
 use crate::keys::screen::Screen;
 use wardrobe::Part;
 
-/// Everything a key or the palette can ask for. Handled in one place, `State::act`.
+/// Everything a key or the palette can ask for. `App::act` hands it to the screen whose own it is, or does it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Selects what is above.
@@ -74,15 +74,15 @@ pub enum Action {
     NextLevel,
     /// Cuts the body at the level before.
     PreviousLevel,
-    /// Finds what to change of a size so that it fits.
+    /// Finds the change of a size so that it fits.
     Alter,
     /// Drapes the changed pattern.
     DrapeChange,
     /// Asks for the folder that the changed pattern goes into.
     WriteChange,
-    /// Finds what to change of the next larger size.
+    /// Finds the change of the next larger size.
     LargerSize,
-    /// Finds what to change of the next smaller size.
+    /// Finds the change of the next smaller size.
     SmallerSize,
     /// Shows only the measurements in which compared runs differ, or all.
     Differences,

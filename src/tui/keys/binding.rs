@@ -1,4 +1,4 @@
-//! How a key stands for an action.
+//! Keys and the actions they stand for.
 
 use std::fmt;
 
@@ -63,22 +63,22 @@ impl fmt::Display for Key {
 /// One row of the table of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// What it does.
+    /// Its action.
     pub action: Action,
     /// Its name in the palette.
     pub name: &'static str,
     /// The keys that do it.
     pub keys: &'static [Key],
-    /// Where; empty means everywhere.
+    /// Screens on which it holds; empty means all.
     pub screens: &'static [Screen],
     /// Its word in the status line; empty where it is not shown there.
     pub hint: &'static str,
-    /// What it does, in words.
+    /// Its action in words.
     pub help: &'static str,
 }
 
 impl Binding {
-    /// Whether it holds on a screen.
+    /// True if it holds on a screen.
     #[must_use]
     pub fn is_on(&self, screen: Screen) -> bool {
         self.screens.is_empty() || self.screens.contains(&screen)
@@ -90,7 +90,7 @@ impl Binding {
         self.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether its name, keys or help contain a text, whatever the case.
+    /// True if its name, keys or help contain a text, whatever the case.
     #[must_use]
     pub fn matches(&self, text: &str) -> bool {
         let text = text.to_lowercase();

@@ -39,18 +39,18 @@ const NAMES: [(&str, KeyCode); 15] = [
 /// Its name in the config folder.
 pub const FILE: &str = "keys.toml";
 
-/// The line that says whose keys edit.
+/// Name of the entry with the style of editing.
 const EDITING: &str = "editing";
 
 /// Letters that terminals, tmux and screen use with Ctrl.
 const TAKEN: &str = "absqhijm";
 
-/// The keys of actions, and whose keys edit a query.
+/// The keys of actions, and the style of editing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keys {
     /// The table of keys.
     pub bindings: &'static [Binding],
-    /// Whose keys edit.
+    /// Style of editing.
     pub editing: Editing,
 }
 
@@ -95,7 +95,7 @@ fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
     Keys { bindings: bindings.leak(), editing }
 }
 
-/// Whose keys edit.
+/// The style of editing of a value.
 fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
     const ACCEPTED: &str = "accepted: \"readline\", \"vim\"";
     match value.as_str() {
@@ -122,11 +122,11 @@ fn clash(bindings: &[Binding], k: usize) -> Option<String> {
 /// The keys of a value: one, or a list.
 fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
     let wanted = "accepted: a key in quotes, or a list of keys";
-    let one = |value: &DeValue<'_>| key(value.as_str().ok_or_else(|| format!("{}; {wanted}", value.type_str()))?);
+    let key_of = |value: &DeValue<'_>| key(value.as_str().ok_or_else(|| format!("{}; {wanted}", value.type_str()))?);
     match value.as_array() {
         Some(list) if list.is_empty() => Err(format!("no key; {wanted}")),
-        Some(list) => list.iter().map(|item| one(item.get_ref())).collect(),
-        None => Ok(vec![one(value)?]),
+        Some(list) => list.iter().map(|item| key_of(item.get_ref())).collect(),
+        None => Ok(vec![key_of(value)?]),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a user can do, and which key does it.
+//! Actions of a user, and the keys for them.
 
 pub mod action;
 pub mod binding;

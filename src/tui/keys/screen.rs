@@ -21,7 +21,7 @@ pub enum Screen {
     Reports,
     /// The fabrics of the catalogue.
     Fabrics,
-    /// How a garment sits on a subject, size by size.
+    /// The fit of a garment on a subject, size by size.
     Fit,
 }
 

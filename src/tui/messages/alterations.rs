@@ -1,4 +1,4 @@
-//! What is asked of the threads that find what to change of a pattern.
+//! Requests to the threads that find changes of a pattern.
 
 use std::path::PathBuf;
 
@@ -9,16 +9,16 @@ pub struct AlterRequest {
     pub study: PathBuf,
     /// Name of the garment in the study.
     pub garment: String,
-    /// Who is to wear it.
+    /// The subject that is to wear it.
     pub subject: String,
     /// Size that is changed.
     pub size: String,
-    /// Whether the changed pattern is draped.
+    /// True where the changed pattern is draped.
     pub is_draped: bool,
 }
 
 impl AlterRequest {
-    /// Whether it asks for the same garment on the same subject, whatever the size.
+    /// True if it asks for the same garment on the same subject, whatever the size.
     #[must_use]
     pub fn is_for_same(&self, other: &Self) -> bool {
         (&self.study, &self.garment, &self.subject) == (&other.study, &other.garment, &other.subject)

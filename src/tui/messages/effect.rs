@@ -1,4 +1,4 @@
-//! What the event loop has others do.
+//! Effects that the event loop has others carry out.
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
@@ -10,7 +10,7 @@ use crate::widgets::picture::PictureRequest;
 use store::JobId;
 use store::files::SourceFile;
 
-/// What is written in an editor of the user's own.
+/// A text that is written in an editor of the user's own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Writing {
     /// The query of the SQL screen.
@@ -34,7 +34,7 @@ pub enum Effect {
     Alter(AlterRequest),
     /// Ask the database.
     Query(QueryRequest),
-    /// Stop what it is asked.
+    /// Stop the query that it is asked.
     StopQuery,
     /// Do what takes long and writes files.
     Files(FileTask),

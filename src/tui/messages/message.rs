@@ -1,4 +1,4 @@
-//! What arrives at the event loop.
+//! Messages that arrive at the event loop.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use crossterm::event::{KeyEvent, MouseEvent};
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::effect::Writing;
-use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
+use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SeamWork, SizeLayout};
 use crate::messages::snapshot::Snapshot;
 use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
@@ -15,7 +15,6 @@ use results::{CrossSection, ReportRow};
 use spec::bodies::Girths;
 use store::files::SourceFile;
 use store::{JobId, LiveFrame, Relation, SavedQuery, SubjectId};
-use wardrobe::seams::SeamStep;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -30,14 +29,14 @@ pub enum Message {
     Failed(String),
     /// An action on the queue is done.
     Done(String),
-    /// What was filled in is saved, or why not.
+    /// A form is saved, or why not.
     Saved(Result<String, String>),
     /// A subject's body is built and measured, or could not be.
     Measured(SubjectId, Result<Box<Girths>, String>),
     /// A size is laid out, or could not be.
     LaidOut(Box<LayoutRequest>, Result<Box<SizeLayout>, String>),
     /// The seam file of a size after a step of work, or why there is none.
-    Sewn(Box<(LayoutRequest, SeamStep)>, Result<SourceFile, String>),
+    Sewn(Box<SeamWork>, Result<SourceFile, String>),
     /// A size is sewn and draped coarsely, or could not be.
     Previewed(Box<PreviewRequest>, Result<Previewed, String>),
     /// The seams of a style are saved, or why not.
@@ -46,9 +45,9 @@ pub enum Message {
     Picture(PictureRequest, Result<Drawn, String>),
     /// Body and cloth of some results are cut at all levels, or could not be.
     Cut(Vec<JobId>, Result<Vec<CrossSection>, String>),
-    /// What to change of a size is found, or could not be.
+    /// The change of a size is found, or could not be.
     Altered(Box<AlterRequest>, Result<Box<Alteration>, String>),
-    /// What a query may name, and the saved queries.
+    /// Tables and views that a query may name, and the saved queries.
     Names(Vec<Relation>, Vec<SavedQuery>),
     /// A query is answered after so many ms, or refused.
     Answered(u64, Result<Box<ResultTable>, String>),
@@ -60,7 +59,7 @@ pub enum Message {
     StudyCreated(String, Result<PathBuf, String>),
     /// The garment of the watched job as it is now.
     Live(LiveFrame),
-    /// What the user has written in an editor of their own, or why it was not taken.
+    /// The text that the user has written in an editor of their own, or why it was not taken.
     Written(Box<Writing>, Result<String, String>),
     /// The mouse did something.
     Mouse(MouseEvent),

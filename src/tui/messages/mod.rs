@@ -1,7 +1,8 @@
-//! What arrives at the event loop and what it asks for: closed sets, so that all of the workbench is
+//! Messages that arrive at the event loop, and effects that it asks for: closed sets, so that all of the workbench is
 //! `(state, message) -> (state, effects)`. Threads and screens meet here, and only here.
 
 pub mod alterations;
+pub mod answered;
 pub mod effect;
 pub mod message;
 pub mod requests;

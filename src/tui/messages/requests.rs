@@ -1,4 +1,4 @@
-//! What is asked of the threads.
+//! Requests to the threads.
 
 use std::path::PathBuf;
 
@@ -36,14 +36,14 @@ pub enum Command {
 }
 
 impl Command {
-    /// Whether a form waits for the answer.
+    /// True if a form waits for the answer.
     #[must_use]
     pub fn is_from_form(&self) -> bool {
         matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
     }
 }
 
-/// What to run.
+/// A study to run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
     /// The study that comes with the program.
@@ -52,10 +52,10 @@ pub enum Target {
     Study(PathBuf),
 }
 
-/// What the thread of queries is asked for.
+/// A request to the thread of queries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum QueryRequest {
-    /// What a query may name, and the saved queries.
+    /// Tables and views that a query may name, and the saved queries.
     Names,
     /// The rows of a query.
     Rows(String),
@@ -67,7 +67,7 @@ pub enum QueryRequest {
     Export(String, PathBuf),
 }
 
-/// What the thread of files is asked for.
+/// A task for the thread of files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileTask {
     /// List the reports there are.

@@ -1,4 +1,4 @@
-//! What is asked of the thread that works on seams, and what it answers.
+//! Requests to the threads that work on seams, and their answers.
 
 use std::path::PathBuf;
 
@@ -20,13 +20,22 @@ pub struct LayoutRequest {
     pub study: Option<PathBuf>,
 }
 
-/// What the thread is asked for.
+/// A task for the thread that works on seams.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SeamTask {
     /// Lay a size out.
     LayOut(LayoutRequest),
     /// Do a step of work on its seams.
-    Sew(LayoutRequest, SeamStep),
+    Sew(SeamWork),
+}
+
+/// A step of work on the seams of a size.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SeamWork {
+    /// The size, with its seam file as it is edited.
+    pub size: LayoutRequest,
+    /// The step.
+    pub step: SeamStep,
 }
 
 /// A size to sew and drape on somebody.
@@ -36,16 +45,16 @@ pub struct PreviewRequest {
     pub number: u64,
     /// The size, with its seam file as it is edited or stored.
     pub size: LayoutRequest,
-    /// Who wears it.
+    /// The subject that wears it.
     pub subject: SubjectId,
     /// Name of the cloth; none where nobody chose one.
     pub fabric: Option<String>,
-    /// How carefully it is draped.
+    /// Care with which it is draped.
     pub care: Care,
 }
 
 impl PreviewRequest {
-    /// Whether a size on somebody in a cloth looks as what was asked for: saving its seams does not change it.
+    /// True if a size on a subject in a cloth looks as what was asked for: saving its seams does not change it.
     #[must_use]
     pub fn is_of(&self, size: &LayoutRequest, subject: SubjectId, fabric: Option<&String>) -> bool {
         let LayoutRequest { style, key, seams, .. } = &self.size;
@@ -55,16 +64,16 @@ impl PreviewRequest {
     }
 }
 
-/// How a size hangs, coarsely; its picture is asked for by the number of the request.
+/// A size draped coarsely; its picture is asked for by the number of the request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Previewed {
-    /// Who wears it.
+    /// The subject that wears it.
     pub subject: String,
     /// Name of the fabric that it is cut from.
     pub fabric: String,
-    /// How far it came.
+    /// State that the drape came to.
     pub hung: Hung,
-    /// Why no farther, and what is to be seen on it.
+    /// Reasons why it came no farther, and remarks on the drape.
     pub remarks: Vec<String>,
     /// Time that it took, ms.
     pub took_ms: u64,
@@ -77,6 +86,6 @@ pub struct SizeLayout {
     pub out: LaidOut,
     /// The seam file as stored.
     pub stored: Option<SourceFile>,
-    /// Where it lies in the folder of the study, if it says the same there.
+    /// Path of the seam file in the folder of the study, if it says the same there.
     pub home: Option<PathBuf>,
 }

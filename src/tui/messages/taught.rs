@@ -1,4 +1,4 @@
-//! The command line that does what an action does: what is done here teaches what to type, and a log of it can be replayed.
+//! Command lines of effects: the log of them teaches what to type, and can be replayed.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub fn command(effect: &Effect) -> Option<String> {
     }
 }
 
-/// Whether it is told later that an effect is done, or was refused.
+/// True if it is told later that an effect is done, or was refused.
 #[must_use]
 pub fn is_awaited(effect: &Effect) -> bool {
     match effect {

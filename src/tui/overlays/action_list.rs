@@ -1,4 +1,4 @@
-//! The list of actions that what is typed narrows: help and palette.
+//! The list of actions, narrowed by a text: help and palette.
 
 use crossterm::event::KeyEvent;
 use ratatui::Frame;
@@ -27,7 +27,7 @@ pub enum Row<'a> {
 /// Most lines of the list: a letter typed changes all of them, and a frame is to stay small.
 const MOST: u16 = 40;
 
-/// Where an action can be done, in the order of the list.
+/// Screens on which an action can be done, in the order of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Reach {
     /// On the screen in hand, and not everywhere.
@@ -38,16 +38,16 @@ enum Reach {
     Elsewhere,
 }
 
-/// A list that what is typed narrows.
+/// A list of actions and things, narrowed by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
     /// All actions with their keys.
     pub bindings: &'static [Binding],
     /// The screen in hand.
     pub screen: Screen,
-    /// What can be gone to.
+    /// Things that can be gone to.
     pub things: Vec<Thing>,
-    /// What is typed.
+    /// The text that is typed.
     pub text: String,
     /// Index of the row selected, of those shown.
     pub row: usize,
@@ -60,7 +60,7 @@ impl List {
         Self { bindings, screen, things: vec![], text: String::new(), row: 0 }
     }
 
-    /// The same with what can be gone to.
+    /// The same with things that can be gone to.
     #[must_use]
     pub fn and(self, things: Vec<Thing>) -> Self {
         Self { things, ..self }
@@ -86,7 +86,7 @@ impl List {
         named.into_iter().map(Row::Action).chain(things).chain(others.into_iter().map(Row::Action)).collect()
     }
 
-    /// Where an action can be done.
+    /// Screens on which an action can be done.
     fn reach(&self, binding: &Binding) -> Reach {
         match binding.is_on(self.screen) {
             true if binding.screens.is_empty() => Reach::Everywhere,
@@ -110,7 +110,7 @@ impl List {
         })
     }
 
-    /// Edits what is typed, or goes through the rows.
+    /// Edits the text, or goes through the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
         in_list(&mut self.text, &mut self.row, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
@@ -146,7 +146,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: 
     frame.render_widget(Paragraph::new(lines).block(block), place);
 }
 
-/// Keys, name and help of an action, dim where it does nothing on this screen; or what something is, and its name.
+/// Keys, name and help of an action, dim where it does nothing on this screen; or kind and name of a thing.
 fn line(list: &List, theme: Theme, row: Row<'_>, columns: usize) -> Line<'static> {
     let longest = |field: fn(&Binding) -> usize| list.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| text::width(&b.keys_text())) + 1;

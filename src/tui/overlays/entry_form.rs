@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::overlays::form_frame::{draw_frame, end, ended, is_done};
+use crate::overlays::form_frame::{Sending, draw_frame, ended, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, shortened};
@@ -28,12 +28,12 @@ const FAR: f64 = 3.0;
 /// Columns of values in a form.
 const VALUE: usize = 12;
 
-/// What stands beside a value.
+/// Note beside a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// The value needs no remark.
     None,
-    /// Where it stands among adults of the sex, or among the fabrics of the catalogue.
+    /// Percentile among adults of the sex, or range among the fabrics of the catalogue.
     Place(String),
     /// It is possible but rare.
     Doubt(String),
@@ -44,9 +44,9 @@ pub enum Note {
 /// The values of a subject or a fabric, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// What is filled in: a subject or a fabric.
+    /// Part of the catalogue: a subject or a fabric.
     pub part: Part,
-    /// Whether the entry is new.
+    /// Mode of saving: a new entry, or other values of a known one.
     pub mode: Mode,
     /// The entry whose values a new one starts with.
     pub like: Option<String>,
@@ -56,18 +56,16 @@ pub struct Form {
     known: Vec<[f64; 2]>,
     /// Line that is typed in.
     pub at: usize,
-    /// Whether all problems are told, also those of empty lines.
+    /// True where all problems are told, also those of empty lines.
     is_tried: bool,
-    /// Whether it is being saved.
-    pub is_busy: bool,
-    /// Why it could not be saved.
-    pub problem: Option<String>,
+    /// Progress of saving it.
+    pub sending: Sending,
 }
 
 impl Form {
     fn new(part: Part, mode: Mode, texts: Vec<String>) -> Self {
         let at = if mode == Mode::Add { NAME } else { FIRST_NUMBER };
-        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, is_busy: false, problem: None }
+        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, sending: Sending::default() }
     }
 
     /// The form of a new subject.
@@ -113,12 +111,12 @@ impl Form {
         self.texts[NAME].trim()
     }
 
-    /// Whether a line can be typed in: the name of an entry stays.
+    /// True if a line can be typed in: the name of a known entry stays.
     fn is_open(&self, line: usize) -> bool {
         line != NAME || self.mode == Mode::Add
     }
 
-    /// Whether a line holds a number.
+    /// True if a line holds a number.
     #[must_use]
     pub fn is_number(line: usize) -> bool {
         line >= FIRST_NUMBER
@@ -150,7 +148,7 @@ impl Form {
         if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
     }
 
-    /// What stands beside a line.
+    /// Note beside a line.
     #[must_use]
     pub fn note(&self, line: usize) -> Note {
         let text = self.texts[line].as_str();
@@ -168,7 +166,7 @@ impl Form {
         noted.unwrap_or_else(Note::Problem)
     }
 
-    /// Where a measurement stands among adults.
+    /// Note on the percentile of a measurement among adults.
     fn subject_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let field = &MEASUREMENTS[k];
         let stands = |value: f64| percentile(self.sex()?, field.key, value);
@@ -181,7 +179,7 @@ impl Form {
         })
     }
 
-    /// Where a number stands among the fabrics of the catalogue: far from all of them it is in another unit, perhaps.
+    /// Note on the range of a number among the fabrics of the catalogue. A number far from all of them may be in another unit.
     fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let value = FABRIC_NUMBERS[k].read(text)?;
         let Some((value, [low, high])) =
@@ -200,7 +198,7 @@ impl Form {
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if self.sending.is_busy {
             return Outcome::Open;
         }
         match event.code {
@@ -233,7 +231,7 @@ impl Form {
             self.at = line;
             return Outcome::Open;
         }
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         let word = if self.part == Part::Fabric { "source" } else { "sex" };
         let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
         let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
@@ -242,7 +240,7 @@ impl Form {
     }
 }
 
-/// Name of a number of fabrics, without what the command line adds to it.
+/// Name of a number of fabrics, without the unit that the command line adds to it.
 #[must_use]
 pub fn fabric_label(k: usize) -> &'static str {
     let label = FABRIC_NUMBERS[k].label;
@@ -266,12 +264,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let width = area.width.min(if form.part == Part::Fabric { 100 } else { 76 });
     let columns = usize::from(width.saturating_sub(2));
     // The line has little room for what is wrong with its value.
-    let wrong = match form.note(form.at) {
-        Note::Problem(problem) => Some(problem),
-        _ => form.problem.clone(),
-    };
-    let busy = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
-    let end = end(form.is_busy.then_some(busy), wrong.as_deref(), columns, theme);
+    let mut sending = form.sending.clone();
+    if let Note::Problem(problem) = form.note(form.at) {
+        sending.problem = Some(problem);
+    }
+    let work = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
+    let end = sending.lines(work, columns, theme);
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(end.len());
     let first = first_shown(form.at, form.texts.len(), room);
     let shown = (first..form.texts.len()).take(room);
@@ -284,9 +282,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     draw_frame(frame, area, width, title, keys, lines, theme);
 }
 
-/// A line of a form: name, value, and what there is to say of it.
+/// A line of a form: name, value, note.
 pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
-    let is_focused = k == form.at && !form.is_busy;
+    let is_focused = k == form.at && !form.sending.is_busy;
     let mark = if is_focused { "▸" } else { " " };
     let value = if is_focused { format!("{}▏", form.texts[k]) } else { form.texts[k].clone() };
     let (note, style) = match form.note(k) {

@@ -1,4 +1,5 @@
-//! What the numbers of a screen are: those that are selected first, then its other headings, then all of the glossary.
+//! Explanation of the numbers of a screen: those that are selected first, then its other headings, then all of the
+//! glossary.
 
 use crossterm::event::KeyEvent;
 use ratatui::Frame;
@@ -9,7 +10,7 @@ use ratatui::widgets::{Clear, Paragraph};
 
 use crate::glossary::{TERMS, Term, term};
 use crate::widgets::layout::{is_narrow, middle};
-use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::lists::{listed, pane};
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
@@ -19,24 +20,24 @@ const NAMES: u16 = 26;
 /// Lines of the names above the words, where there is no room beside them.
 const FEW: u16 = 4;
 
-/// What is selected, and the names of what it is of.
+/// The selected thing, and the names of its quantities.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selected {
-    /// What is selected, with its numbers; empty where nothing is.
+    /// The selected thing with its numbers; empty where nothing is selected.
     pub what: String,
-    /// Names in the glossary, the nearest to what is selected first. Those it does not have are left out.
+    /// Names in the glossary, the nearest to the selected thing first. Those it does not have are left out.
     pub names: Vec<String>,
 }
 
 impl Selected {
-    /// Something with its numbers, the names it is of, and the headings of its screen.
+    /// A thing with its numbers, the names of its quantities, and the headings of its screen.
     #[must_use]
     pub fn new(what: String, names: &[&str], headings: &[&str]) -> Self {
         Self { what, names: names.iter().chain(headings).map(|name| (*name).to_owned()).collect() }
     }
 }
 
-/// A list of terms that what is typed narrows, one of them told.
+/// A list of terms, narrowed by a text, one of them explained.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     what: String,
@@ -46,19 +47,19 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Of what is selected; its terms first.
+    /// The explanation of a selected thing; its terms first.
     #[must_use]
     pub fn of(selected: Selected) -> Self {
         let mut terms: Vec<&Term> = vec![];
-        for one in selected.names.iter().filter_map(|name| term(name)).chain(TERMS.iter()) {
-            if !terms.contains(&one) {
-                terms.push(one);
+        for next in selected.names.iter().filter_map(|name| term(name)).chain(TERMS.iter()) {
+            if !terms.contains(&next) {
+                terms.push(next);
             }
         }
         Self { what: selected.what, terms, text: String::new(), row: 0 }
     }
 
-    /// The terms that contain what is typed: those of that name first.
+    /// The terms that contain the text: those of that name first.
     fn rows(&self) -> Vec<&'static Term> {
         let text = self.text.trim().to_lowercase();
         let mut rows: Vec<&Term> = self.terms.iter().copied().filter(|term| term.contains(&text)).collect();
@@ -90,12 +91,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme:
     let [list, words] =
         if is_narrow(area) { Layout::vertical(parts) } else { Layout::horizontal(parts).spacing(1) }.areas(below);
     let rows = explanation.rows();
-    let first = first_shown(explanation.row, rows.len(), usize::from(list.height));
-    let name = |(k, term): (usize, &&Term)| {
-        let style = if k == explanation.row { theme.selected() } else { Style::new() };
-        Line::styled(shortened(&format!(" {} ", term.name()), usize::from(list.width)), style)
-    };
-    let names: Vec<Line<'_>> = rows.iter().enumerate().skip(first).take(usize::from(list.height)).map(name).collect();
+    let names = listed(&rows, explanation.row, usize::from(list.height), theme.selected(), |term| {
+        Line::raw(shortened(&format!(" {} ", term.name()), usize::from(list.width)))
+    });
     frame.render_widget(Paragraph::new(names), list);
     let told = rows
         .get(explanation.row)

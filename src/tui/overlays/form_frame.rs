@@ -11,7 +11,38 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 
-/// Whether a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
+/// Progress of a form that is sent off.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sending {
+    /// True while the answer is waited for.
+    pub is_busy: bool,
+    /// Reason why it was refused, or note on a line that cannot be right.
+    pub problem: Option<String>,
+}
+
+impl Sending {
+    /// Sends the form off.
+    pub fn start(&mut self) {
+        *self = Self { is_busy: true, problem: None };
+    }
+
+    /// Takes in that the form was refused.
+    pub fn refuse(&mut self, problem: String) {
+        *self = Self { is_busy: false, problem: Some(problem) };
+    }
+
+    /// Lines below a form: the work that goes on, and the problem there is.
+    pub fn lines(&self, work: &str, columns: usize, theme: Theme) -> Vec<Line<'static>> {
+        let busy = self.is_busy.then(|| Line::styled(format!(" {work}"), theme.busy()));
+        let problem = wrapped(self.problem.as_deref().unwrap_or_default(), columns.saturating_sub(3));
+        let line = |(k, text): (usize, String)| {
+            Line::styled(format!(" {} {text}", if k == 0 { "✗" } else { " " }), theme.bad())
+        };
+        busy.into_iter().chain(problem.into_iter().enumerate().map(line)).collect()
+    }
+}
+
+/// True if a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
 pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
     match event.code {
         KeyCode::F(5) => true,
@@ -34,18 +65,6 @@ pub fn draw_frame(
     let block = pane(theme, title, true).title_bottom(Line::styled(keys, theme.legend()));
     frame.render_widget(Clear, place);
     frame.render_widget(Paragraph::new(lines).block(block), place);
-}
-
-/// What goes on, or what went wrong.
-pub fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
-    let mut lines: Vec<Line<'static>> =
-        busy.iter().map(|text| Line::styled(format!(" {text}"), theme.busy())).collect();
-    let problem = wrapped(problem.unwrap_or_default(), columns.saturating_sub(3));
-    let mark = |k| if k == 0 { "✗" } else { " " };
-    lines.extend(
-        problem.into_iter().enumerate().map(|(k, text)| Line::styled(format!(" {} {text}", mark(k)), theme.bad())),
-    );
-    lines
 }
 
 /// A text in at most so many columns: its end while it is typed, its beginning else.

@@ -9,17 +9,17 @@ use crate::overlays::outcome::Outcome;
 use crate::widgets::jump::{Target, label};
 use crate::widgets::theme::Theme;
 
-/// Places that can be gone to, and what is typed of a label.
+/// Places that can be gone to, and the letters of a label that are typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Jump {
     /// Places on the screen, each with its label.
     pub targets: Vec<Target>,
-    /// What is typed.
+    /// The letters that are typed.
     pub typed: String,
 }
 
 impl Jump {
-    /// The places whose labels begin with what is typed, with their labels.
+    /// The places whose labels begin with the letters typed, with their labels.
     fn open(&self) -> impl Iterator<Item = (&Target, String)> {
         let labelled = self.targets.iter().enumerate().map(|(k, target)| (target, label(k, self.targets.len())));
         labelled.filter(|(_, label)| label.starts_with(&self.typed))

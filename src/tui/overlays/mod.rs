@@ -1,10 +1,10 @@
-//! What opens above a screen: help, the palette, the filter line, questions. Each owns the keyboard while it is open.
+//! Lists, forms and questions that open above a screen. Each owns the keyboard while it is open.
 
 pub mod action_list;
 pub mod commands;
 pub mod entry_form;
 pub mod explanation;
-mod form_frame;
+pub mod form_frame;
 pub mod jump;
 pub mod outcome;
 pub mod path_prompt;
@@ -37,16 +37,16 @@ use crate::widgets::lists::pane;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::{edit, is_ctrl_c};
 
-/// What is open.
+/// A list, form or question that is open.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
     /// The list of keys.
     Help(List),
     /// The list of actions.
     Palette(List),
-    /// What the numbers of the screen are.
+    /// The explanation of the numbers of the screen.
     Explanation(Explanation),
-    /// Letters on what is to be seen.
+    /// Letters on the places that can be gone to.
     Jump(Jump),
     /// The filter line, with the filter to go back to.
     Filter(String),
@@ -56,7 +56,7 @@ pub enum Overlay {
     Path(PathPrompt),
     /// The files of a style.
     StyleForm(Box<StyleForm>),
-    /// What a new study is made of.
+    /// The parts of a new study.
     StudyForm(Box<StudyForm>),
     /// The list of saved queries.
     Queries(QueryList),
@@ -66,9 +66,9 @@ pub enum Overlay {
     Tour(Tour),
     /// A question; `y` has the effects happen.
     Question {
-        /// What is asked.
+        /// Its text.
         text: String,
-        /// What happens on yes.
+        /// Effects that happen on yes.
         effects: Vec<Effect>,
     },
 }

@@ -1,11 +1,11 @@
-//! What a key does to what is open above a screen.
+//! Outcomes of a key for the overlay above a screen.
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::overlays::things::Thing;
 use crate::widgets::jump::Goal;
 
-/// What a key did to an overlay.
+/// Outcome of a key for an overlay.
 #[derive(Debug, PartialEq)]
 pub enum Outcome {
     /// It stays open.
@@ -18,7 +18,7 @@ pub enum Outcome {
     Thing(Thing),
     /// A step of the tour follows.
     Tour(usize),
-    /// It closes and what is to be seen somewhere is gone to.
+    /// It closes and a place on the screen is gone to.
     Jump(Goal),
     /// It closes and a query goes into the editor.
     Query(String),
@@ -26,6 +26,6 @@ pub enum Outcome {
     Rename(String),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
-    /// It stays open until what it asked for is done.
+    /// It stays open until the effects that it asked for are done.
     Sent(Vec<Effect>),
 }

@@ -9,13 +9,13 @@ use ratatui::text::Line;
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::{Command, FileTask, QueryRequest};
-use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::form_frame::{Sending, draw_frame, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use wardrobe::Part;
 
-/// What a path is asked for.
+/// Purpose of a path or name that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Subjects or fabrics to import.
@@ -44,7 +44,7 @@ impl Purpose {
         }
     }
 
-    /// What a path may be.
+    /// Hint at the paths that are accepted.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
@@ -59,7 +59,7 @@ impl Purpose {
         }
     }
 
-    /// What goes on after Enter.
+    /// Work that goes on after Enter.
     #[must_use]
     pub fn busy(&self) -> &'static str {
         match self {
@@ -69,7 +69,7 @@ impl Purpose {
         }
     }
 
-    /// What the keys do.
+    /// Legend of the keys.
     #[must_use]
     pub fn keys(&self) -> &'static str {
         match self {
@@ -84,55 +84,29 @@ impl Purpose {
 /// The path of a file to read or write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPrompt {
-    /// What it is for.
+    /// Its purpose.
     pub purpose: Purpose,
-    /// What is typed.
+    /// The text that is typed.
     pub text: String,
-    /// Whether the file is being read or written.
-    pub is_busy: bool,
-    /// Why it could not be.
-    pub problem: Option<String>,
+    /// Progress of reading or writing the file.
+    pub sending: Sending,
 }
 
 impl PathPrompt {
-    /// Asks for a file with subjects or fabrics.
+    /// A prompt that begins with a text.
     #[must_use]
-    pub fn import(part: Part) -> Self {
-        Self { purpose: Purpose::Import(part), text: String::new(), is_busy: false, problem: None }
+    pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
+        Self { purpose, text: text.into(), sending: Sending::default() }
     }
 
-    /// Asks for the file that the rows of a query go into.
-    #[must_use]
-    pub fn export(query: String) -> Self {
-        Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), is_busy: false, problem: None }
-    }
-
-    /// Asks for the folder that the files of a changed pattern go into.
-    #[must_use]
-    pub fn write(folder: String, files: Vec<(String, Vec<u8>)>) -> Self {
-        Self { purpose: Purpose::Write(files), text: folder, is_busy: false, problem: None }
-    }
-
-    /// Asks for the name under which a query is saved.
-    #[must_use]
-    pub fn save_query(query: String, name: String) -> Self {
-        Self { purpose: Purpose::SaveQuery(query), text: name, is_busy: false, problem: None }
-    }
-
-    /// Asks for another name of a saved query.
-    #[must_use]
-    pub fn rename_query(name: String) -> Self {
-        Self { purpose: Purpose::RenameQuery(name.clone()), text: name, is_busy: false, problem: None }
-    }
-
-    /// Whether a name is asked for, not a path.
+    /// True if a name is asked for, not a path.
     fn is_name(&self) -> bool {
         matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_))
     }
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if self.sending.is_busy {
             return Outcome::Open;
         }
         if event.code == KeyCode::Tab && !self.is_name() {
@@ -147,7 +121,7 @@ impl PathPrompt {
         if path.is_empty() {
             return Outcome::Closed;
         }
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         let path = path_of(path);
         Outcome::Sent(vec![match &self.purpose {
             Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
@@ -167,7 +141,7 @@ pub fn path_of(text: &str) -> PathBuf {
     home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
 }
 
-/// What is typed of a path, with all that its beginning leaves no choice about; `None` where that is nothing more.
+/// The path that is typed, completed as far as its beginning leaves no choice; `None` where that adds nothing.
 #[must_use]
 pub fn completed(text: &str) -> Option<String> {
     let (folder, start) =
@@ -192,7 +166,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme
     let columns = usize::from(width.saturating_sub(2));
     // The end of a long path is what is being typed.
     let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
-    lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
+    lines.extend(prompt.sending.lines(prompt.purpose.busy(), columns, theme));
     if lines.len() == 1 {
         let home = if prompt.is_name() { "" } else { "; ~/ is home" };
         lines.push(Line::styled(format!(" {}{home}", prompt.purpose.hint()), theme.dim()));

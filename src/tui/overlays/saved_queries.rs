@@ -3,31 +3,30 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Clear, Paragraph};
 
 use crate::overlays::outcome::Outcome;
 use crate::widgets::layout::middle;
-use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::lists::{listed, pane};
 use crate::widgets::text::{left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
 use store::SavedQuery;
 
-/// A list of queries that what is typed narrows.
+/// A list of queries, narrowed by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QueryList {
     /// All of them.
     pub queries: Vec<SavedQuery>,
-    /// What is typed.
+    /// The text that is typed.
     pub text: String,
     /// Index of the row selected, of those shown.
     pub row: usize,
 }
 
 impl QueryList {
-    /// Those that contain what is typed.
+    /// Those that contain the text.
     #[must_use]
     pub fn rows(&self) -> Vec<&SavedQuery> {
         let text = self.text.to_lowercase();
@@ -59,14 +58,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
     let legend = Line::styled(" .sql files of the folder queries beside the database ", theme.legend());
     let block = pane(theme, title, true).title_bottom(legend);
     let inner = block.inner(place);
-    let first = first_shown(list.row, rows.len(), usize::from(inner.height));
-    let line = |(k, query): (usize, &&SavedQuery)| {
-        let text = format!("{} {}", left(&query.name, 18), query.about);
-        let style = if k == list.row { theme.selected() } else { Style::new() };
-        Line::styled(shortened(&text, usize::from(inner.width)), style)
-    };
-    let mut lines: Vec<Line<'_>> =
-        rows.iter().enumerate().skip(first).take(usize::from(inner.height)).map(line).collect();
+    let mut lines = listed(&rows, list.row, usize::from(inner.height), theme.selected(), |query| {
+        Line::raw(shortened(&format!("{} {}", left(&query.name, 18), query.about), usize::from(inner.width)))
+    });
     if lines.is_empty() {
         lines.push(Line::raw("no query of that name"));
     }

@@ -1,4 +1,4 @@
-//! What is filled in for a new study: its name, and what of the catalogue it is made of.
+//! The form of a new study: its name, and the entries of the catalogue that it is made of.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::FileTask;
-use crate::overlays::form_frame::{draw_frame, end, is_done};
+use crate::overlays::form_frame::{Sending, draw_frame, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, shortened};
@@ -53,14 +53,14 @@ impl FormLine {
     }
 }
 
-/// What the lines of a part must contain to be shown.
+/// Filter of the lines of a part.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
     /// Heading of the part whose lines are narrowed.
     section: &'static str,
-    /// What its lines contain, in small letters.
+    /// Text that its lines contain, in lower case.
     text: String,
-    /// Whether it is being typed.
+    /// True while it is being typed.
     is_typed: bool,
 }
 
@@ -81,14 +81,12 @@ pub struct StudyForm {
     pub sizes: Vec<(Wearable, bool)>,
     /// Subjects, each chosen or not.
     pub subjects: Vec<(String, bool)>,
-    /// What the sizes or subjects shown contain.
+    /// Filter of the sizes or subjects.
     pub filter: Filter,
     /// Index of the line selected.
     pub at: usize,
-    /// Whether it is being written.
-    pub is_busy: bool,
-    /// Why it could not be, or what is missing.
-    pub problem: Option<String>,
+    /// Progress of writing it.
+    pub sending: Sending,
 }
 
 impl StudyForm {
@@ -104,7 +102,7 @@ impl StudyForm {
         lines
     }
 
-    /// Whether a line passes the filter of its part.
+    /// True if a line passes the filter of its part.
     fn passes(&self, line: FormLine) -> bool {
         let words = match line {
             FormLine::Size(k) => format!("{} {}", self.sizes[k].0.style, self.sizes[k].0.size),
@@ -120,7 +118,7 @@ impl StudyForm {
         self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
     }
 
-    /// Simulations that the study will have.
+    /// Numbers of subjects, sizes and simulators that are chosen.
     #[must_use]
     pub fn jobs(&self) -> [usize; 3] {
         let sizes = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).count();
@@ -129,7 +127,7 @@ impl StudyForm {
         [subjects, sizes, simulators]
     }
 
-    /// Whether a line is chosen; `None` for those that are not chosen but filled in.
+    /// True for a line that is chosen; `None` for those that are not chosen but filled in.
     #[must_use]
     pub fn choice(&self, line: FormLine) -> Option<bool> {
         match line {
@@ -154,10 +152,10 @@ impl StudyForm {
         if is_ctrl_c(event) || event.code == KeyCode::Esc && !self.leave() {
             return Outcome::Closed;
         }
-        if self.is_busy || event.code == KeyCode::Esc {
+        if self.sending.is_busy || event.code == KeyCode::Esc {
             return Outcome::Open;
         }
-        self.problem = None;
+        self.sending.problem = None;
         if self.filter.is_typed {
             self.narrow(event);
             return Outcome::Open;
@@ -192,9 +190,9 @@ impl StudyForm {
         Outcome::Open
     }
 
-    /// Leaves the filter or the part in hand; returns whether there was any to leave.
+    /// Leaves the filter or the part in hand; returns true if there was any to leave.
     fn leave(&mut self) -> bool {
-        if self.is_busy {
+        if self.sending.is_busy {
             return false;
         }
         let line = self.line();
@@ -223,7 +221,7 @@ impl StudyForm {
         }
     }
 
-    /// What the keys do on the selected line.
+    /// Legend of the keys on the selected line.
     fn keys(&self) -> &'static str {
         match self.line() {
             _ if self.filter.is_typed => " type what the lines contain  ↵ keep  Esc all again ",
@@ -260,7 +258,7 @@ impl StudyForm {
         }
     }
 
-    /// Sends it off, or goes to what is missing.
+    /// Sends it off, or goes to the part that is missing.
     fn save(&mut self) -> Outcome {
         let [subjects, sizes, simulators] = self.jobs();
         let missing = [
@@ -273,7 +271,7 @@ impl StudyForm {
         if let Some((_, section, problem)) = missing.into_iter().find(|(is_missing, ..)| *is_missing) {
             self.filter = Filter::default();
             self.at = self.lines().iter().position(|line| line.section() == section).unwrap_or(0);
-            self.problem = Some(problem.to_owned());
+            self.sending.problem = Some(problem.to_owned());
             return Outcome::Open;
         }
         fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
@@ -288,7 +286,7 @@ impl StudyForm {
             simulators: chosen(&self.simulators),
             fit: None,
         };
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])
     }
 }
@@ -316,7 +314,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
         let text = format!(" {}: {shown} that contain /{}{cursor}", form.filter.section, form.filter.text);
         below.push(Line::styled(shortened(&text, columns), theme.warn()));
     }
-    below.extend(end(form.is_busy.then_some("writing and checking…"), form.problem.as_deref(), columns, theme));
+    below.extend(form.sending.lines("writing and checking…", columns, theme));
     let lines = form.lines();
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(below.len());
     let first = first_shown(form.at, lines.len(), room);
@@ -330,7 +328,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
 fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme: Theme) -> Line<'static> {
     let lines = form.lines();
     let line = lines[k];
-    let is_focused = k == form.at && !form.is_busy;
+    let is_focused = k == form.at && !form.sending.is_busy;
     let begins = k == 0 || is_first_shown || lines[k - 1].section() != line.section();
     let section = if begins { line.section() } else { "" };
     let mark = match form.choice(line) {

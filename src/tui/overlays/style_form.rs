@@ -1,4 +1,4 @@
-//! What is filled in to import a style: its pattern, and what the pattern's file does not say.
+//! The form to import a style: its pattern, and the values that the pattern's file does not have.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::overlays::form_frame::{draw_frame, end, ended, is_done};
+use crate::overlays::form_frame::{Sending, draw_frame, ended, is_done};
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::{completed, path_of};
 use crate::widgets::text::{self, left, shortened};
@@ -23,7 +23,7 @@ const SIZE: usize = 2;
 const UNIT: usize = 3;
 const SEAMS: usize = 4;
 
-/// Letters of what is said of many sizes: the first tells enough.
+/// Letters of a message about many sizes: the first sizes tell enough.
 const LONGEST: usize = 400;
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
@@ -35,14 +35,12 @@ pub struct StyleForm {
     pub texts: [String; 5],
     /// Line that is typed in.
     pub at: usize,
-    /// Whether the files are being read.
-    pub is_busy: bool,
-    /// Why they could not be, or what is to be filled in.
-    pub problem: Option<String>,
+    /// Progress of reading the files.
+    pub sending: Sending,
 }
 
 impl StyleForm {
-    /// What an empty line means.
+    /// Meaning of an empty line.
     #[must_use]
     pub fn hint(&self, line: usize) -> String {
         match line {
@@ -74,7 +72,7 @@ impl StyleForm {
 
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
-        if self.is_busy {
+        if self.sending.is_busy {
             return Outcome::Open;
         }
         let lines = self.texts.len();
@@ -90,7 +88,7 @@ impl StyleForm {
         Outcome::Open
     }
 
-    /// Completes the path of the line; whether there was more to it.
+    /// Completes the path of the line; returns true if there was more to it.
     fn complete(&mut self) -> bool {
         let text = &mut self.texts[self.at];
         let more = if [PATTERN, SEAMS].contains(&self.at) && !text.is_empty() { completed(text) } else { None };
@@ -108,7 +106,7 @@ impl StyleForm {
         let units = Unit::ALL.map(Unit::as_str);
         if !unit.is_empty() && !units.contains(&unit) {
             let problem = format!("unit `{unit}`; accepted: {}, or empty where the file names it", units.join(", "));
-            (self.at, self.problem) = (UNIT, Some(problem));
+            (self.at, self.sending.problem) = (UNIT, Some(problem));
             return Outcome::Open;
         }
         let given = StyleGiven {
@@ -117,13 +115,12 @@ impl StyleForm {
             unit: (!unit.is_empty()).then(|| unit.to_owned()),
             patterns: vec![((!size.is_empty()).then(|| size.to_owned()), path_of(pattern))],
         };
-        (self.is_busy, self.problem) = (true, None);
+        self.sending.start();
         Outcome::Sent(vec![Effect::Do(Command::ImportStyle(self.style(), given))])
     }
 
     /// Takes in why the files were refused, and goes to the line that answers it.
     pub fn refused(&mut self, problem: String) {
-        self.is_busy = false;
         if problem.contains("no unit") || problem.contains("say the unit") {
             self.at = UNIT;
         } else if problem.contains("is no name of a size") {
@@ -131,7 +128,7 @@ impl StyleForm {
         }
         let is_nest = self.size().is_empty() && problem.matches("size ").count() > 1;
         let hint = "; a size above imports that one alone";
-        self.problem = Some(if is_nest { shortened(&problem, LONGEST) + hint } else { problem });
+        self.sending.refuse(if is_nest { shortened(&problem, LONGEST) + hint } else { problem });
     }
 }
 
@@ -140,7 +137,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
     let line = |(k, text): (usize, &String)| {
-        let is_focused = k == form.at && !form.is_busy;
+        let is_focused = k == form.at && !form.sending.is_busy;
         let (mark, end) = if is_focused { ("▸", "▏") } else { (" ", "") };
         let head = format!("{mark} {}", left(LABELS[k], 11));
         let room = columns.saturating_sub(text::width(&head));
@@ -152,8 +149,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
         Line::from(vec![Span::styled(head + &shown, style), Span::styled(hint, theme.dim())])
     };
     let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
-    let busy = form.is_busy.then_some("reading, and sewing each size…");
-    lines.extend(end(busy, form.problem.as_deref(), columns, theme));
+    lines.extend(form.sending.lines("reading, and sewing each size…", columns, theme));
     let keys = " Tab completes  ↵ next line  F5 import all or none  Esc cancel  ~/ is home ";
     draw_frame(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);
 }

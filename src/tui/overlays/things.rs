@@ -1,4 +1,4 @@
-//! What there is by name, for the palette to go to: studies, subjects, styles, fabrics.
+//! Things by their names, for the palette to go to: studies, subjects, styles, fabrics.
 
 use crate::keys::screen::Screen;
 use crate::messages::snapshot::Snapshot;
@@ -28,7 +28,7 @@ impl Thing {
         studies.chain(subjects).chain(sizes).chain(fabrics).collect()
     }
 
-    /// What it is, and its name.
+    /// Its kind and its name.
     #[must_use]
     pub fn words(&self) -> (&'static str, String) {
         match self {
@@ -50,7 +50,8 @@ impl Thing {
         }
     }
 
-    /// How far its words are from a text that has letters of them in order, fewer letters between being nearer; `None` where it has not.
+    /// Distance of its words from a text whose letters stand in them in order: the number of letters between. `None` where
+    /// they do not.
     #[must_use]
     pub fn distance(&self, text: &str) -> Option<usize> {
         let (what, name) = self.words();

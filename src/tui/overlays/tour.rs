@@ -12,7 +12,7 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 
-/// The steps: a screen, and what is to be seen on it.
+/// The steps: a screen, and a few words on it.
 const STEPS: [(Screen, &str); 6] = [
     (
         Screen::Study,
@@ -43,7 +43,7 @@ const STEPS: [(Screen, &str); 6] = [
     ),
 ];
 
-/// Where the tour is.
+/// A step of the tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tour {
     step: usize,

@@ -1,52 +1,99 @@
 //! The screens, a folder each: its state, what it does, how it is drawn.
 //!
-//! A new screen is a folder here. It is entered in [`Screen`], in [`page()`] and in [`State`]: the compiler asks for the
-//! last two.
+//! A new screen is a folder here. It is entered in [`Screen`] and in [`Screens`]: the compiler asks for the latter.
 
 mod catalogue;
-mod compare;
+pub mod compare;
 pub mod fabrics;
 pub mod fit;
 pub mod jobs;
+pub mod measurements;
 pub mod movement;
 pub mod order;
 pub mod page;
 pub mod picture_pane;
-mod reports;
+pub mod reports;
 pub mod results;
 pub mod sql;
 pub mod start;
 pub mod state;
-mod study;
+pub mod study;
 pub mod styles;
 pub mod subjects;
-mod writing;
 
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
+use crate::screens::compare::state::CompareScreen;
+use crate::screens::fabrics::state::FabricsScreen;
+use crate::screens::fit::state::FitScreen;
+use crate::screens::jobs::state::JobsScreen;
 use crate::screens::page::Page;
+use crate::screens::reports::state::ReportsScreen;
+use crate::screens::results::ResultsScreen;
+use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
+use crate::screens::study::StudyScreen;
+use crate::screens::styles::state::StylesScreen;
+use crate::screens::subjects::state::SubjectsScreen;
 
-/// What a screen does.
-#[must_use]
-pub fn page(screen: Screen) -> &'static dyn Page {
-    match screen {
-        Screen::Study => &study::StudyPage,
-        Screen::Subjects => &subjects::SubjectsPage,
-        Screen::Styles => &styles::StylesPage,
-        Screen::Jobs => &jobs::JobsPage,
-        Screen::Results => &results::ResultsPage,
-        Screen::Compare => &compare::ComparePage,
-        Screen::Sql => &sql::SqlPage,
-        Screen::Reports => &reports::ReportsPage,
-        Screen::Fabrics => &fabrics::FabricsPage,
-        Screen::Fit => &fit::FitPage,
-    }
+/// All screens.
+#[derive(Default)]
+pub struct Screens {
+    pub study: StudyScreen,
+    pub subjects: SubjectsScreen,
+    pub styles: StylesScreen,
+    pub jobs: JobsScreen,
+    pub results: ResultsScreen,
+    pub compare: CompareScreen,
+    pub sql: SqlScreen,
+    pub reports: ReportsScreen,
+    pub fabrics: FabricsScreen,
+    pub fit: FitScreen,
 }
 
-/// Does an action that is a screen's own; the one shown has the first say. `None` where it is no screen's.
-pub fn act(state: &mut State, action: Action) -> Option<Vec<Effect>> {
-    let shown = state.nav.screen;
-    std::iter::once(shown).chain(Screen::ALL).find_map(|screen| page(screen).act(state, action))
+impl Screens {
+    /// A screen as the workbench sees it.
+    #[must_use]
+    pub fn page(&self, screen: Screen) -> &dyn Page {
+        match screen {
+            Screen::Study => &self.study,
+            Screen::Subjects => &self.subjects,
+            Screen::Styles => &self.styles,
+            Screen::Jobs => &self.jobs,
+            Screen::Results => &self.results,
+            Screen::Compare => &self.compare,
+            Screen::Sql => &self.sql,
+            Screen::Reports => &self.reports,
+            Screen::Fabrics => &self.fabrics,
+            Screen::Fit => &self.fit,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn page_mut(&mut self, screen: Screen) -> &mut dyn Page {
+        match screen {
+            Screen::Study => &mut self.study,
+            Screen::Subjects => &mut self.subjects,
+            Screen::Styles => &mut self.styles,
+            Screen::Jobs => &mut self.jobs,
+            Screen::Results => &mut self.results,
+            Screen::Compare => &mut self.compare,
+            Screen::Sql => &mut self.sql,
+            Screen::Reports => &mut self.reports,
+            Screen::Fabrics => &mut self.fabrics,
+            Screen::Fit => &mut self.fit,
+        }
+    }
+
+    /// Lets all screens take in that the database was read.
+    pub fn receive(&mut self, state: &State) {
+        Screen::ALL.into_iter().for_each(|screen| self.page_mut(screen).receive(state));
+    }
+
+    /// Does an action that is a screen's own; the one shown has the first say. `None` where it is no screen's.
+    pub fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+        let shown = state.nav.screen;
+        std::iter::once(shown).chain(Screen::ALL).find_map(|screen| self.page_mut(screen).act(state, action))
+    }
 }

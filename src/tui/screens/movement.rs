@@ -14,7 +14,7 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// Where it leads from a row of so many.
+    /// The row that it leads to from a row of so many.
     #[must_use]
     pub fn from(self, row: usize, rows: usize) -> usize {
         let last = rows.saturating_sub(1);

@@ -27,13 +27,13 @@ const LETTER: usize = 16;
 /// A place on the screen.
 #[derive(Clone, Default)]
 struct Slot {
-    /// What it is to show.
+    /// Contents to be shown.
     cell: Cell,
-    /// Whether that is not sent yet.
+    /// True where they are not sent yet.
     is_late: bool,
 }
 
-/// What was drawn and is not sent yet.
+/// Kind of cells that were drawn and are not sent yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Late {
     /// All that was drawn is sent.
@@ -70,7 +70,7 @@ impl<W: Write> FramedBackend<W> {
         self.slots = vec![Slot::default(); usize::from(size.width) * usize::from(size.height)];
     }
 
-    /// What was drawn and is not sent yet.
+    /// Kind of cells that were drawn and are not sent yet.
     #[must_use]
     pub fn late(&self) -> Late {
         let mut late = self.slots.iter().filter(|slot| slot.is_late).peekable();
@@ -118,12 +118,12 @@ impl<W: Write> FramedBackend<W> {
     }
 }
 
-/// Whether a cell is part of a picture: nothing else has a background of its own, half blocks or sequences for pixels.
+/// True if a cell is part of a picture: nothing else has a background of its own, half blocks or sequences for pixels.
 fn is_picture(cell: &Cell) -> bool {
     cell.bg != Color::Reset || matches!(cell.symbol(), "▀" | "▄") || cell.symbol().len() > LETTER
 }
 
-/// Whether a cell is as if it had been erased.
+/// True if a cell looks as if it had been erased.
 fn is_blank(cell: &Cell) -> bool {
     let hidden = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
     cell.symbol() == " " && cell.bg == Color::Reset && !cell.modifier.intersects(hidden)
@@ -132,7 +132,7 @@ fn is_blank(cell: &Cell) -> bool {
 /// Colours and weights of what is written.
 type Style = (Color, Color, Modifier);
 
-/// Where the terminal writes next and how; no place where that depends on the terminal.
+/// Place and style of the next letter that the terminal writes; no place where that depends on the terminal.
 #[derive(Clone, Copy)]
 struct Pen {
     at: Option<(usize, usize)>,
@@ -153,7 +153,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Tells what a row shows from a column on; returns how many columns that was.
+    /// Writes the next cell of a row, or erases the blanks there; returns the number of columns written.
     fn tell(&mut self, row: &[Slot], x: usize, y: usize) -> usize {
         let blanks = row[x..].iter().take_while(|slot| is_blank(&slot.cell)).count();
         self.go(x, y);
@@ -185,7 +185,7 @@ impl Frame {
         self.pen.at = Some((x, y));
     }
 
-    /// Changes how is written.
+    /// Changes the style of the letters that follow.
     fn write(&mut self, style: Style) {
         if style == self.pen.style {
             return;

@@ -25,11 +25,11 @@ const REST: Duration = Duration::from_millis(80);
 /// The terminal while the workbench has it; dropping it gives it back.
 pub struct Display {
     terminal: Terminal<FramedBackend<Stdout>>,
-    /// When a key was pressed last.
+    /// Time of the latest key.
     last_key: Option<Instant>,
-    /// When a frame was sent last.
+    /// Time of the latest frame.
     last_frame: Option<Instant>,
-    /// Whether the state has changed since it was drawn.
+    /// True where the state has changed since it was drawn.
     is_stale: bool,
 }
 

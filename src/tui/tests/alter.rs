@@ -1,4 +1,4 @@
-//! What to change of the example's T-shirt so that it fits: what the threads answer, and what the Fit screen makes of it.
+//! Changes of the example's T-shirt so that it fits, as threads answer them and the Fit screen shows them.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ fn moved(handle: Handle, amount_mm: f64) -> MovedHandle {
     MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth }
 }
 
-/// What is found: of M and on subject ii nothing to change, of other sizes four handles that do not reach the hip.
+/// The change that is found: of M and on subject ii none, of other sizes four handles that do not reach the hip.
 pub fn found(request: &AlterRequest) -> Alteration {
     let is_right = request.size == "M" && request.subject == "ii";
     let level = |(level, target_mm, [before_mm, after_mm]): LevelMm| AlteredLevel {
@@ -80,7 +80,7 @@ pub fn found(request: &AlterRequest) -> Alteration {
 /// A press of keys that nobody answers.
 fn unanswered(bench: &mut Bench, letters: &str) -> Vec<Effect> {
     let press = |letter| Message::Key(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
-    letters.chars().flat_map(|letter| bench.state.update(press(letter))).collect()
+    letters.chars().flat_map(|letter| bench.app.update(press(letter))).collect()
 }
 
 fn request(subject: &str, size: &str, is_draped: bool) -> AlterRequest {
@@ -163,7 +163,7 @@ fn it_closes_to_where_one_was() {
         for back in ["<Esc>", "q", "<Tab>"] {
             let mut bench = Bench::example(80, 24);
             bench.press(keys).press("a").press(back);
-            assert_eq!((bench.state.nav.screen, bench.state.fit.view), (Screen::Fit, view), "{keys} {back}");
+            assert_eq!((bench.app.state.nav.screen, bench.app.screens.fit.view), (Screen::Fit, view), "{keys} {back}");
             assert!(!bench.screen().contains("what to change"), "{}", bench.screen());
         }
     }
@@ -207,7 +207,7 @@ fn a_drape_that_fails_says_why_and_leaves_the_change() {
 fn the_changed_pattern_is_written_into_a_folder_that_is_asked_for() {
     let mut bench = Bench::example(80, 24);
     // The database stays as it is, so that may be done where it may not be changed, too.
-    bench.state.setup.abilities.run = false;
+    bench.app.state.setup.abilities.run = false;
     let asked = bench.press("0a-w<Enter>").asked();
     let files = found(&request("i", "S", false)).files;
     assert_eq!(asked, [Effect::Files(FileTask::Write(PathBuf::from("altered/tshirt_S_i"), files.clone()))]);
@@ -219,7 +219,7 @@ fn the_changed_pattern_is_written_into_a_folder_that_is_asked_for() {
     assert_eq!(std::fs::read(folder.join("tshirt-S-i.dxf")).expect("written"), b"dxf");
     bench.send(Message::Saved(Ok("altered/tshirt_S_i has tshirt-S-i.dxf".into())));
     assert!(bench.status().contains("altered/tshirt_S_i has"), "{}", bench.status());
-    assert!(bench.state.overlay.is_none() && bench.screen().contains("what to change"));
+    assert!(bench.app.state.overlay.is_none() && bench.screen().contains("what to change"));
 
     let refused = files::write(&folder, &files).expect_err("nothing is written over");
     assert!(refused.contains("tshirt-S-i.dxf is there already"), "{refused}");
@@ -237,7 +237,7 @@ fn the_command_is_copied() {
     let start = "alter studies/men-tops/study.toml --subject i --size S --garment tshirt";
     assert_eq!(copied(&mut bench, "0a-y"), format!("toile {start} -o altered/tshirt_S_i"));
     assert_eq!(bench.status(), "copied the command");
-    bench.state.setup.database = Some("/data/my own.sqlite".into());
+    bench.app.state.setup.database = Some("/data/my own.sqlite".into());
     let draped = format!("toile --db '/data/my own.sqlite' {start} --drape -o altered/tshirt_S_i");
     assert_eq!(copied(&mut bench, "dy"), draped);
 }
@@ -245,7 +245,7 @@ fn the_command_is_copied() {
 #[test]
 fn signs_tell_what_colours_do() {
     let mut bench = Bench::example(80, 24);
-    bench.state.theme.colours = Colours::None;
+    bench.app.state.theme.colours = Colours::None;
     bench.press("0a-");
     let screen = bench.screen();
     let line =
@@ -253,9 +253,9 @@ fn signs_tell_what_colours_do() {
     assert!(line("hip").contains("−29.8 ▼!") && line("hip").contains("+31.0 ▼ missed"), "{screen}");
     assert!(line("chest").contains("+38.1 ▼ ") && line("chest").contains("+52.1 · met"), "{screen}");
     assert!(!line("neck").contains("met"), "{screen}");
-    bench.state.theme.ascii = true;
+    bench.app.state.theme.ascii = true;
     assert!(bench.screen().contains("50..120   +38.1 v "), "{}", bench.screen());
-    bench.state.theme.ascii = false;
+    bench.app.state.theme.ascii = false;
     let told = bench.press("/hip<Enter>").screen();
     assert!(told.contains("│hip") && !told.contains("│chest             50…"), "the filter holds for levels: {told}");
 }

@@ -1,17 +1,19 @@
-//! What keys do.
+//! Keys and their effects.
 
 use super::{Bench, fixture};
+use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{Command, Target};
 use crate::overlays::Overlay;
+use crate::screens::measurements;
 use crate::widgets::picture::{self, FRONT, PictureRequest, Pictured};
 use results::Map;
 use store::{JobId, Status};
 
 fn selected(bench: &Bench) -> i64 {
-    bench.state.focus.job.map_or(0, |id| id.0)
+    bench.app.state.focus.job.map_or(0, |id| id.0)
 }
 
 #[test]
@@ -35,7 +37,7 @@ fn the_selected_job_is_one_on_all_screens() {
     let mut bench = Bench::example(80, 24);
     bench.press("lj4j1");
     assert_eq!(selected(&bench), 5);
-    assert_eq!((bench.state.study.place.subject, bench.state.study.place.simulator), (2, 0));
+    assert_eq!((bench.app.state.place.subject, bench.app.state.place.simulator), (2, 0));
     bench.press("5");
     assert!(bench.screen().contains("tshirt S · iii · FEM"));
 }
@@ -44,11 +46,11 @@ fn the_selected_job_is_one_on_all_screens() {
 fn screens_are_gone_back_to_and_q_quits_at_the_top_only() {
     let mut bench = Bench::example(80, 24);
     bench.press("4<Enter>");
-    assert_eq!(bench.state.nav.screen, Screen::Results);
+    assert_eq!(bench.app.state.nav.screen, Screen::Results);
     bench.press("q");
-    assert_eq!(bench.state.nav.screen, Screen::Jobs);
+    assert_eq!(bench.app.state.nav.screen, Screen::Jobs);
     bench.press("<Esc>");
-    assert_eq!(bench.state.nav.screen, Screen::Study);
+    assert_eq!(bench.app.state.nav.screen, Screen::Study);
     bench.press("<Esc>");
     assert_eq!(bench.asked(), [], "Escape never quits");
     bench.press("q");
@@ -99,7 +101,7 @@ fn a_run_is_started_once_and_asked_about_when_leaving() {
     bench.press("R");
     assert_eq!(bench.asked(), []);
     bench.press("q");
-    assert!(matches!(bench.state.overlay, Some(Overlay::Question { .. })));
+    assert!(matches!(bench.app.state.overlay, Some(Overlay::Question { .. })));
     bench.press("n:quit<Enter>y");
     assert_eq!(bench.asked(), [Effect::StopRun, Effect::Quit]);
     bench.send(Message::RunEnded(Ok("the run has ended".into())));
@@ -115,7 +117,7 @@ fn a_lost_terminal_ends_the_workbench_but_not_its_run() {
     let mut bench = Bench::example(80, 24);
     bench.press("R").asked();
     bench.send(Message::Hangup);
-    assert!(bench.asked().is_empty() && bench.state.terminal.detached);
+    assert!(bench.asked().is_empty() && bench.app.state.terminal.detached);
     bench.send(Message::RunEnded(Err("the disk is full".into())));
     assert_eq!(bench.asked(), [Effect::Quit]);
 
@@ -134,32 +136,36 @@ fn enter_runs_the_quickstart_where_there_is_no_study() {
 fn filters_narrow_jobs_and_measurements_and_find_cells() {
     let mut bench = Bench::example(80, 24);
     bench.press("4/queued<Enter>");
-    assert_eq!(bench.state.jobs().len(), 4);
+    assert_eq!(bench.app.screens.jobs.shown(&bench.app.state).len(), 4);
     assert_eq!(selected(&bench), 9, "the selection stays among what is shown");
     bench.press("nN");
     assert_eq!(selected(&bench), 9);
     bench.press("<Esc>");
-    assert_eq!(bench.state.jobs().len(), 12);
+    assert_eq!(bench.app.screens.jobs.shown(&bench.app.state).len(), 12);
 
     bench.press("g5/neck<Enter>");
-    assert_eq!(bench.state.chi().len(), 1);
+    assert_eq!(measurements::rows(&bench.app.state).len(), 1);
     bench.press("/x<Esc>");
-    assert_eq!(bench.state.chi().len(), 1, "Escape undoes what was typed");
+    assert_eq!(measurements::rows(&bench.app.state).len(), 1, "Escape undoes what was typed");
 
     let mut bench = Bench::example(80, 24);
     bench.press("/failed<Enter>n");
-    assert_eq!(bench.state.job().map(|job| job.status), Some(Status::Failed));
+    assert_eq!(bench.app.state.job().map(|job| job.status), Some(Status::Failed));
 }
 
 #[test]
 fn sorting_puts_what_needs_attention_first() {
-    let first = |keys: &str| Bench::example(80, 24).press(keys).state.jobs()[0].id.0;
+    let first = |keys: &str| {
+        let mut bench = Bench::example(80, 24);
+        let App { state, screens } = &bench.press(keys).app;
+        screens.jobs.shown(state)[0].id.0
+    };
     assert_eq!(first("4"), 1);
     assert_eq!(first("4S"), 12);
     assert_eq!(first("4s"), 7, "running");
     assert_eq!(first("4ss"), 1, "greatest EI");
     assert_eq!(first("4sss"), 6, "longest");
-    let worst = |keys: &str| Bench::example(80, 24).press(keys).state.chi()[0].name.clone();
+    let worst = |keys: &str| measurements::rows(&Bench::example(80, 24).press(keys).app.state)[0].name.clone();
     assert_eq!(worst("5s"), "Neck Opening");
     assert_eq!(worst("5sS"), "Front Center Length");
 }
@@ -202,9 +208,9 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
 fn late_pictures_of_something_else_are_dropped() {
     let mut bench = Bench::example(80, 24);
     bench.press("5");
-    let wanted = *bench.state.pictures.requests.first().expect("asked for");
+    let wanted = *bench.app.state.pictures.requests.first().expect("asked for");
     bench.send(Message::Picture(PictureRequest { map: Map::Gap, ..wanted }, Err("late".into())));
-    assert!(bench.state.pictures.drawn.is_empty());
+    assert!(bench.app.state.pictures.drawn.is_empty());
     bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
     assert!(bench.screen().contains("no picture: artefact"));
 }
@@ -225,7 +231,7 @@ fn copies_are_tables() {
 fn running_jobs_leave_a_trace() {
     let mut bench = Bench::example(80, 24);
     bench.press("4jjjjjj");
-    assert_eq!(bench.state.steps().len(), 1);
+    assert_eq!(bench.app.screens.jobs.steps(&bench.app.state).len(), 1);
     let mut next = fixture::snapshot();
     for job in &mut next.jobs {
         if let Some(progress) = &mut job.progress {
@@ -235,7 +241,7 @@ fn running_jobs_leave_a_trace() {
     next.detail = Some(fixture::detail(JobId(7)));
     bench.send(Message::Data(Box::new(next.clone())));
     bench.send(Message::Data(Box::new(next)));
-    assert_eq!(bench.state.steps().len(), 2, "the same step twice is one");
+    assert_eq!(bench.app.screens.jobs.steps(&bench.app.state).len(), 2, "the same step twice is one");
 }
 
 #[test]
@@ -243,20 +249,26 @@ fn data_that_shrinks_leaves_nothing_selected_that_is_gone() {
     let mut bench = Bench::example(80, 24);
     bench.press("Gll4");
     bench.send(Message::Data(Box::new(fixture::empty())));
-    assert!(bench.state.job().is_none());
+    assert!(bench.app.state.job().is_none());
     assert!(bench.press("jkGg145q").screen().contains("no study yet"));
 }
 
 #[test]
 fn the_palette_goes_to_what_has_a_name() {
     let mut bench = Bench::example(80, 24);
-    let name = bench.state.data.as_ref().expect("read").subjects[1].name.clone();
+    let name = bench.app.state.data.as_ref().expect("read").subjects[1].name.clone();
     bench.press(&format!(":subject {name}"));
     assert!(bench.screen().contains(&name), "{}", bench.screen());
     bench.press("<Enter>");
-    assert!(bench.state.nav.screen == Screen::Subjects && bench.state.subject().is_some_and(|row| row.name == name));
+    assert!(
+        bench.app.state.nav.screen == Screen::Subjects
+            && bench.app.screens.subjects.selected(&bench.app.state).is_some_and(|row| row.name == name)
+    );
     bench.press(":tshirtM<Enter>");
-    assert!(bench.state.nav.screen == Screen::Styles && bench.state.size_row().is_some_and(|row| row.size == "M"));
+    assert!(
+        bench.app.state.nav.screen == Screen::Styles
+            && bench.app.screens.styles.size_row(&bench.app.state).is_some_and(|row| row.size == "M")
+    );
 }
 
 #[test]
@@ -266,13 +278,13 @@ fn the_tour_shows_six_screens_and_ends() {
     let mut seen = vec![];
     for step in 1..=6 {
         assert!(bench.screen().contains(&format!("tour, {step} of 6")), "{}", bench.screen());
-        seen.push(bench.state.nav.screen);
+        seen.push(bench.app.state.nav.screen);
         bench.press("<Enter>");
     }
-    assert!(bench.state.overlay.is_none() && bench.status().contains("that was the tour"));
+    assert!(bench.app.state.overlay.is_none() && bench.status().contains("that was the tour"));
     assert_eq!(seen, [Screen::Study, Screen::Fit, Screen::Results, Screen::Compare, Screen::Sql, Screen::Reports]);
     assert!(bench.press("T<Enter><Left>").screen().contains("tour, 1 of 6"));
-    assert!(bench.press("<Esc>").state.overlay.is_none());
+    assert!(bench.press("<Esc>").app.state.overlay.is_none());
     let mut first = Bench::new(80, 24, fixture::empty());
     assert!(first.press("T").status().contains("needs results"));
 }

@@ -1,8 +1,9 @@
-//! What is told about the numbers of a screen.
+//! Explanations of the numbers of a screen.
 
 use super::Bench;
 use crate::glossary::TERMS;
 use crate::keys::screen::Screen;
+use crate::screens::fit::actions::{card_levels, quantities_shown};
 
 /// Names in the glossary, the longest first.
 fn names() -> Vec<&'static str> {
@@ -64,12 +65,12 @@ fn every_number_of_a_result_has_a_term() {
 fn every_quantity_of_the_sizes_has_a_term() {
     let mut bench = Bench::example(160, 50);
     bench.press("0");
-    let quantities = bench.state.quantities();
+    let quantities = quantities_shown(&bench.app.state);
     assert!(quantities.len() > 5);
     for quantity in quantities {
         assert!(crate::glossary::term(&quantity.name).is_some(), "{}", quantity.name);
     }
-    for level in bench.state.card_levels() {
+    for level in card_levels(&bench.app.state) {
         assert!(crate::glossary::term(&level.replace('_', " ")).is_some(), "{level}");
     }
 }
@@ -91,5 +92,5 @@ fn what_is_selected_is_told_first() {
     check("8Kno such thing", &["nothing of that name"]);
     check(":explain<Enter>", &["what is this"]);
     let mut bench = Bench::example(80, 24);
-    assert!(bench.press("K<Esc>").state.overlay.is_none() && bench.state.nav.screen == Screen::Study);
+    assert!(bench.press("K<Esc>").app.state.overlay.is_none() && bench.app.state.nav.screen == Screen::Study);
 }

@@ -1,6 +1,7 @@
-//! What keys do on the Fabrics screen.
+//! Keys on the Fabrics screen.
 
 use super::Bench;
+use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
@@ -9,7 +10,7 @@ use crate::overlays::Overlay;
 use wardrobe::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {
-    bench.state.fabric().map_or("", |row| row.fabric.name.as_str())
+    bench.app.screens.fabrics.selected(&bench.app.state).map_or("", |row| row.fabric.name.as_str())
 }
 
 #[test]
@@ -23,7 +24,11 @@ fn fabrics_are_chosen_sorted_and_filtered() {
     check("9Gg", "cotton_shirting_light");
     check("9/MEDIAN<Enter>n", "jersey");
     check("9/stiff<Enter>", "stiff");
-    let first = |keys: &str| Bench::example(80, 24).press(keys).state.fabrics()[0].fabric.name.clone();
+    let first = |keys: &str| {
+        let mut bench = Bench::example(80, 24);
+        let App { state, screens } = &bench.press(keys).app;
+        screens.fabrics.shown(state)[0].fabric.name.clone()
+    };
     assert_eq!(first("9sss"), "jersey", "the least modulus along the grain");
     assert_eq!(first("9S"), "stiff", "by name, the other way round");
     assert_eq!(first("9ssssssss"), "cotton_shirting_light", "by name again");
@@ -53,7 +58,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     assert!(bench.screen().contains("✗ fabric poplin: `stretch_pct` is missing"), "{}", bench.screen());
     bench.press("<F5>").asked();
     bench.send(Message::Saved(Ok("fabric poplin is added".into())));
-    assert!(bench.state.overlay.is_none() && bench.state.fabrics.chosen.as_deref() == Some("poplin"));
+    assert!(bench.app.state.overlay.is_none() && bench.app.screens.fabrics.chosen.as_deref() == Some("poplin"));
 }
 
 #[test]
@@ -68,10 +73,13 @@ fn fabrics_are_edited_imported_and_removed() {
     bench.press("<Esc>dy");
     assert_eq!(bench.asked(), [Effect::Do(Command::Remove(Part::Fabric, "stiff".into()))]);
     bench.press("4:delete-fabric<Enter>");
-    assert!(bench.state.nav.screen == Screen::Fabrics && matches!(bench.state.overlay, Some(Overlay::Question { .. })));
-    bench.press("<Esc>").state.setup.abilities.run = false;
+    assert!(
+        bench.app.state.nav.screen == Screen::Fabrics
+            && matches!(bench.app.state.overlay, Some(Overlay::Question { .. }))
+    );
+    bench.press("<Esc>").app.state.setup.abilities.run = false;
     for keys in ["a", "e", "i", "d"] {
-        assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
+        assert!(bench.press(keys).status().contains("read-only") && bench.app.state.overlay.is_none(), "{keys}");
     }
 }
 

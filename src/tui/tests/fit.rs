@@ -1,11 +1,13 @@
-//! How the example's T-shirt sits: what the threads answer, and what the Fit screen makes of it.
+//! Fit of the example's T-shirt, as threads answer it and the Fit screen shows it.
 
 use insta::assert_snapshot;
 
 use super::{Bench, fixture};
+use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
+use crate::screens::fit::actions::{card_levels, quantities_shown};
 use crate::screens::fit::state::View;
 use crate::widgets::theme::Colours;
 use fit::Simulator;
@@ -100,7 +102,7 @@ fn drape(k: usize, job: i64) -> SizeWorn {
     }
 }
 
-/// How the T-shirt sits on a subject: drapes of three sizes on the first, of one on the second, of none on the third.
+/// Fit of the T-shirt on a subject: drapes of three sizes on the first, of one on the second, of none on the third.
 pub fn worn(subject: &str) -> GarmentWorn {
     let sizes: Vec<SizeWorn> = match subject {
         "i" => [1, 7, 13].into_iter().enumerate().map(|(k, job)| drape(k, job)).collect(),
@@ -119,7 +121,7 @@ fn ellipse(at: f64, across: f64, deep: f64) -> CutLine {
     CutLine { points: (0..60).map(point).collect(), closed: true }
 }
 
-/// What the thread that cuts answers: a trunk at three levels, arms beside its chest.
+/// Answer of the thread that cuts: a trunk at three levels, arms beside its chest.
 pub fn sections(jobs: &[JobId]) -> Vec<CrossSection> {
     let size = |job: &JobId| if job.0 == 3 { 0 } else { job.0 as usize / 6 };
     let section = |(level, height_mm, across, deep): (&str, f64, f64, f64)| CrossSection {
@@ -168,7 +170,8 @@ fn looks() {
 fn the_worst_level_is_cut_first_and_keys_step_through_levels() {
     let level = |keys: &str| {
         let mut bench = Bench::example(80, 24);
-        bench.press(keys).state.section().map(|section| section.level.clone())
+        let App { state, screens } = &bench.press(keys).app;
+        screens.fit.section(state).map(|section| section.level.clone())
     };
     let check = |keys: &str, expect: &str| assert_eq!(level(keys).as_deref(), Some(expect), "{keys}");
     check("F", "hip");
@@ -190,19 +193,19 @@ fn the_worst_level_is_cut_first_and_keys_step_through_levels() {
 fn parts_are_gone_through_and_subjects_stepped() {
     let mut bench = Bench::example(80, 24);
     let seen: Vec<View> =
-        ["0", "<Tab>", "<Tab>", "<Tab>", "<S-Tab>"].map(|key| bench.press(key).state.fit.view).to_vec();
+        ["0", "<Tab>", "<Tab>", "<Tab>", "<S-Tab>"].map(|key| bench.press(key).app.screens.fit.view).to_vec();
     assert_eq!(seen, [View::Card, View::Section, View::Sizes, View::Card, View::Sizes]);
     assert!(bench.screen().contains("tshirt on i · FEM"), "{}", bench.screen());
     bench.press("l");
     assert!(bench.screen().contains("tshirt on ii · FEM"), "{}", bench.screen());
-    assert_eq!(bench.state.focus.job, Some(JobId(3)), "the selected job goes with the subject");
+    assert_eq!(bench.app.state.focus.job, Some(JobId(3)), "the selected job goes with the subject");
     bench.press("lv");
     assert!(bench.status().contains("sections need a drape: R runs"), "{}", bench.status());
     assert!(bench.screen().contains("no drape yet") && bench.screen().contains("tshirt on iii"), "{}", bench.screen());
     bench.press("hhjj5<Esc>");
-    assert_eq!((bench.state.nav.screen, bench.state.fit.row), (Screen::Fit, 2));
+    assert_eq!((bench.app.state.nav.screen, bench.app.screens.fit.row), (Screen::Fit, 2));
     bench.press("q");
-    assert_eq!((bench.state.nav.screen, bench.state.focus.wearer.clone()), (Screen::Study, None));
+    assert_eq!((bench.app.state.nav.screen, bench.app.state.focus.wearer.clone()), (Screen::Study, None));
 }
 
 #[test]
@@ -212,9 +215,9 @@ fn sections_are_asked_for_once_and_late_ones_dropped() {
     let cuts = |bench: &Bench| bench.effects.iter().filter(|effect| matches!(effect, Effect::Cut(_))).count();
     assert_eq!(cuts(&bench), 1);
     bench.press("l");
-    assert_eq!((cuts(&bench), bench.state.fit.asked.clone()), (2, vec![JobId(3)]));
+    assert_eq!((cuts(&bench), bench.app.screens.fit.asked.clone()), (2, vec![JobId(3)]));
     bench.send(Message::Cut(vec![JobId(1)], Err("late".into())));
-    assert!(bench.state.section().is_some());
+    assert!(bench.app.screens.fit.section(&bench.app.state).is_some());
     bench.send(Message::Cut(vec![JobId(3)], Err("the mesh is gone".into())));
     assert!(bench.screen().contains("no section: the mesh is gone"), "{}", bench.screen());
 }
@@ -223,7 +226,7 @@ fn sections_are_asked_for_once_and_late_ones_dropped() {
 fn what_is_tight_or_loose_has_its_sign_and_colour() {
     let mut bench = Bench::example(160, 50);
     let buffer = bench.press("0").drawn().buffer().clone();
-    let theme = bench.state.theme;
+    let theme = bench.app.state.theme;
     let style_of = |sign: &str, words: &str| {
         let cell = |k: usize| buffer.content[k].symbol();
         let starts = (0..buffer.content.len() - words.chars().count()).filter(|k| cell(*k) == sign);
@@ -238,7 +241,7 @@ fn what_is_tight_or_loose_has_its_sign_and_colour() {
 #[test]
 fn without_colours_sizes_have_lines_of_their_own() {
     let mut bench = Bench::example(80, 24);
-    bench.state.theme.colours = Colours::None;
+    bench.app.state.theme.colours = Colours::None;
     let screen = bench.press("0<Tab>").screen();
     let key = |size: &str| {
         let line = screen.lines().find(|line| line.contains(size)).expect("in the key");
@@ -253,8 +256,8 @@ fn without_colours_sizes_have_lines_of_their_own() {
 fn the_filter_narrows_levels_and_quantities() {
     let mut bench = Bench::example(80, 24);
     bench.press("0/chest<Enter>");
-    assert_eq!(bench.state.card_levels(), ["chest"]);
-    let names: Vec<String> = bench.state.quantities().into_iter().map(|row| row.name).collect();
+    assert_eq!(card_levels(&bench.app.state), ["chest"]);
+    let names: Vec<String> = quantities_shown(&bench.app.state).into_iter().map(|row| row.name).collect();
     assert_eq!(names, ["mean gap, chest", "half chest"]);
     assert!(bench.status().contains("filter /chest/"), "{}", bench.status());
 }
@@ -277,10 +280,10 @@ fn copies_are_tables() {
 fn a_study_without_ease_says_so() {
     let mut bench = Bench::example(80, 24);
     bench.press("0");
-    let mut data = bench.state.data.clone().expect("read");
+    let mut data = bench.app.state.data.clone().expect("read");
     let empty = FitCard { sizes: vec![], ..card("i") };
     data.worn = Some(GarmentWorn { card: empty, simulator: None, sizes: vec![] });
-    bench.state.update(Message::Data(data));
+    bench.app.update(Message::Data(data));
     assert!(bench.screen().contains("no ease is known yet"), "{}", bench.screen());
     let mut bench = Bench::new(80, 24, fixture::empty());
     assert!(bench.press("0<Tab>vjl").screen().contains("no study yet"));

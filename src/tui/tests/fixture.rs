@@ -1,7 +1,7 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
 use crate::messages::message::Message;
-use crate::messages::seams::{SeamTask, SizeLayout};
+use crate::messages::seams::{SeamTask, SeamWork, SizeLayout};
 use crate::messages::snapshot::{Compared, Detail, Snapshot};
 use engine::Why;
 use fit::{FitClass, Simulator};
@@ -174,9 +174,9 @@ fn tshirt_file(end: &str) -> SourceFile {
     SourceFile { name, bytes: bytes.into() }
 }
 
-/// What the thread that works on seams answers.
+/// Answer of the thread that works on seams.
 pub fn work(task: SeamTask) -> Message {
-    let (SeamTask::LayOut(request) | SeamTask::Sew(request, _)) = &task;
+    let (SeamTask::LayOut(request) | SeamTask::Sew(SeamWork { size: request, .. })) = &task;
     let size = SIZES[request.key.size as usize - 1];
     let stored = Some(tshirt_file(".toml"));
     let piece = Workpiece {
@@ -191,9 +191,9 @@ pub fn work(task: SeamTask) -> Message {
             let layout = piece.laid_out().map(|out| Box::new(SizeLayout { out, stored, home }));
             Message::LaidOut(Box::new(request), layout.map_err(|error| error.to_string()))
         }
-        SeamTask::Sew(request, step) => {
-            let seams = piece.after(&step).map_err(|error| error.to_string());
-            Message::Sewn(Box::new((request, step)), seams)
+        SeamTask::Sew(work) => {
+            let seams = piece.after(&work.step).map_err(|error| error.to_string());
+            Message::Sewn(Box::new(work), seams)
         }
     }
 }
@@ -244,7 +244,7 @@ fn subjects() -> Vec<SubjectRow> {
     ]
 }
 
-/// What the tape reads on the body of any subject of the example.
+/// Readings of the tape on the body of any subject of the example.
 pub fn girths() -> Girths {
     let read = serde_json::json!({
         "stature_mm": 1690.2,
@@ -289,7 +289,7 @@ pub fn empty() -> Snapshot {
     }
 }
 
-/// What is stored of a job of the example study.
+/// Stored details of a job of the example study.
 pub fn detail(id: JobId) -> Detail {
     let status = STATES[id.0 as usize - 1];
     let has_result = status.has_result();
@@ -351,7 +351,7 @@ pub fn compared(id: JobId) -> Compared {
     Compared { chi: chi.collect(), metrics, inputs, job }
 }
 
-/// What the example study says of the simulators.
+/// Recommendations of the example study.
 pub fn recommendations() -> Vec<RecommendationRow> {
     vec![RecommendationRow {
         garment: "tshirt".into(),

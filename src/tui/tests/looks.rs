@@ -1,4 +1,4 @@
-//! What the screens look like, at 80 by 24 and at 160 by 50.
+//! Snapshots of the screens, at 80 by 24 and at 160 by 50.
 
 use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;
@@ -202,7 +202,7 @@ fn numbers_are_whole_at_80_columns() {
 #[test]
 fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
     let mut bench = Bench::example(80, 24);
-    bench.state.theme.colours = Colours::None;
+    bench.app.state.theme.colours = Colours::None;
     bench.press("5");
     let request =
         bench.effects.iter().find_map(|e| if let Effect::Draw(requests) = e { Some(requests[0]) } else { None });

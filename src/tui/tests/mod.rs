@@ -19,18 +19,18 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Size;
 
-use crate::app::frame;
+use crate::app::{App, frame};
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::snapshot::Snapshot;
-use crate::screens::state::{Abilities, State};
+use crate::screens::state::Abilities;
 use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::theme::{Colours, Theme};
 
 /// A workbench without a terminal.
 struct Bench {
-    state: State,
-    /// What it asked for since last looked at.
+    app: App,
+    /// Effects that it asked for since last looked at.
     effects: Vec<Effect>,
 }
 
@@ -38,8 +38,8 @@ impl Bench {
     /// A workbench that has read something.
     fn new(width: u16, height: u16, data: Snapshot) -> Self {
         let abilities = Abilities { run: true, pictures: true };
-        let state = State::new(Theme::new(Colours::True, false), abilities, Size::new(width, height));
-        let mut bench = Self { state, effects: vec![] };
+        let app = App::new(Theme::new(Colours::True, false), abilities, Size::new(width, height));
+        let mut bench = Self { app, effects: vec![] };
         bench.send(Message::Data(Box::new(data)));
         bench
     }
@@ -51,35 +51,35 @@ impl Bench {
 
     /// Sends a message; readers answer at once.
     fn send(&mut self, message: Message) {
-        let mut effects = self.state.update(message);
+        let mut effects = self.app.update(message);
         let mut further = vec![];
         for effect in &effects {
-            if let (Effect::Read(focus), Some(data)) = (effect, &self.state.data) {
+            if let (Effect::Read(focus), Some(data)) = (effect, &self.app.state.data) {
                 let mut next = data.clone();
                 next.detail = focus.job.map(fixture::detail);
                 next.compared = focus.compare.iter().map(|id| fixture::compared(*id)).collect();
                 next.recommendations = fixture::recommendations();
                 next.worn = focus.wearer.as_deref().map(fit::worn);
-                further = self.state.update(Message::Data(next));
+                further = self.app.update(Message::Data(next));
                 assert!(further.iter().all(|e| !matches!(e, Effect::Read(_))));
             }
             if let Effect::Draw(requests) = effect
                 && let [PictureRequest { of: Pictured::Body(id), .. }] = requests[..]
             {
-                self.state.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
+                self.app.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
             }
         }
         effects.extend(further.into_iter().filter(|e| matches!(e, Effect::Cut(_) | Effect::Alter(_))));
         for effect in &effects {
             if let Effect::Cut(jobs) = effect {
-                self.state.update(Message::Cut(jobs.clone(), Ok(fit::sections(jobs))));
+                self.app.update(Message::Cut(jobs.clone(), Ok(fit::sections(jobs))));
             }
         }
         let asked =
             effects.iter().filter_map(|e| if let Effect::Alter(request) = e { Some(request.clone()) } else { None });
         for request in asked.collect::<Vec<_>>() {
             let found = Ok(Box::new(alter::found(&request)));
-            self.state.update(Message::Altered(Box::new(request), found));
+            self.app.update(Message::Altered(Box::new(request), found));
         }
         let tasks: Vec<_> = effects
             .iter()
@@ -108,7 +108,7 @@ impl Bench {
         self
     }
 
-    /// What it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
+    /// Effects that it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
         let is_done = |e: &Effect| {
@@ -127,9 +127,9 @@ impl Bench {
 
     /// The screen as a test backend holds it, with its styles.
     fn drawn(&self) -> TestBackend {
-        let Size { width, height } = self.state.terminal.size;
+        let Size { width, height } = self.app.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
-        terminal.draw(|frame| frame::draw(frame, &self.state)).expect("a test backend never fails");
+        terminal.draw(|frame| frame::draw(frame, &self.app)).expect("a test backend never fails");
         terminal.backend().clone()
     }
 

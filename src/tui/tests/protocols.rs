@@ -47,7 +47,7 @@ impl io::Write for Kept {
     }
 }
 
-/// What a terminal with some variables in its environment is sent for the picture.
+/// Bytes of the picture that a terminal with some variables in its environment is sent.
 fn sent(vars: &[(&str, &str)]) -> String {
     let env = |name: &str| vars.iter().find(|(known, _)| *known == name).map(|(_, value)| (*value).to_owned());
     let encoder = PictureEncoder::with(pixel_protocol(&env).map(|protocol| (protocol, CELL)), false);

@@ -7,6 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use insta::assert_snapshot;
 
 use super::{Bench, fixture};
+use crate::app::App;
 use crate::app::session::Session;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
@@ -14,7 +15,6 @@ use crate::messages::message::Message;
 use crate::messages::requests::{FileTask, QueryRequest};
 use crate::overlays::Overlay;
 use crate::overlays::study_form::StudyForm;
-use crate::screens::state::State;
 use crate::threads::queries::{self, Canceller};
 use crate::widgets::result_table::ResultTable;
 use results::ReportRow;
@@ -36,7 +36,7 @@ fn answer(rows: i64) -> SqlAnswer {
     SqlAnswer { table: Table { columns, rows: (1..=rows).map(row).collect() }, is_cut: false }
 }
 
-/// What the thread that asks the database answers.
+/// Answer of the thread that asks the database.
 fn ask(bench: &mut Bench) {
     for effect in bench.asked() {
         match effect {
@@ -79,10 +79,10 @@ fn a_query_is_typed_completed_run_and_its_rows_sorted() {
         bench.press("<Esc><Right>s");
         assert_snapshot!(format!("sql_rows_{width}x{height}"), bench.screen());
         bench.press("/tshirt 7<Enter>");
-        assert_eq!(bench.state.sql.table.as_ref().map(ResultTable::len), Some(1));
+        assert_eq!(bench.app.screens.sql.table.as_ref().map(ResultTable::len), Some(1));
         assert_eq!(bench.press("y").asked(), [Effect::Copy("garment\tn\tei\twhy\ntshirt 7\t93\t0.0016714285714285715\trow 7 because of reasons that take some room to tell\n".into())]);
         bench.press("<Esc>");
-        assert_eq!(bench.state.sql.table.as_ref().map(ResultTable::len), Some(30));
+        assert_eq!(bench.app.screens.sql.table.as_ref().map(ResultTable::len), Some(30));
     }
 }
 
@@ -111,22 +111,22 @@ fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
     bench.send(Message::Answered(9, Err("cancelled".into())));
     ctrl(&mut bench, 'p');
     ctrl(&mut bench, 'p');
-    assert_eq!(bench.state.sql.editor.text(), "select wrong");
+    assert_eq!(bench.app.screens.sql.editor.text(), "select wrong");
     ctrl(&mut bench, 'n');
-    assert_eq!(bench.state.sql.editor.text(), "select wrong; select 2");
+    assert_eq!(bench.app.screens.sql.editor.text(), "select wrong; select 2");
     bench.press("<Esc>o");
     assert!(bench.screen().contains("saved queries") && bench.screen().contains("attention"));
     bench.press("times<Enter>");
-    assert!(bench.state.sql.editor.text().contains("median_s"), "{}", bench.state.sql.editor.text());
+    assert!(bench.app.screens.sql.editor.text().contains("median_s"), "{}", bench.app.screens.sql.editor.text());
     bench.press("<F5>");
     ask(&mut bench);
     bench.press("<Esc>w");
     ctrl(&mut bench, 'u');
     bench.press("rows.json<Enter>");
-    let query = bench.state.sql.answered.clone();
+    let query = bench.app.screens.sql.answered.clone();
     assert_eq!(bench.asked(), [Effect::Query(QueryRequest::Export(query, "rows.json".into()))]);
     bench.send(Message::Saved(Ok("30 rows are in rows.json".into())));
-    assert!(bench.state.overlay.is_none() && bench.status().contains("30 rows"));
+    assert!(bench.app.state.overlay.is_none() && bench.status().contains("30 rows"));
 }
 
 #[test]
@@ -134,8 +134,8 @@ fn an_empty_editor_lets_commands_through() {
     let mut bench = Bench::example(80, 24);
     bench.press("7");
     assert!(bench.press("?").screen().contains("keys:"));
-    assert_eq!(bench.press("<Esc>4").state.nav.screen, Screen::Jobs);
-    assert_eq!(bench.press("7x4").state.nav.screen, Screen::Sql, "now it is text");
+    assert_eq!(bench.press("<Esc>4").app.state.nav.screen, Screen::Jobs);
+    assert_eq!(bench.press("7x4").app.state.nav.screen, Screen::Sql, "now it is text");
     assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Query(QueryRequest::Rows("x4".into()))));
 }
 
@@ -144,14 +144,14 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
     for (width, height) in [(80, 24), (160, 50)] {
         let mut bench = Bench::example(width, height);
         bench.press("c");
-        assert_eq!(bench.state.focus.compare, [JobId(1), JobId(2)]);
+        assert_eq!(bench.app.state.focus.compare, [JobId(1), JobId(2)]);
         assert_snapshot!(format!("compare_{width}x{height}"), bench.screen());
     }
     let mut bench = Bench::example(80, 24);
     bench.press(" l ");
     assert_eq!(bench.status(), "2 runs are selected; c compares, u takes all back");
     bench.press("cd");
-    assert_eq!(bench.state.focus.compare, [JobId(1), JobId(3)]);
+    assert_eq!(bench.app.state.focus.compare, [JobId(1), JobId(3)]);
     assert!(bench.screen().contains("no measurement differs"), "the fixture's results by FEM are all the same");
     assert!(bench.screen().contains("FEM") || bench.screen().contains(" ii "), "{}", bench.screen());
     bench.press("du<Esc>c");
@@ -166,17 +166,24 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
 fn compared_drapes_stand_side_by_side_where_there_is_room() {
     let mut bench = Bench::example(160, 50);
     bench.press("c");
-    assert_eq!(bench.state.pictures.requests.len(), 2);
-    let before = bench.state.pictures.requests.clone();
+    assert_eq!(bench.app.state.pictures.requests.len(), 2);
+    let before = bench.app.state.pictures.requests.clone();
     bench.press("v");
     assert!(
-        bench.state.pictures.requests.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look)
+        bench
+            .app
+            .state
+            .pictures
+            .requests
+            .iter()
+            .zip(&before)
+            .all(|(now, then)| now.of == then.of && now.look != then.look)
     );
     let mut bench = Bench::example(80, 24);
     bench.press("c");
-    assert!(bench.state.pictures.requests.is_empty());
+    assert!(bench.app.state.pictures.requests.is_empty());
     bench.press("z");
-    assert_eq!(bench.state.pictures.requests.len(), 2);
+    assert_eq!(bench.app.state.pictures.requests.len(), 2);
 }
 
 #[test]
@@ -195,10 +202,11 @@ fn reports_are_listed_built_and_opened() {
     };
     let rows = vec![row("dresses", 0), row("men-tops", 1_700_000_000_000)];
     bench.send(Message::ReportBuilt(Ok("/srv/reports/men-tops/index.html".into()), rows));
-    assert_eq!(bench.state.report().map(|row| row.name.as_str()), Some("men-tops"));
+    assert_eq!(bench.app.screens.reports.selected(&bench.app.state).map(|row| row.name.as_str()), Some("men-tops"));
     assert_snapshot!("reports_80x24", bench.screen());
     assert_eq!(bench.press("y").asked(), [Effect::Copy("/srv/reports/men-tops/index.html".into())]);
-    assert_eq!(bench.press("gs").state.report().map(|row| row.name.as_str()), Some("men-tops"), "the latest first");
+    let App { state, screens } = &bench.press("gs").app;
+    assert_eq!(screens.reports.selected(state).map(|row| row.name.as_str()), Some("men-tops"), "the latest first");
 }
 
 #[test]
@@ -226,8 +234,8 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         assert_eq!(new.fabric, "cotton_shirting_light");
         bench.send(Message::StudyCreated("study-1".into(), Err("the folder is there".into())));
         assert!(bench.screen().contains("✗ the folder is there"));
-        bench.state.update(Message::StudyCreated("study-1".into(), Ok("studies/study-1/study.toml".into())));
-        assert!(bench.state.overlay.is_none() && bench.state.focus.study.as_deref() == Some("study-1"));
+        bench.app.update(Message::StudyCreated("study-1".into(), Ok("studies/study-1/study.toml".into())));
+        assert!(bench.app.state.overlay.is_none() && bench.app.state.focus.study.as_deref() == Some("study-1"));
     }
 }
 
@@ -238,8 +246,8 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
     assert!(bench.screen().contains("another process"), "{}", bench.screen());
     bench.press("R");
     assert!(bench.asked().contains(&Effect::Watch(Some(JobId(7)))));
-    let at = |k: usize| geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
-    let positions: Vec<_> = (0..400).map(at).collect();
+    let vertex = |k: usize| geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
+    let positions: Vec<_> = (0..400).map(vertex).collect();
     bench.send(Message::Live(LiveFrame { job: JobId(7), positions }));
     let screen = bench.screen();
     assert!(screen.contains("residual 5.5e-2") && screen.chars().any(|c| ('⠁'..='⣿').contains(&c)), "{screen}");
@@ -251,21 +259,21 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
 fn what_was_looked_at_is_remembered() {
     let mut bench = Bench::example(80, 24);
     bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
-    let memory = Session::of(&bench.state);
-    let abilities = bench.state.setup.abilities;
-    let mut state = State::new(bench.state.theme, abilities, bench.state.terminal.size);
-    let focus = bench.state.focus.clone();
-    memory.clone().restore(&mut state);
+    let memory = Session::of(&bench.app);
+    let abilities = bench.app.state.setup.abilities;
+    let mut app = App::new(bench.app.state.theme, abilities, bench.app.state.terminal.size);
+    let focus = bench.app.state.focus.clone();
+    memory.clone().restore(&mut app);
     assert_eq!(
-        (state.nav.screen, &state.focus.job, &state.nav.filters),
-        (Screen::Styles, &focus.job, &bench.state.nav.filters)
+        (app.state.nav.screen, &app.state.focus.job, &app.state.nav.filters),
+        (Screen::Styles, &focus.job, &bench.app.state.nav.filters)
     );
     assert_eq!(
-        (state.jobs.order, state.compare.marks.len(), state.sql.editor.text()),
-        (bench.state.jobs.order, 1, "select 1")
+        (app.screens.jobs.order, app.state.marks.len(), app.screens.sql.editor.text()),
+        (bench.app.screens.jobs.order, 1, "select 1")
     );
-    state.update(Message::Data(Box::new(fixture::snapshot())));
-    assert_eq!(Session::of(&state), memory, "and still is once the database was read");
+    app.update(Message::Data(Box::new(fixture::snapshot())));
+    assert_eq!(Session::of(&app), memory, "and still is once the database was read");
 }
 
 #[test]
@@ -315,13 +323,13 @@ fn the_brake_stops_a_query_that_would_never_end() {
 fn escape_closes_the_form_of_a_study() {
     let mut bench = Bench::example(80, 24);
     bench.press("a");
-    assert!(matches!(bench.state.overlay, Some(Overlay::StudyForm(_))));
-    assert!(bench.press("<Esc>").state.overlay.is_none());
+    assert!(matches!(bench.app.state.overlay, Some(Overlay::StudyForm(_))));
+    assert!(bench.press("<Esc>").app.state.overlay.is_none());
 }
 
 /// The form of a new study after some keys.
 fn form(keys: &str) -> Option<StudyForm> {
-    match Bench::example(80, 24).press("a").press(keys).state.overlay.take() {
+    match Bench::example(80, 24).press("a").press(keys).app.state.overlay.take() {
         Some(Overlay::StudyForm(form)) => Some(*form),
         _ => None,
     }
@@ -354,9 +362,9 @@ fn escape_leaves_the_part_before_the_form_and_enter_makes_it_at_the_last() {
     check("<Enter>/t<Esc><Esc>", true);
     check("<Enter>/t<Enter><Esc><Esc><Esc>", false);
     check("<Enter><C-c>", false);
-    let made = |keys: &str| form(keys).expect("open").is_busy;
+    let made = |keys: &str| form(keys).expect("open").sending.is_busy;
     assert!(!made("<Enter> <Enter> <Enter><Enter>"), "at the last part, not made yet");
     assert!(made("<Enter> <Enter> <Enter><Enter><Enter>"));
     assert!(made("<Enter> <Enter> <F5>"));
-    assert!(form("<F5>").expect("open").problem.is_some_and(|problem| problem.contains("choose a size")));
+    assert!(form("<F5>").expect("open").sending.problem.is_some_and(|problem| problem.contains("choose a size")));
 }

@@ -1,4 +1,4 @@
-//! What keys do on the Styles screen.
+//! Keys on the Styles screen.
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
@@ -16,13 +16,13 @@ use wardrobe::{Part, StyleGiven};
 
 /// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {
-    bench.state.layout().expect("laid out").expect("it fits").out.desk.seams.clone()
+    bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.desk.seams.clone()
 }
 
 /// Name of the selected edge's seam.
 fn seam(bench: &Bench) -> String {
-    let layout = bench.state.layout().expect("laid out").expect("it fits");
-    layout.seam_at(bench.state.styles.edge).map_or("none".into(), |k| layout.out.desk.seams[k].name.clone())
+    let layout = bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits");
+    layout.seam_at(bench.app.screens.styles.edge).map_or("none".into(), |k| layout.out.desk.seams[k].name.clone())
 }
 
 /// The seam file that is to be saved.
@@ -36,7 +36,9 @@ fn saved(bench: &mut Bench) -> SourceFile {
 #[test]
 fn sizes_are_chosen_and_filtered_and_each_is_laid_out_once() {
     let mut bench = Bench::example(80, 24);
-    let size = |bench: &Bench| bench.state.size_row().map_or("", |row| row.size.as_str()).to_owned();
+    let size = |bench: &Bench| {
+        bench.app.screens.styles.size_row(&bench.app.state).map_or("", |row| row.size.as_str()).to_owned()
+    };
     bench.press("3");
     assert_eq!((size(&bench).as_str(), seams(&bench).len()), ("S", 8));
     assert_eq!(size(bench.press("j")), "M");
@@ -52,27 +54,28 @@ fn lines_and_edges_are_walked_together() {
     let mut bench = Bench::example(160, 50);
     bench.press("3<Enter>");
     let first = seams(&bench)[0].clone();
-    assert_eq!((seam(&bench), bench.state.styles.edge), (first.name.clone(), first.a[0]));
+    assert_eq!((seam(&bench), bench.app.screens.styles.edge), (first.name.clone(), first.a[0]));
     bench.press("j");
     assert_eq!(seam(&bench), seams(&bench)[1].name);
     bench.press("g");
-    let pieces = bench.state.layout().expect("laid out").expect("it fits").out.desk.pieces.clone();
+    let pieces =
+        bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.desk.pieces.clone();
     let edges: usize = pieces.iter().map(|piece| piece.edges.len()).sum();
-    let start = bench.state.styles.edge;
+    let start = bench.app.screens.styles.edge;
     for _ in 0..edges {
         bench.press("l");
-        let line = bench.state.table_line().expect("a line");
+        let line = bench.app.screens.styles.table_line(&bench.app.state).expect("a line");
         let name = seam(&bench);
-        assert!(name == "none" || line == TableLine::Seam(bench.state.styles.line));
+        assert!(name == "none" || line == TableLine::Seam(bench.app.screens.styles.line));
         assert!(bench.screen().contains(&format!(
             "{}.{}",
-            pieces[bench.state.styles.edge.0].id,
-            bench.state.styles.edge.1 + 1
+            pieces[bench.app.screens.styles.edge.0].id,
+            bench.app.screens.styles.edge.1 + 1
         )));
     }
-    assert_eq!(bench.state.styles.edge, start, "all the way round");
+    assert_eq!(bench.app.screens.styles.edge, start, "all the way round");
     bench.press("G");
-    assert!(matches!(bench.state.table_line(), Some(TableLine::Length(_))));
+    assert!(matches!(bench.app.screens.styles.table_line(&bench.app.state), Some(TableLine::Length(_))));
     assert!(bench.screen().contains("Hem Circumference"));
 }
 
@@ -90,11 +93,11 @@ fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
     assert!(bench.press("a").status().contains("m marks an edge"));
 
     bench.press(" ");
-    assert_eq!(bench.state.styles.marks, [a]);
-    bench.state.styles.edge = b;
+    assert_eq!(bench.app.screens.styles.marks, [a]);
+    bench.app.screens.styles.edge = b;
     bench.press("a");
     assert_eq!(seams(&bench).len(), before.len(), "{}", bench.status());
-    assert!(bench.state.styles.marks.is_empty());
+    assert!(bench.app.screens.styles.marks.is_empty());
     assert_eq!(seam(&bench), seams(&bench)[before.len() - 1].name);
     let was_turned = seams(&bench)[before.len() - 1].same_direction;
     bench.press("f");
@@ -127,10 +130,10 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     let before = seams(&bench);
     bench.press("xjx");
     let [one, other] = [before[0].a[0], before[2].a[0]];
-    let layout = bench.state.layout().expect("laid out").expect("it fits");
+    let layout = bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits");
     let mm = |(piece, edge): (usize, usize)| layout.out.desk.pieces[piece].edges[edge].length_mm;
     assert!((mm(one) - mm(other)).abs() > 1.0, "the example needs unlike edges");
-    bench.state.styles.marks = vec![one, other];
+    bench.app.screens.styles.marks = vec![one, other];
     bench.press("a");
     assert!(bench.screen().contains("mm of ease (ratio"), "{}", bench.screen());
     bench.press("n");
@@ -142,7 +145,7 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
 
 /// Number of things to decide.
 fn undecided(bench: &Bench) -> usize {
-    bench.state.layout().expect("laid out").expect("it fits").out.undecided.len()
+    bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.undecided.len()
 }
 
 #[test]
@@ -175,7 +178,11 @@ fn proposed_seams_are_confirmed_one_by_one() {
         bench.press("y");
     }
     assert_eq!((unsure(&bench), undecided(&bench)), (0, 0), "nothing is left to ask");
-    assert!(bench.state.styles.asking.is_none() && bench.status().contains("all is decided"), "{}", bench.status());
+    assert!(
+        bench.app.screens.styles.asking.is_none() && bench.status().contains("all is decided"),
+        "{}",
+        bench.status()
+    );
     assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
 }
 
@@ -190,7 +197,7 @@ fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
     assert_eq!((seams(&bench).len(), undecided(&bench)), (before.len(), 0), "{}", bench.status());
     bench.press("o");
     assert!(bench.screen().contains("1 not at all: leave it out"), "{}", bench.screen());
-    assert!(bench.press("<Esc>").state.styles.asking.is_none() && bench.state.nav.screen == Screen::Styles);
+    assert!(bench.press("<Esc>").app.screens.styles.asking.is_none() && bench.app.state.nav.screen == Screen::Styles);
     assert!(bench.press("<Enter>").status().contains("nothing is left to decide"));
 }
 
@@ -198,8 +205,9 @@ fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
 fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     let mut bench = Bench::example(160, 50);
     let sewn = |bench: &Bench| -> Vec<PreviewRequest> {
-        let of = |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
-        bench.effects.iter().filter_map(of).collect()
+        let preview =
+            |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
+        bench.effects.iter().filter_map(preview).collect()
     };
     bench.press("3");
     let first = sewn(&bench).pop().expect("it is asked for");
@@ -236,7 +244,7 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     let given = StyleGiven { is_proposed: true, patterns: vec![(None, "titan.dxf".into())], ..Default::default() };
     assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given.clone()))]);
     bench.send(Message::Saved(Err("pattern: titan.dxf: no unit; accepted: a file that names its unit".into())));
-    let Some(Overlay::StyleForm(form)) = &bench.state.overlay else { panic!("the form stays") };
+    let Some(Overlay::StyleForm(form)) = &bench.app.state.overlay else { panic!("the form stays") };
     assert_eq!(form.at, 3, "the unit is asked for");
     bench.press("yard<F5>");
     assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in, m"));
@@ -244,8 +252,8 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     let given = StyleGiven { unit: Some("mm".into()), ..given };
     assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given))]);
     bench.send(Message::Saved(Ok("style titan is added".into())));
-    assert!(bench.state.overlay.is_none() && bench.status().contains("titan is added"));
-    assert!(bench.press("i<F5>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
+    assert!(bench.app.state.overlay.is_none() && bench.status().contains("titan is added"));
+    assert!(bench.press("i<F5>").asked().is_empty() && bench.app.state.overlay.is_none(), "no path, no import");
 }
 
 #[test]
@@ -262,9 +270,9 @@ fn removing_asks_and_readonly_changes_nothing() {
     let mut bench = Bench::new(80, 24, fixture::empty());
     assert!(bench.press("3").screen().contains("no styles yet: i imports one"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no size is selected"));
-    bench.state.setup.abilities.run = false;
+    bench.app.state.setup.abilities.run = false;
     for keys in ["a", "x", "f", "p", "w", "i", "d", " ", "e", "o"] {
-        assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
+        assert!(bench.press(keys).status().contains("read-only") && bench.app.state.overlay.is_none(), "{keys}");
     }
 }
 
@@ -272,8 +280,8 @@ fn removing_asks_and_readonly_changes_nothing() {
 fn the_palette_reaches_seams_from_anywhere_and_glyphs_need_no_colour() {
     let mut bench = Bench::example(80, 24);
     bench.press("4:save-seams<Enter>");
-    assert!(bench.state.nav.screen == Screen::Styles && bench.status().contains("nothing to save"));
-    bench.state.theme.colours = Colours::None;
+    assert!(bench.app.state.nav.screen == Screen::Styles && bench.status().contains("nothing to save"));
+    bench.app.state.theme.colours = Colours::None;
     bench.press("<Enter> l");
     let screen = bench.screen();
     for glyph in ["●", "◆", "A  ", "✓"] {
@@ -281,7 +289,7 @@ fn the_palette_reaches_seams_from_anywhere_and_glyphs_need_no_colour() {
     }
     let wide = bench.press("z").screen();
     assert!(wide.contains("front") && wide.matches('●').count() > screen.matches('●').count() / 2);
-    assert!(!bench.press("<Esc>").state.styles.enlarged);
+    assert!(!bench.press("<Esc>").app.screens.styles.enlarged);
 }
 
 #[test]
@@ -318,11 +326,15 @@ fn seams_are_written_by_hand_in_an_editor() {
     let Writing::Seams(_, file) = &what else { return };
     let text = String::from_utf8_lossy(&file.bytes).into_owned();
     bench.send(Message::Written(Box::new(what.clone()), Ok(text.clone())));
-    assert!(bench.status().contains("as they were") && bench.state.styles.edits.is_empty());
+    assert!(bench.status().contains("as they were") && bench.app.screens.styles.edits.is_empty());
     bench.send(Message::Written(Box::new(what.clone()), Ok(format!("# mine\n{text}"))));
     assert!(saved(&mut bench).bytes.starts_with(b"# mine\n"), "{}", bench.status());
     bench.send(Message::Written(Box::new(what.clone()), Ok("name = 1".into())));
-    assert!(bench.state.styles.edits["tshirt"].len() == 1 && !bench.status().contains("done"), "{}", bench.status());
+    assert!(
+        bench.app.screens.styles.edits["tshirt"].len() == 1 && !bench.status().contains("done"),
+        "{}",
+        bench.status()
+    );
     bench.send(Message::Written(Box::new(what), Err("vi: not found".into())));
     assert!(bench.status().contains("not found"));
     bench.press("7<Esc>E");

@@ -1,6 +1,7 @@
-//! What keys do on the Subjects screen.
+//! Keys on the Subjects screen.
 
 use super::{Bench, fixture};
+use crate::app::App;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
@@ -12,7 +13,7 @@ use store::SubjectId;
 use wardrobe::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {
-    bench.state.subject().map_or("", |row| row.name.as_str())
+    bench.app.screens.subjects.selected(&bench.app.state).map_or("", |row| row.name.as_str())
 }
 
 /// The last thing that was asked for, when it is a subject to save.
@@ -36,7 +37,11 @@ fn subjects_are_chosen_sorted_and_filtered() {
     check("2sssS", "anna");
     check("2/MALE-<Enter>n", "male-ii");
     check("2/female<Enter>", "anna");
-    let first = |keys: &str| Bench::example(80, 24).press(keys).state.subjects()[0].name.clone();
+    let first = |keys: &str| {
+        let mut bench = Bench::example(80, 24);
+        let App { state, screens } = &bench.press(keys).app;
+        screens.subjects.shown(state)[0].name.clone()
+    };
     assert_eq!(first("2s"), "anna", "female before male");
     assert_eq!(first("2sss"), "male-ii", "the lightest");
     assert_eq!(first("2sssS"), "anna", "whose weight is not known is last, here first");
@@ -70,7 +75,7 @@ fn a_new_subject_is_filled_in_checked_and_saved() {
     data.subjects[1].name = "eva".into();
     bench.send(Message::Saved(Ok("subject eva is added".into())));
     bench.send(Message::Data(Box::new(data)));
-    assert!(bench.state.overlay.is_none());
+    assert!(bench.app.state.overlay.is_none());
     assert_eq!((selected(&bench), bench.status().as_str()), ("eva", "subject eva is added"));
 }
 
@@ -80,7 +85,7 @@ fn an_edit_starts_from_what_is_known_and_keeps_the_name() {
     bench.press("2je");
     assert!(bench.screen().contains("edit male-i: a new revision"));
     bench.press("<S-Tab><S-Tab>");
-    let Some(Overlay::Form(form)) = &bench.state.overlay else { panic!("a form") };
+    let Some(Overlay::Form(form)) = &bench.app.state.overlay else { panic!("a form") };
     assert_eq!(form.at, form.texts.len() - 1, "the name is passed by");
     bench.press("<Tab><Tab><Tab><Backspace><Backspace>60<F5>");
     let (mode, name, given) = saved(&mut bench);
@@ -103,8 +108,8 @@ fn files_are_imported_and_their_errors_read() {
     assert!(screen.contains("✗ people.csv:3: no name") && screen.contains("  people.csv:4: no sex"), "{screen}");
     bench.press("<Enter>").asked();
     bench.send(Message::Saved(Ok("2 subjects: 2 added".into())));
-    assert!(bench.state.overlay.is_none() && bench.status().contains("2 added"));
-    assert!(bench.press("i<Enter>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
+    assert!(bench.app.state.overlay.is_none() && bench.status().contains("2 added"));
+    assert!(bench.press("i<Enter>").asked().is_empty() && bench.app.state.overlay.is_none(), "no path, no import");
 }
 
 #[test]
@@ -120,16 +125,18 @@ fn removing_asks() {
 fn the_palette_reaches_subjects_from_anywhere_and_jobs_are_left_alone() {
     let mut bench = Bench::example(80, 24);
     bench.press("4:add-subject<Enter>");
-    assert!(bench.state.nav.screen == Screen::Subjects && matches!(bench.state.overlay, Some(Overlay::Form(_))));
+    assert!(
+        bench.app.state.nav.screen == Screen::Subjects && matches!(bench.app.state.overlay, Some(Overlay::Form(_)))
+    );
     bench.press("<Esc>xr");
-    assert!(bench.asked().is_empty() && bench.state.overlay.is_none(), "no job is cancelled from here");
+    assert!(bench.asked().is_empty() && bench.app.state.overlay.is_none(), "no job is cancelled from here");
 
     let mut bench = Bench::new(80, 24, fixture::empty());
     assert!(bench.press("2").screen().contains("no subjects yet: a adds one"), "{}", bench.screen());
     assert!(bench.press("e").status().contains("no subject is selected"));
-    bench.state.setup.abilities.run = false;
+    bench.app.state.setup.abilities.run = false;
     for keys in ["a", "e", "i", "d"] {
-        assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
+        assert!(bench.press(keys).status().contains("read-only") && bench.app.state.overlay.is_none(), "{keys}");
     }
 }
 
@@ -152,7 +159,7 @@ fn bodies_are_built_when_seen_and_measured_without_pictures_too() {
     );
     assert!(asked[0].columns >= 24 && asked[0].rows >= 18);
     assert!(bench.screen().contains("931.3"));
-    bench.state.setup.abilities.pictures = false;
+    bench.app.state.setup.abilities.pictures = false;
     bench.press("j");
     assert_eq!(requests(&mut bench)[0].columns, 0);
     assert!(bench.screen().contains("pictures are off"));

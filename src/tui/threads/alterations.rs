@@ -22,7 +22,7 @@ pub fn serve(database: &Path, wanted: &Receiver<AlterRequest>, sender: &Sender<M
     }
 }
 
-/// What to change of a size, as the study's file has it now.
+/// The change of a size, as the study's file has it now.
 pub fn alteration(store: &Store, request: &AlterRequest) -> Result<Alteration, StudyError> {
     let study = run::load_study(store, &request.study)?;
     let wish = Wish::of(&request.garment, &request.subject, &request.size);

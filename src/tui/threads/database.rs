@@ -15,7 +15,7 @@ use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const POLL: Duration = Duration::from_millis(250);
 
-/// What the thread is asked for.
+/// A request to the thread of the database.
 pub enum Request {
     /// Read what the screens show.
     Read(Focus),
@@ -55,41 +55,48 @@ pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) 
     }
 }
 
-/// What the thread of the database keeps.
+/// State of the thread of the database.
 struct Reader {
     store: Store,
     focus: Focus,
-    /// What was read last: of which version of the database, and of which focus.
-    last: Option<(i64, Focus, Snapshot)>,
+    last: Option<Reading>,
     /// Time to the next look.
     rest: Duration,
+}
+
+/// A reading of the database.
+struct Reading {
+    /// Version of the database that was read.
+    version: i64,
+    focus: Focus,
+    data: Snapshot,
 }
 
 impl Reader {
     /// Reads what is shown, where it is wanted or anything was written; after a long read the next look comes later.
     fn read(&mut self, is_wanted: bool) -> Result<Option<Snapshot>, StudyError> {
         let version = self.store.version()?;
-        if !is_wanted && self.last.as_ref().is_some_and(|(of, ..)| *of == version) {
+        if !is_wanted && self.last.as_ref().is_some_and(|last| last.version == version) {
             return Ok(None);
         }
-        let known = self.last.take().filter(|(of, ..)| *of == version);
+        let known = self.last.take().filter(|last| last.version == version);
         let start = Instant::now();
         let is_same = |focus: &Focus| (&focus.study, &focus.garment) == (&self.focus.study, &self.focus.garment);
-        let data = match known.filter(|(_, focus, _)| is_same(focus)) {
-            Some((.., before)) => reading::refocused(&self.store, before, &self.focus)?,
+        let data = match known.filter(|known| is_same(&known.focus)) {
+            Some(before) => reading::refocused(&self.store, before.data, &self.focus)?,
             None => reading::snapshot(&self.store, &self.focus)?,
         };
         self.rest = POLL.max(2 * start.elapsed());
-        let shown = Focus {
+        let focus = Focus {
             study: data.study().map(|study| study.name.clone()),
             garment: data.grid.as_ref().map(|grid| grid.garment.clone()),
             ..self.focus.clone()
         };
-        self.last = Some((version, shown, data.clone()));
+        self.last = Some(Reading { version, focus, data: data.clone() });
         Ok(Some(data))
     }
 
-    /// Acts, and says what came of it.
+    /// Acts; returns the message about the outcome.
     fn carry_out(&mut self, command: Command) -> Message {
         let done = carry_out(&mut self.store, &command).map_err(|error| error.to_string());
         match (command, done) {
@@ -101,7 +108,7 @@ impl Reader {
     }
 }
 
-/// Acts on the queue or the catalogue; says what was done.
+/// Acts on the queue or the catalogue; returns a line on what was done.
 pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyError> {
     match command {
         Command::Save(part, mode, name, given) => {
@@ -170,7 +177,7 @@ fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<Str
     Ok(proposed + &said(&saved))
 }
 
-/// What was saved, in a line.
+/// The saved entries, in a line.
 fn said(saved: &[Saved]) -> String {
     match saved {
         [first, _, _, _, ..] => format!("{first}, and {} more", saved.len() - 1),

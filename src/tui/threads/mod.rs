@@ -14,7 +14,7 @@ mod seams;
 mod sections;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -33,9 +33,9 @@ use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use store::{JobId, Live, Store};
 
-/// The threads, and what they say.
+/// The threads, and their messages.
 pub struct Threads {
-    /// What they say.
+    /// Their messages.
     pub messages: Receiver<Message>,
     /// The keyboard that one of them reads.
     pub keyboard: Keyboard,
@@ -68,26 +68,24 @@ impl Threads {
         let own = keyboard.clone();
         spawn(&sender, move |sender| input::read_keys(&own, sender));
         spawn(&sender, input::watch_signals);
-        let here = || path.clone();
-        let (of_pictures, of_sections, of_seams, of_previews, of_queries, of_files, cancelled) =
-            (here(), here(), here(), here(), here(), here(), canceller.clone());
-        let slot = Slot::default();
+        let (slot, cancelled) = (Slot::default(), canceller.clone());
         let shown = slot.clone();
-        let (of_alterations, of_drapes) = (here(), here());
         Self {
-            database: serve(&sender, |asked, sender| database::serve(store, asked, sender)),
-            pictures: serve(&sender, move |asked, sender| {
-                pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, &shown, sender);
+            database: serve(&sender, &path, |_, asked, sender| database::serve(store, asked, sender)),
+            pictures: serve(&sender, &path, move |path, asked, sender| {
+                pictures::serve(path, readonly, encoder.as_ref(), asked, &shown, sender);
             }),
-            sections: serve(&sender, move |asked, sender| sections::serve(&of_sections, readonly, asked, sender)),
-            alterations: serve(&sender, move |asked, sender| alterations::serve(&of_alterations, asked, sender)),
-            drapes: serve(&sender, move |asked, sender| alterations::serve(&of_drapes, asked, sender)),
-            seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
-            previews: serve(&sender, move |asked, sender| {
-                previews::serve(&of_previews, readonly, asked, &slot, sender)
+            sections: serve(&sender, &path, move |path, asked, sender| sections::serve(path, readonly, asked, sender)),
+            alterations: serve(&sender, &path, alterations::serve),
+            drapes: serve(&sender, &path, alterations::serve),
+            seams: serve(&sender, &path, move |path, asked, sender| seams::serve(path, readonly, asked, sender)),
+            previews: serve(&sender, &path, move |path, asked, sender| {
+                previews::serve(path, readonly, asked, &slot, sender)
             }),
-            queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
-            files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
+            queries: serve(&sender, &path, move |path, asked, sender| queries::serve(path, &cancelled, asked, sender)),
+            files: serve(&sender, &path, move |path, asked, sender| {
+                files::serve(path, readonly, &reports, asked, sender)
+            }),
             messages,
             keyboard,
             sender,
@@ -157,13 +155,15 @@ impl Threads {
     }
 }
 
-/// Starts a thread that answers what it is asked through the returned end.
+/// Starts a thread that works with the database at a path and answers what it is asked through the returned end.
 fn serve<T: Send + 'static>(
     sender: &Sender<Message>,
-    work: impl FnOnce(&Receiver<T>, &Sender<Message>) + Send + 'static,
+    path: &Path,
+    work: impl FnOnce(&Path, &Receiver<T>, &Sender<Message>) + Send + 'static,
 ) -> Sender<T> {
     let (asks, asked) = mpsc::channel();
-    spawn(sender, move |sender| work(&asked, sender));
+    let path = path.to_owned();
+    spawn(sender, move |sender| work(&path, &asked, sender));
     asks
 }
 

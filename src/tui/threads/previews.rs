@@ -40,7 +40,7 @@ pub fn serve(
         let outcome = match room.dress(&request, &is_stale) {
             Err(StudyError::Interrupted) => continue,
             Err(error) => Err(error.to_string()),
-            Ok((subject, fabric, preview)) => {
+            Ok(Dressed { subject, fabric, preview }) => {
                 let (hung, remarks) = (preview.hung, preview.remarks.clone());
                 *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some((request.number, preview));
                 let took_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
@@ -53,18 +53,23 @@ pub fn serve(
     }
 }
 
+/// A garment on its subject.
+struct Dressed {
+    /// Name of the subject.
+    subject: String,
+    /// Name of the cloth.
+    fabric: String,
+    preview: Preview,
+}
+
 struct Room {
     store: Result<Store, String>,
     ready: Option<(SubjectId, Mannequin)>,
 }
 
 impl Room {
-    /// The garment of a request on its subject, with the names of the subject and the cloth.
-    fn dress(
-        &mut self,
-        request: &PreviewRequest,
-        is_stale: &dyn Fn() -> bool,
-    ) -> Result<(String, String, Preview), StudyError> {
+    /// Sews the garment of a request on its subject.
+    fn dress(&mut self, request: &PreviewRequest, is_stale: &dyn Fn() -> bool) -> Result<Dressed, StudyError> {
         let store = self.store.as_ref().map_err(|error| StudyError::refused(Origin::Store, error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {
             self.ready = Some((request.subject, mannequin(store, request.subject)?));
@@ -73,7 +78,7 @@ impl Room {
         let stored = catalogue::workpiece(store, request.size.key)?;
         let piece = Workpiece { seams: request.size.seams.clone().or(stored.seams.clone()), ..stored };
         let cloth = catalogue::cloth(store, request.fabric.as_deref())?;
-        let seen = mannequin.dressed_in(&piece, &cloth, request.care, is_stale)?;
-        Ok((mannequin.name.clone(), cloth.name, seen))
+        let preview = mannequin.dressed_in(&piece, &cloth, request.care, is_stale)?;
+        Ok(Dressed { subject: mannequin.name.clone(), fabric: cloth.name, preview })
     }
 }

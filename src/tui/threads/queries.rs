@@ -1,4 +1,4 @@
-//! The thread that asks the database what users ask in SQL. It has a connection of its own, so that the screens go on
+//! The thread that answers queries in SQL. It has a connection of its own, so that the screens go on
 //! while a long query runs.
 
 use std::path::Path;
@@ -16,7 +16,7 @@ use wardrobe::catalogue;
 /// Rows that are shown of an answer; a file gets all.
 const MOST_ROWS: usize = 20_000;
 
-/// Stops what the thread works on.
+/// Stops the query that the thread works on.
 #[derive(Clone, Default)]
 pub struct Canceller {
     is_on: Arc<AtomicBool>,
@@ -103,7 +103,7 @@ fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
     Ok(format!("{from} is {to} now"))
 }
 
-/// What a query may name, and the saved ones.
+/// Tables and views that a query may name, and the saved queries.
 fn names(store: Result<&Store, String>, folder: &Path) -> Message {
     let names = store.and_then(|store| {
         let names = sql::relations(store).and_then(|known| Ok((known, saved_queries(Some(folder))?)));

@@ -1,4 +1,4 @@
-//! Reading what the screens show, in one go.
+//! Reading the contents that the screens show, in one go.
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use engine::enqueue;
@@ -46,7 +46,7 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     Ok(snapshot)
 }
 
-/// What was read before, with what another job or comparison needs; for when nothing was written since.
+/// Updates an earlier reading for another job or comparison, where nothing was written since.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -70,7 +70,7 @@ fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result
     Ok(())
 }
 
-/// How the garment looked at sits on the wearer; a card without sizes where no ease is known of them.
+/// Fit of the garment looked at on the wearer; a card without sizes where no ease is known of them.
 fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
     let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
     match draped_fit::worn(store, &grid.study, Some(&grid.garment), Some(subject)) {

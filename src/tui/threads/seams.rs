@@ -24,9 +24,9 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sende
                     let layout = store.and_then(|it| lay_out(it, &request).map_err(|error| error.to_string()));
                     Message::LaidOut(Box::new(request), layout.map(Box::new))
                 }
-                SeamTask::Sew(request, step) => {
-                    let seams = store.and_then(|it| sew(it, &request, &step).map_err(|error| error.to_string()));
-                    Message::Sewn(Box::new((request, step)), seams)
+                SeamTask::Sew(work) => {
+                    let seams = store.and_then(|it| sew(it, &work.size, &work.step).map_err(|error| error.to_string()));
+                    Message::Sewn(Box::new(work), seams)
                 }
             };
             if sender.send(message).is_err() {

@@ -83,7 +83,7 @@ pub fn translate(buffer: &mut Buffer) {
     }
 }
 
-/// What stands for a sign; `?` for one that nobody thought of.
+/// ASCII letter that stands for a sign; `?` for one without a stand-in.
 pub fn stand_in(sign: char) -> char {
     if ('\u{2800}'..='\u{28ff}').contains(&sign) {
         return DENSITY[(sign as u32 - 0x2800).count_ones() as usize];

@@ -36,7 +36,7 @@ const WORDS: [&str; 24] = [
 /// Edits that can be taken back.
 const REMEMBERED: usize = 100;
 
-/// By whose keys a text is edited.
+/// Style of editing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Editing {
     /// Those of readline: letters are typed, keys with Ctrl and Alt move and cut.
@@ -46,7 +46,7 @@ pub enum Editing {
     Vim,
 }
 
-/// What a key with a letter does.
+/// Meaning of a key with a letter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// It types the letter.
@@ -59,16 +59,15 @@ pub enum Mode {
 /// A text and the place in it where typing goes on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
-    /// What is written, lines parted by `
-    /// `.
+    /// The text; lines are separated by line feeds.
     text: String,
-    /// Where the cursor is, a byte of `text` between characters.
+    /// Place of the cursor, a byte of `text` between characters.
     pub(super) cursor: usize,
     editing: Editing,
     pub(super) mode: Mode,
     /// The operator that waits for a motion.
     pub(super) pending: Option<char>,
-    /// What was cut or copied last; whole lines end with the end of a line.
+    /// The text cut or copied last; whole lines end with the end of a line.
     pub(super) killed: String,
     /// Texts and cursors before the latest edits of normal mode.
     before_edits: Vec<(String, usize)>,
@@ -79,16 +78,16 @@ pub struct Editor {
 /// Words that the one before the cursor may become.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
-    /// Where the word begins.
+    /// Byte at which the word begins.
     start: usize,
-    /// What the word may become, in order.
+    /// Words that it may become, in order.
     pub words: Vec<String>,
     /// The one put into the text; `None` while they are only offered.
     pub taken: Option<usize>,
 }
 
 impl Editor {
-    /// What is written.
+    /// The text.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -116,7 +115,7 @@ impl Editor {
         self.editing = editing;
     }
 
-    /// What letters do, where that changes.
+    /// Meaning of letters, where that changes.
     #[must_use]
     pub fn mode(&self) -> Option<Mode> {
         (self.editing == Editing::Vim).then_some(self.mode)
@@ -138,7 +137,7 @@ impl Editor {
         self.text[self.cursor..].find('\n').map_or(self.text.len(), |at| self.cursor + at)
     }
 
-    /// Handles a key; returns whether it was one for the editor.
+    /// Handles a key; returns true if it was one for the editor.
     pub fn key(&mut self, event: &KeyEvent, relations: &[Relation]) -> bool {
         let [ctrl, alt] = [KeyModifiers::CONTROL, KeyModifiers::ALT].map(|modifier| event.modifiers.contains(modifier));
         match event.code {
@@ -246,7 +245,7 @@ impl Editor {
         at + self.text[at..].chars().next().map_or(0, char::len_utf8)
     }
 
-    /// Where the next word or sign begins.
+    /// Byte at which the next word or sign begins.
     pub(super) fn next_word(&self) -> usize {
         let kind = self.text[self.cursor..].chars().next().map(is_of_word);
         let rest = |from: usize, is_passed: &dyn Fn(char) -> bool| {
@@ -272,7 +271,7 @@ impl Editor {
         self.text[start..].find(|c| !is_of_word(c)).map_or(self.text.len(), |at| start + at)
     }
 
-    /// Where the word before the cursor begins, blanks after it left out.
+    /// Byte at which the word before the cursor begins, blanks after it left out.
     pub(super) fn word_start(&self) -> usize {
         let trimmed = self.text[..self.cursor].trim_end();
         trimmed.rfind(|c: char| !is_of_word(c)).map_or(0, |at| {

@@ -1,4 +1,4 @@
-//! Letters on what is to be seen, and where each leads.
+//! Labels of places on the screen, and the goals of jumps to them.
 
 use ratatui::layout::{Margin, Position, Rect};
 
@@ -7,7 +7,7 @@ use crate::widgets::lists::first_shown;
 /// Letters of labels, those under the fingers first.
 const LETTERS: &[u8; 26] = b"asdfghjklqwertyuiopzxcvbnm";
 
-/// Where a jump leads.
+/// Goal of a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// To a pane of the screen, the first is 0.
@@ -21,9 +21,9 @@ pub enum Goal {
 /// A place on the screen and where a jump to it leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Where its letters stand.
+    /// Cell in which its letters stand.
     pub at: Position,
-    /// Where it leads.
+    /// Its goal.
     pub goal: Goal,
 }
 

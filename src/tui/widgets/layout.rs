@@ -1,4 +1,4 @@
-//! Where things lie on the screen.
+//! Layout of the screen.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
@@ -12,7 +12,7 @@ pub fn rows(area: Rect) -> [Rect; 3] {
     Layout::vertical([Constraint::Length(1), Constraint::Fill(1), Constraint::Length(1)]).areas(area)
 }
 
-/// Whether there is only room for lists.
+/// True if there is only room for lists.
 pub fn is_narrow(area: Rect) -> bool {
     area.width < NARROW.0 || area.height < NARROW.1
 }

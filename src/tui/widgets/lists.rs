@@ -27,6 +27,28 @@ pub fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
+/// The lines of as many rows as there is room for, those around the selected one; without a style, none is set off.
+pub fn listed<T>(
+    rows: &[T],
+    selected: usize,
+    room: usize,
+    style: impl Into<Option<Style>>,
+    line: impl Fn(&T) -> Line<'static>,
+) -> Vec<Line<'static>> {
+    let style = style.into();
+    let shown = rows.iter().enumerate().skip(first_shown(selected, rows.len(), room)).take(room);
+    let lines = shown.map(|(k, row)| match style.filter(|_| k == selected) {
+        Some(style) => selected_line(line(row), style),
+        None => line(row),
+    });
+    lines.collect()
+}
+
+/// The line in the place of rows, where a filter leaves none or there are none at all.
+pub fn no_rows(filter: &str, filtered: &'static str, none: &'static str) -> Line<'static> {
+    Line::raw(if filter.is_empty() { none } else { filtered })
+}
+
 /// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
 /// the header says that there is more.
 pub fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {

@@ -1,4 +1,4 @@
-//! What screens are drawn and typed with: they know nothing of the state.
+//! Tools for drawing and typing, which know nothing of the state.
 
 pub mod ascii;
 pub mod braille;

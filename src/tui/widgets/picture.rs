@@ -1,4 +1,4 @@
-//! Pictures in the terminal: what is asked for, and how pixels become cells.
+//! Pictures in the terminal: requests for them, and how pixels become cells.
 //!
 //! Nothing is asked of the terminal: its answer may come late, or take the first key with it (tmux: 1.8 s). What the
 //! environment and the window size say is enough; otherwise half blocks, which every terminal can show.
@@ -15,7 +15,7 @@ use render::View;
 use results::{Look, Map};
 use store::{JobId, SubjectId};
 
-/// How pictures are shown.
+/// Way in which pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Images {
     /// As pixels where the environment says that the terminal can, as half blocks otherwise.
@@ -56,7 +56,7 @@ pub fn view_of(look: Look) -> Option<View> {
     View::ALL.into_iter().find(|view| view.azimuth_deg() as i32 == look.azimuth_deg)
 }
 
-/// What a look is called: its view, or its angle; its enlargement.
+/// Name of a look: its view, or its angle; its enlargement.
 #[must_use]
 pub fn look_name(look: Look) -> String {
     let side = view_of(look).map_or_else(|| format!("{}°", look.azimuth_deg), |view| view.as_str().to_owned());
@@ -66,7 +66,7 @@ pub fn look_name(look: Look) -> String {
 /// The named view after that of a look, or after the angle it has.
 #[must_use]
 pub fn next_view(look: Look) -> Look {
-    let at = view_of(look).and_then(|view| View::ALL.iter().position(|one| *one == view));
+    let at = view_of(look).and_then(|view| View::ALL.iter().position(|known| *known == view));
     let next = View::ALL[at.map_or(0, |at| (at + 1) % View::ALL.len())];
     Look { azimuth_deg: next.azimuth_deg() as i32, ..look }
 }
@@ -96,14 +96,14 @@ pub fn raised(look: Look, steps: i32) -> Look {
     Look { rise_pct: (look.rise_pct + steps * step).clamp(-reach, reach), ..look }
 }
 
-/// What the colours mean next.
+/// The quantity that the colours show next.
 #[must_use]
 pub fn next_map(map: Map) -> Map {
-    let at = Map::ALL.iter().position(|one| *one == map).unwrap_or(0);
+    let at = Map::ALL.iter().position(|known| *known == map).unwrap_or(0);
     Map::ALL[(at + 1) % Map::ALL.len()]
 }
 
-/// What a picture is of.
+/// Subject of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pictured {
     /// The drape of a job.
@@ -117,9 +117,9 @@ pub enum Pictured {
 /// A picture that is wanted; one without cells has the body measured only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureRequest {
-    /// What is shown.
+    /// Subject of the picture.
     pub of: Pictured,
-    /// From where the drape is looked at.
+    /// Direction and distance from which the drape is seen.
     pub look: Look,
     /// Map that colours the cloth.
     pub map: Map,
@@ -152,7 +152,7 @@ impl std::fmt::Debug for Drawn {
 /// Turns pictures into cells.
 #[derive(Clone, Debug)]
 pub struct PictureEncoder {
-    /// How pixels are sent, where they are.
+    /// Protocol by which pixels are sent, where they are.
     picker: Option<Picker>,
     letters: bool,
     /// Pixels of a cell.

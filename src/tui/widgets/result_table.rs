@@ -6,19 +6,28 @@ use crate::widgets::text;
 use geom::units::significant;
 use store::{SqlAnswer, Value};
 
-/// Rows whose values say how wide a column is and whether it holds numbers.
+/// Rows whose values decide the width of a column and whether it holds numbers.
 const LOOKED_AT: usize = 300;
 /// The widest a column becomes.
 const WIDEST: usize = 40;
 
-/// An answer, and where the user is in it.
+/// A column as it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its width, in columns of the terminal.
+    pub width: usize,
+    /// True where it holds numbers.
+    pub is_number: bool,
+}
+
+/// An answer, with its order and its selected cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResultTable {
     answer: SqlAnswer,
     /// Each row in small letters, for the filter.
     words: Vec<String>,
-    /// Width of each column, and whether it is of numbers.
-    columns: Vec<(usize, bool)>,
+    /// Its columns as they are shown.
+    columns: Vec<Column>,
     /// Rows shown, in order.
     shown: Vec<usize>,
     /// Row selected, one of those shown.
@@ -41,7 +50,7 @@ impl ResultTable {
             let values = || answer.table.rows.iter().take(LOOKED_AT).map(|row| &row[k]);
             let widest = values().map(|value| text::width(&cell_text(value))).max().unwrap_or(0);
             let is_number = values().all(|value| !matches!(value, Value::Text(_) | Value::Blob(_)));
-            (widest.max(text::width(&answer.table.columns[k]) + 1).min(WIDEST), is_number)
+            Column { width: widest.max(text::width(&answer.table.columns[k]) + 1).min(WIDEST), is_number }
         });
         let (words, columns) = (words.collect(), columns.collect());
         Self { shown: (0..answer.table.rows.len()).collect(), words, columns, answer, ..Self::default() }
@@ -53,9 +62,9 @@ impl ResultTable {
         &self.answer.table.columns
     }
 
-    /// Width of a column and whether it is of numbers.
+    /// A column as it is shown.
     #[must_use]
-    pub fn column_of(&self, k: usize) -> (usize, bool) {
+    pub fn column_of(&self, k: usize) -> Column {
         self.columns[k]
     }
 
@@ -71,7 +80,7 @@ impl ResultTable {
         self.answer.table.rows.len()
     }
 
-    /// Whether the query has more rows than are here.
+    /// True if the query has more rows than are here.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         self.answer.is_cut
@@ -122,8 +131,8 @@ impl ResultTable {
     #[must_use]
     pub fn columns_shown(&self, room: usize) -> Vec<usize> {
         let Some((first, rest)) = self.columns.split_first() else { return vec![] };
-        let widths: Vec<usize> = rest.iter().map(|(width, _)| width + 2).collect();
-        let mut left = room.saturating_sub(first.0);
+        let widths: Vec<usize> = rest.iter().map(|column| column.width + 2).collect();
+        let mut left = room.saturating_sub(first.width);
         let mut from = 1;
         // The selected column must fit; what lies before it scrolls away.
         while from < self.column && widths[from - 1..self.column].iter().sum::<usize>() > left {

@@ -146,7 +146,7 @@ pub fn progress_bar(share: f64, columns: usize) -> String {
     left(&bar, columns)
 }
 
-/// How far an evaluation ratio is from 1, as a bar to the left or right of a middle line; `◀` or `▶` ends one that is
+/// Distance of an evaluation ratio from 1, as a bar to the left or right of a middle line; `◀` or `▶` ends one that is
 /// longer than there is room. Each side has `side` columns and stands for 5 %.
 #[must_use]
 pub fn chi_bar(chi: f64, side: usize) -> String {
@@ -164,7 +164,7 @@ pub fn chi_bar(chi: f64, side: usize) -> String {
     }
 }
 
-/// How far an evaluation ratio is from 1, in one column: within 1 %, up or down by up to 3 %, or by more.
+/// Distance of an evaluation ratio from 1, in one column: within 1 %, up or down by up to 3 %, or by more.
 #[must_use]
 pub fn chi_mark(chi: f64) -> &'static str {
     match chi - 1.0 {
@@ -200,7 +200,7 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
     (1..=columns).map(|k| values[k * n / columns - 1]).collect()
 }
 
-/// Why a job stands where it stands, in a few words.
+/// Reason of the present status of a job, in a few words.
 #[must_use]
 pub fn why(job: &JobRow, paused: bool) -> String {
     match job.status {

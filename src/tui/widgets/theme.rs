@@ -9,7 +9,7 @@ use ratatui::style::{Color, Modifier, Style};
 use fit::FitClass;
 use store::{FitCell, Status};
 
-/// How many colours the terminal shows.
+/// Number of colours that the terminal shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
     /// No colour at all.
@@ -26,7 +26,7 @@ pub enum Colours {
 const BASIC: [&str; 6] = ["linux", "xterm", "screen", "vt220", "ansi", "xterm-16color"];
 
 impl Colours {
-    /// What the environment says: `NO_COLOR`, `TERM`, `COLORTERM`.
+    /// Detects them from the environment: `NO_COLOR`, `TERM`, `COLORTERM`.
     #[must_use]
     pub fn detect(no_color: bool, env: &dyn Fn(&str) -> Option<String>) -> Self {
         let term = env("TERM").unwrap_or_default();
@@ -45,14 +45,14 @@ impl Colours {
     }
 }
 
-/// Whether the environment asks for ASCII: `TOILE_ASCII`, or a terminal that has nothing else.
+/// True if the environment asks for ASCII: `TOILE_ASCII`, or a terminal that has nothing else.
 #[must_use]
 pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
     let term = env("TERM").unwrap_or_default();
     env("TOILE_ASCII").is_some_and(|value| !value.is_empty()) || term == "dumb" || term.starts_with("vt")
 }
 
-/// What a colour says.
+/// Meaning of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Right or finished.
@@ -110,9 +110,9 @@ impl Default for Roles {
 /// The styles of the workbench.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
-    /// How many colours the terminal shows.
+    /// Number of colours that the terminal shows.
     pub colours: Colours,
-    /// Whether only ASCII is shown.
+    /// True where only ASCII is shown.
     pub ascii: bool,
     /// Colour of each role.
     pub roles: Roles,
@@ -242,7 +242,7 @@ impl Theme {
         self.shown(self.roles.seams[number % self.roles.seams.len()])
     }
 
-    /// Whether there are colours at all.
+    /// True if there are colours at all.
     #[must_use]
     pub fn has_colours(self) -> bool {
         self.colours != Colours::None

@@ -19,7 +19,7 @@ pub const FILE: &str = "theme.toml";
 /// The line with the colours of seams and sizes.
 const SEAMS: &str = "seams";
 
-/// What a colour may be.
+/// Colours that are accepted.
 const ACCEPTED: &str = "accepted: black, red, green, yellow, blue, magenta, cyan, gray, dark-gray, light-red to light-cyan, \
      white, 0 to 255, \"#rrggbb\", or \"reset\" for the terminal's own";
 
@@ -55,7 +55,7 @@ fn colour(value: &DeValue<'_>) -> Result<Color, String> {
 /// The colours of a list.
 fn colours(value: &DeValue<'_>) -> Result<Vec<Color>, String> {
     match value.as_array() {
-        Some(list) if !list.is_empty() => list.iter().map(|one| colour(one.get_ref())).collect(),
+        Some(list) if !list.is_empty() => list.iter().map(|entry| colour(entry.get_ref())).collect(),
         Some(_) => Err("no colour; accepted: a list of one or more colours".to_owned()),
         None => Err(format!("{}; accepted: a list of colours", value.type_str())),
     }
@@ -99,7 +99,7 @@ mod tests {
         check("good = ", "theme.toml:1: ");
     }
 
-    /// How bright a colour is, 0 to 1, as WCAG 2 counts.
+    /// Relative luminance of a colour, 0 to 1, as WCAG 2 defines it.
     fn luminance(colour: Color) -> f64 {
         let Color::Rgb(r, g, b) = colour else { panic!("{colour:?} depends on the terminal") };
         let linear = [r, g, b].map(|v| (f64::from(v) / 255.0 + 0.055) / 1.055).map(|v| v.powf(2.4));

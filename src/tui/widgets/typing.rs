@@ -5,12 +5,12 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 /// Rows of a page of a list.
 const PAGE: usize = 10;
 
-/// Whether a key is Ctrl-C.
+/// True if a key is Ctrl-C.
 pub fn is_ctrl_c(event: &KeyEvent) -> bool {
     event.code == KeyCode::Char('c') && event.modifiers.contains(KeyModifiers::CONTROL)
 }
 
-/// Goes through a list that what is typed narrows, or edits that: then the first row is selected.
+/// Goes through a list that a text narrows, or edits the text: then the first row is selected.
 pub fn in_list(text: &mut String, row: &mut usize, event: &KeyEvent) {
     match event.code {
         KeyCode::Up => *row = row.saturating_sub(1),
@@ -25,7 +25,7 @@ pub fn in_list(text: &mut String, row: &mut usize, event: &KeyEvent) {
     }
 }
 
-/// Edits a line at its end; returns whether it changed.
+/// Edits a line at its end; returns true if it changed.
 pub fn edit(text: &mut String, event: &KeyEvent) -> bool {
     let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
     match event.code {

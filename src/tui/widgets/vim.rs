@@ -3,7 +3,7 @@
 use crate::widgets::editor::{Editor, Mode};
 
 impl Editor {
-    /// Handles a letter in normal mode; returns whether it is one of vim's.
+    /// Handles a letter in normal mode; returns true if it is one of vim's.
     pub(super) fn command(&mut self, letter: char) -> bool {
         if let Some(operator) = self.pending.take() {
             self.operate(operator, letter);
@@ -61,7 +61,7 @@ impl Editor {
         }
     }
 
-    /// Where a motion leads; `None` for a letter that is no motion.
+    /// Byte that a motion leads to; `None` for a letter that is no motion.
     fn target(&self, motion: char) -> Option<usize> {
         Some(match motion {
             'h' => self.before().max(self.line_start()),

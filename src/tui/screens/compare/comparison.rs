@@ -25,7 +25,7 @@ pub struct ComparisonRow {
 }
 
 impl ComparisonRow {
-    /// Whether the runs differ.
+    /// True if the runs differ.
     #[must_use]
     pub fn differs(&self) -> bool {
         let first = self.chi[0];
@@ -45,7 +45,7 @@ impl ComparisonRow {
     }
 }
 
-/// What tells runs apart: the parts of their names that are not the same in all.
+/// The parts of the names of runs that are not the same in all.
 #[must_use]
 pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
     let parts: [fn(&JobRow) -> String; 5] = [
@@ -75,7 +75,7 @@ pub fn comparison_rows(runs: &[Compared]) -> Vec<ComparisonRow> {
     let mut found: Vec<ComparisonRow> = Vec::new();
     for (k, run) in runs.iter().enumerate() {
         for row in last_stage(&run.chi) {
-            let at = found.iter().position(|one| one.no == row.no && one.name == row.name).unwrap_or_else(|| {
+            let at = found.iter().position(|known| known.no == row.no && known.name == row.name).unwrap_or_else(|| {
                 found.push(ComparisonRow {
                     no: row.no,
                     name: row.name.clone(),
@@ -95,7 +95,7 @@ fn last_stage(chi: &[ChiRow]) -> impl Iterator<Item = &ChiRow> {
     chi.iter().filter(move |row| Some(row.stage.as_str()) == last)
 }
 
-/// What the comparison says, in sentences, the most important first.
+/// Conclusions of the comparison, in sentences, the most important first.
 #[must_use]
 pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Vec<String> {
     let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
@@ -127,7 +127,7 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
     said
 }
 
-/// Which run has the least EI, or which of them nothing tells apart in practice.
+/// The run with the least EI, or those that nothing tells apart in practice.
 fn truest(runs: &[Compared], names: &[String]) -> String {
     let mut ranked: Vec<(&str, f64)> =
         runs.iter().zip(names).filter_map(|(run, name)| Some((name.as_str(), run.metrics.as_ref()?.ei))).collect();

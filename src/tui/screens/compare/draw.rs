@@ -8,13 +8,17 @@ use ratatui::widgets::Paragraph;
 
 use crate::messages::snapshot::Compared;
 use crate::overlays::explanation::Selected;
+use crate::screens::compare::actions::{compared, recommended, to_compare};
 use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
+use crate::screens::compare::state::CompareScreen;
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, selected_line};
-use crate::widgets::picture::Pictured;
+use crate::widgets::lists::{listed, pane};
+use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
 use store::{JobRow, MetricsRow};
@@ -33,15 +37,113 @@ const DELTA: usize = 9;
 /// Names of what is shown, as the glossary has them.
 const NAMES: [&str; 8] = ["chi", "diff", "L2D", "E(chi)", "EI", "measurement", "FEM", "HYB"];
 
-/// The selected measurement, and what is shown of all.
-pub fn explained(state: &State) -> Selected {
-    let rows = state.comparison_rows();
-    let what = rows.get(state.compare.row).map_or(String::new(), |row| {
-        let chi: Vec<String> =
-            row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
-        format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
-    });
-    Selected::new(what, &NAMES, &[])
+impl Draw for CompareScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let runs = compared(state);
+        if runs.is_empty() {
+            let text = if to_compare(state).is_empty() {
+                " Nothing to compare: select a job on screen 1 or 4, or several with Space, and press c."
+            } else {
+                " reading…"
+            };
+            frame.render_widget(Paragraph::new(text), area);
+            return;
+        }
+        let panes = panes(area, state);
+        if let Some(area) = panes.table {
+            self.draw_table(frame, area, state, runs);
+        }
+        if let Some(area) = panes.verdict {
+            let block = pane(state.theme, "verdict", false);
+            let inner = block.inner(area);
+            let lines = said(state, runs, usize::from(inner.width));
+            frame.render_widget(Paragraph::new(lines).block(block), area);
+        }
+        let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+        for ((run, name), area) in runs.iter().zip(labels(&jobs)).zip(panes.pictures) {
+            draw_picture(frame, area, state, &run.job, &name);
+        }
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        if compared(state).is_empty() {
+            return vec![];
+        }
+        let panes = panes(area, state);
+        let rows = panes
+            .table
+            .map_or(vec![], |table| jump::rows(0, jump::inside(table), HEAD, self.rows(state).len(), self.row));
+        rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let rows = self.rows(state);
+        let what = rows.get(self.row).map_or(String::new(), |row| {
+            let chi: Vec<String> =
+                row.chi.iter().map(|chi| chi.map_or("—".to_owned(), |chi| format!("{chi:.3}"))).collect();
+            format!("{}: L2D {} mm, chi {}", row.name, mm(row.l2d_m), chi.join(" and "))
+        });
+        Selected::new(what, &NAMES, &[])
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        requests(state, picture_panes(area, state))
+    }
+}
+
+impl CompareScreen {
+    fn draw_table(&self, frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
+        let rows = self.rows(state);
+        let legend = if self.differences_only {
+            " differences only, d shows all "
+        } else {
+            " d differences only  ◂ nearest to 1 "
+        };
+        let block = pane(state.theme, title(runs), !state.in_second_pane())
+            .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+        let inner = block.inner(area);
+        let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
+        let mut lines = self.header(state, runs, &columns).to_vec();
+        let room = usize::from(inner.height).saturating_sub(lines.len());
+        let selection = state.theme.selection(!state.in_second_pane());
+        lines.extend(listed(&rows, self.row, room, selection, |row| line(state, row, &columns)));
+        if rows.is_empty() {
+            let is_cut = self.differences_only || !state.filter().is_empty();
+            let text = if is_cut { "no measurement differs or matches the filter" } else { "no measurements yet" };
+            lines.push(Line::raw(text));
+        }
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+
+    /// Names of the runs, and below them E and EI.
+    fn header(&self, state: &State, runs: &[Compared], columns: &Columns) -> [Line<'static>; HEAD] {
+        let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+        let names = labels(&jobs);
+        let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
+        let over = |cells: Vec<String>| cells.iter().map(|cell| right(cell, RUN)).collect::<String>();
+        let names = names.iter().take(columns.runs).map(|name| format!("{name}  ")).collect();
+        let mark = if self.sorts_by_difference { "▼" } else { "" };
+        let delta = if columns.delta { right(&format!("diff{mark}"), DELTA - 2) } else { String::new() };
+        let head = format!("{start}{}{delta}", over(names));
+        let numbers = |number: fn(&MetricsRow) -> f64| -> Vec<String> {
+            let value = |run: &Compared| {
+                run.metrics.as_ref().map_or("—  ".to_owned(), |metrics| format!("{:.4}  ", number(metrics)))
+            };
+            runs.iter().take(columns.runs).map(value).collect()
+        };
+        let blank = 3 + columns.name + 8;
+        [
+            Line::styled(head, state.theme.dim()),
+            Line::styled(
+                format!("{}{}", left("   E(chi)", blank), over(numbers(|metrics| metrics.e_chi))),
+                state.theme.bold(),
+            ),
+            Line::styled(
+                format!("{}{}", left("   EI", blank), over(numbers(|metrics| metrics.ei))),
+                state.theme.bold(),
+            ),
+        ]
+    }
 }
 
 /// The panes: table, verdict, and one picture a run.
@@ -52,7 +154,7 @@ struct Panes {
 }
 
 fn panes(area: Rect, state: &State) -> Panes {
-    let runs = state.compared().len();
+    let runs = compared(state).len();
     let pictures = |area: Rect, most: usize| {
         let n = runs.min(most);
         Layout::horizontal(vec![Constraint::Fill(1); n]).split(area).to_vec()
@@ -77,55 +179,16 @@ fn panes(area: Rect, state: &State) -> Panes {
 
 /// The panes of the pictures, one a run as far as there is room.
 pub fn picture_panes(area: Rect, state: &State) -> Vec<(Pictured, Rect)> {
-    let drapes = state.compared().iter().map(|run| Pictured::Drape(run.job.id));
+    let drapes = compared(state).iter().map(|run| Pictured::Drape(run.job.id));
     drapes.zip(panes(area, state).pictures).collect()
 }
 
-/// Rows and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    if state.compared().is_empty() {
-        return vec![];
-    }
-    let panes = panes(area, state);
-    let rows = panes.table.map_or(vec![], |table| {
-        jump::rows(0, jump::inside(table), HEAD, state.comparison_rows().len(), state.compare.row)
-    });
-    rows.into_iter().chain(panes.pictures.first().map(|picture| jump::pane(*picture, 1))).collect()
-}
-
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let runs = state.compared();
-    if runs.is_empty() {
-        let text = if state.to_compare().is_empty() {
-            " Nothing to compare: select a job on screen 1 or 4, or several with Space, and press c."
-        } else {
-            " reading…"
-        };
-        frame.render_widget(Paragraph::new(text), area);
-        return;
-    }
-    let panes = panes(area, state);
-    if let Some(area) = panes.table {
-        draw_table(frame, area, state, runs);
-    }
-    if let Some(area) = panes.verdict {
-        let block = pane(state.theme, "verdict", false);
-        let inner = block.inner(area);
-        let lines = said(state, runs, usize::from(inner.width));
-        frame.render_widget(Paragraph::new(lines).block(block), area);
-    }
-    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
-    for ((run, name), area) in runs.iter().zip(labels(&jobs)).zip(panes.pictures) {
-        draw_picture(frame, area, state, &run.job, &name);
-    }
-}
-
-/// Who is truest, what differs, then the rest of the verdict: a small pane cuts what comes last.
+/// The truest run, the inputs that differ, then the rest of the verdict: a small pane cuts what comes last.
 fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
     let inputs = differing_inputs(runs).join(", ");
     let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
     let mut lines = vec![];
-    for (k, sentence) in verdict(runs, state.recommended()).into_iter().enumerate() {
+    for (k, sentence) in verdict(runs, recommended(state)).into_iter().enumerate() {
         let style = if k == 0 { state.theme.bold() } else { Style::new() };
         lines.extend(wrapped(&sentence, width).into_iter().map(|line| Line::styled(line, style)));
         if k == 0 {
@@ -144,11 +207,11 @@ fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, job: &JobRow, 
         draw_legend(frame, legend, state);
     }
     let otherwise = format!("{} {}", glyph(job.status), text::status(job.status));
-    let of = job.status.has_result().then_some(Pictured::Drape(job.id));
-    draw_shot(frame, inner, state, of, &otherwise);
+    let drape = job.status.has_result().then_some(Pictured::Drape(job.id));
+    draw_shot(frame, inner, state, drape, &otherwise);
 }
 
-/// What all runs share: the title of the table.
+/// Title of the table: garment, size and subject that all runs share.
 fn title(runs: &[Compared]) -> String {
     let first = &runs[0].job;
     let parts: [fn(&JobRow) -> &str; 3] = [|job| &job.garment, |job| &job.size, |job| &job.subject];
@@ -158,37 +221,6 @@ fn title(runs: &[Compared]) -> String {
         .map(|part| part(first))
         .collect();
     format!("{} runs{}{}", runs.len(), if shared.is_empty() { "" } else { " · " }, shared.join(" "))
-}
-
-fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
-    let rows = state.comparison_rows();
-    let legend = if state.compare.differences_only {
-        " differences only, d shows all "
-    } else {
-        " d differences only  ◂ nearest to 1 "
-    };
-    let block = pane(state.theme, title(runs), !state.in_second_pane())
-        .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
-    let mut lines = header(state, runs, &columns).to_vec();
-    let room = usize::from(inner.height).saturating_sub(lines.len());
-    let first = first_shown(state.compare.row, rows.len(), room);
-    for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-        let line = line(state, row, &columns);
-        let is_selected = k == state.compare.row;
-        lines.push(if is_selected {
-            selected_line(line, state.theme.selection(!state.in_second_pane()))
-        } else {
-            line
-        });
-    }
-    if rows.is_empty() {
-        let is_cut = state.compare.differences_only || !state.filter().is_empty();
-        let text = if is_cut { "no measurement differs or matches the filter" } else { "no measurements yet" };
-        lines.push(Line::raw(text));
-    }
-    frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
 /// Widths: the name takes what the runs leave.
@@ -208,29 +240,6 @@ impl Columns {
         let runs = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
         Self { name: width.saturating_sub(taken + runs * RUN).clamp(6, longest), runs, delta }
     }
-}
-
-/// Names of the runs, and below them E and EI.
-fn header(state: &State, runs: &[Compared], columns: &Columns) -> [Line<'static>; HEAD] {
-    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
-    let names = labels(&jobs);
-    let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
-    let over = |cells: Vec<String>| cells.iter().map(|cell| right(cell, RUN)).collect::<String>();
-    let names = names.iter().take(columns.runs).map(|name| format!("{name}  ")).collect();
-    let mark = if state.compare.sorts_by_difference { "▼" } else { "" };
-    let delta = if columns.delta { right(&format!("diff{mark}"), DELTA - 2) } else { String::new() };
-    let head = format!("{start}{}{delta}", over(names));
-    let number = |of: fn(&MetricsRow) -> f64| -> Vec<String> {
-        let value =
-            |run: &Compared| run.metrics.as_ref().map_or("—  ".to_owned(), |metrics| format!("{:.4}  ", of(metrics)));
-        runs.iter().take(columns.runs).map(value).collect()
-    };
-    let blank = 3 + columns.name + 8;
-    [
-        Line::styled(head, state.theme.dim()),
-        Line::styled(format!("{}{}", left("   E(chi)", blank), over(number(|m| m.e_chi))), state.theme.bold()),
-        Line::styled(format!("{}{}", left("   EI", blank), over(number(|m| m.ei))), state.theme.bold()),
-    ]
 }
 
 fn line(state: &State, row: &ComparisonRow, columns: &Columns) -> Line<'static> {

@@ -1,50 +1,87 @@
-//! Choosing a fabric.
+//! Choosing, adding, editing and removing a fabric.
 
 use crate::keys::screen::Screen;
-use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
+use crate::overlays::entry_form::Form;
+use crate::screens::catalogue;
+use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use spec::FABRIC_NUMBERS;
-use wardrobe::FabricRow;
+use wardrobe::{FabricRow, Mode, Part};
 
-impl State {
-    /// Fabrics that pass the filter of the Fabrics screen, in its order.
+impl FabricsScreen {
+    /// Fabrics that pass the filter, in order.
     #[must_use]
-    pub fn fabrics(&self) -> Vec<&FabricRow> {
-        let Some(data) = &self.data else { return vec![] };
-        let filter = self.nav.filters[Screen::Fabrics as usize].to_lowercase();
+    pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a FabricRow> {
+        let Some(data) = &state.data else { return vec![] };
+        let filter = state.filter_of(Screen::Fabrics);
         let words = |row: &FabricRow| format!("{} {}", row.fabric.name, row.fabric.source).to_lowercase();
         let mut fabrics: Vec<&FabricRow> = data.fabrics.iter().filter(|row| words(row).contains(&filter)).collect();
-        if let FabricOrder::Number(k) = self.fabrics.order.by {
+        if let FabricOrder::Number(k) = self.order.by {
             let field = &FABRIC_NUMBERS[FABRIC_SHOWN[k]];
             let value = |row: &FabricRow| field.get(&row.fabric).unwrap_or(f64::INFINITY);
             fabrics.sort_by(|a, b| value(a).total_cmp(&value(b)));
         }
-        if self.fabrics.order.reversed {
+        if self.order.reversed {
             fabrics.reverse();
         }
         fabrics
     }
 
-    /// The selected fabric: the first, where the one wanted is not shown.
+    /// Index of the selected fabric among those shown: the first, where the one chosen is not shown.
     #[must_use]
-    pub fn fabric(&self) -> Option<&FabricRow> {
-        let fabrics = self.fabrics();
-        fabrics.iter().find(|row| Some(&row.fabric.name) == self.fabrics.chosen.as_ref()).or(fabrics.first()).copied()
+    pub fn index_in(&self, shown: &[&FabricRow]) -> usize {
+        shown.iter().position(|row| Some(&row.fabric.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
-    /// Moves in the list of fabrics.
-    pub fn go_in_fabrics(&mut self, movement: Movement) {
-        let selected = self.fabric().map(|row| row.fabric.name.clone());
-        let fabrics = self.fabrics();
-        let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
-        self.fabrics.chosen = fabrics.get(movement.from(at, fabrics.len())).map(|row| row.fabric.name.clone());
+    /// The selected fabric.
+    #[must_use]
+    pub fn selected<'a>(&self, state: &'a State) -> Option<&'a FabricRow> {
+        let shown = self.shown(state);
+        shown.get(self.index_in(&shown)).copied()
     }
-}
 
-/// The selected fabric, tab-separated.
-pub fn fabric_line(state: &State) -> Option<String> {
-    let fabric = &state.fabric()?.fabric;
-    let values = FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), |value| value.to_string()));
-    Some(format!("{}\t{}\t{}", fabric.name, values.collect::<Vec<_>>().join("\t"), fabric.source))
+    /// Moves in the list.
+    pub fn go_in_list(&mut self, state: &State, movement: Movement) {
+        let shown = self.shown(state);
+        let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
+        self.chosen = next.map(|row| row.fabric.name.clone());
+    }
+
+    /// Asks for the values of a new fabric, at first those of the selected one.
+    pub fn add(&self, state: &mut State) {
+        if catalogue::may_change(state, Part::Fabric) {
+            let otherwise = "no fabric is selected that a new one could start with: Esc clears the filter";
+            catalogue::fill_in(state, self.form(state, Mode::Add), otherwise);
+        }
+    }
+
+    /// Asks for other values of the selected fabric.
+    pub fn edit(&self, state: &mut State) {
+        if catalogue::may_change(state, Part::Fabric) {
+            catalogue::fill_in(state, self.form(state, Mode::Edit), "no fabric is selected");
+        }
+    }
+
+    fn form(&self, state: &State, mode: Mode) -> Option<Form> {
+        let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
+        self.selected(state).map(|row| Form::of_fabric(row, mode, all))
+    }
+
+    /// Removes the selected fabric, once that is confirmed.
+    pub fn remove(&self, state: &mut State) {
+        if catalogue::may_change(state, Part::Fabric) {
+            let name = self.selected(state).map(|row| row.fabric.name.clone());
+            catalogue::remove(state, Part::Fabric, name);
+        }
+    }
+
+    /// The selected fabric, tab-separated.
+    #[must_use]
+    pub fn line(&self, state: &State) -> Option<String> {
+        let fabric = &self.selected(state)?.fabric;
+        let values =
+            FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), |value| value.to_string()));
+        Some(format!("{}\t{}\t{}", fabric.name, values.collect::<Vec<_>>().join("\t"), fabric.source))
+    }
 }

@@ -8,16 +8,18 @@ use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
 
 use crate::overlays::entry_form::{fabric_label, unit_of};
 use crate::overlays::explanation::Selected;
-use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
+use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder, FabricsScreen};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
+use crate::widgets::lists::{listed, pane, scrolled};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use spec::FABRIC_NUMBERS;
 use wardrobe::FabricRow;
 
-/// Headings of the numbers in the list, their columns, and what a number is multiplied by to be read with ease.
+/// Headings of the numbers in the list, their columns, and the factors by which numbers are multiplied to be read with
+/// ease.
 const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
     ("g/m²", 6, 1e3),
     ("mm", 6, 1.0),
@@ -31,9 +33,9 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
 /// Columns of the marks after a name, and the fewest of a name.
 const MARKS: usize = 5;
 const LEAST_NAME: usize = 14;
-/// Headings of what follows from the numbers, where there is room, and their columns.
+/// Headings of the quantities that follow from the numbers, where there is room, and their columns.
 const FOLLOWS: [(&str, usize); 2] = [("bends mm", 12), ("of weight", 11)];
-/// What the columns of the list mean.
+/// Meaning of the columns of the list.
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled  ~ class";
 
 /// Lines of the table of a fabric: its numbers, and two bending lengths.
@@ -66,100 +68,101 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    if is_narrow(area) {
-        frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);
-        return;
+impl Draw for FabricsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        if is_narrow(area) {
+            frame.render_widget(Paragraph::new(self.list(state, area.width, area.height, true)), area);
+            return;
+        }
+        let [list_area, table_area, facts_area] = panes(area);
+        let (shown, all) = (self.shown(state).len(), state.data.as_ref().map_or(0, |data| data.fabrics.len()));
+        let title = if shown == all { format!("{all} fabrics") } else { format!("{shown} of {all} fabrics") };
+        let focused = !state.in_second_pane();
+        let block = pane(state.theme, title, focused);
+        let block = block.title_bottom(Line::styled(LEGEND, state.theme.legend()).right_aligned());
+        let inner = block.inner(list_area);
+        frame.render_widget(
+            Paragraph::new(self.list(state, inner.width, inner.height, focused)).block(block),
+            list_area,
+        );
+        let fabric = self.selected(state);
+        let name = fabric.map_or(String::new(), |row| row.fabric.name.clone());
+        let title = fabric.map_or(String::new(), |row| format!("{name} · revision {}", row.revision));
+        let block = pane(state.theme, title, !focused);
+        let inner = block.inner(table_area);
+        let lines = fabric.map_or_else(Vec::new, |row| table(state, row, usize::from(inner.width)));
+        let lines = scrolled(lines, state.nav.table_down, inner);
+        frame.render_widget(Paragraph::new(lines).block(block), table_area);
+        draw_facts(frame, facts_area, state, fabric);
     }
-    let [list_area, table_area, facts_area] = panes(area);
-    let (shown, all) = (state.fabrics().len(), state.data.as_ref().map_or(0, |data| data.fabrics.len()));
-    let title = if shown == all { format!("{all} fabrics") } else { format!("{shown} of {all} fabrics") };
-    let focused = !state.in_second_pane();
-    let block = pane(state.theme, title, focused);
-    let block = block.title_bottom(Line::styled(LEGEND, state.theme.legend()).right_aligned());
-    let inner = block.inner(list_area);
-    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height, focused)).block(block), list_area);
-    let fabric = state.fabric();
-    let name = fabric.map_or(String::new(), |row| row.fabric.name.clone());
-    let title = fabric.map_or(String::new(), |row| format!("{name} · revision {}", row.revision));
-    let block = pane(state.theme, title, !focused);
-    let inner = block.inner(table_area);
-    let lines = fabric.map_or_else(Vec::new, |row| table(state, row, usize::from(inner.width)));
-    let lines = scrolled(lines, state.nav.table_down, inner);
-    frame.render_widget(Paragraph::new(lines).block(block), table_area);
-    draw_facts(frame, facts_area, state, fabric);
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let fabrics = self.shown(state);
+        let at = self.index_in(&fabrics);
+        if is_narrow(area) {
+            return jump::rows(0, area, 1, fabrics.len(), at);
+        }
+        let [list, table, _] = panes(area);
+        let mut targets = jump::rows(0, jump::inside(list), 1, fabrics.len(), at);
+        targets.push(jump::pane(table, 1));
+        targets
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let Some(row) = self.selected(state) else { return Selected::default() };
+        let bends = row.fabric.bending_lengths_m().map(text::mm).join(" and ");
+        let what = format!("{}: {:.0} g/m², bends at {bends} mm", row.fabric.name, row.fabric.density_kg_m2 * 1e3);
+        let sorted = match self.order.by {
+            FabricOrder::Name => "fabric",
+            FabricOrder::Number(k) => fabric_label(FABRIC_SHOWN[k]),
+        };
+        let headings = FABRIC_SHOWN.into_iter().map(fabric_label).chain(FOLLOWS.iter().map(|(title, _)| *title));
+        let numbers = (0..FABRIC_NUMBERS.len()).map(fabric_label);
+        let names: Vec<&str> = headings.chain(numbers).chain(["fabric", "value", "among"]).collect();
+        Selected::new(what, &[sorted], &names)
+    }
 }
 
-/// The selected fabric, the column that sorts, and what is shown of all.
-pub fn explained(state: &State) -> Selected {
-    let Some(row) = state.fabric() else { return Selected::default() };
-    let bends = row.fabric.bending_lengths_m().map(text::mm).join(" and ");
-    let what = format!("{}: {:.0} g/m², bends at {bends} mm", row.fabric.name, row.fabric.density_kg_m2 * 1e3);
-    let sorted = match state.fabrics.order.by {
-        FabricOrder::Name => "fabric",
-        FabricOrder::Number(k) => fabric_label(FABRIC_SHOWN[k]),
-    };
-    let headings = FABRIC_SHOWN.into_iter().map(fabric_label).chain(FOLLOWS.iter().map(|(title, _)| *title));
-    let numbers = (0..FABRIC_NUMBERS.len()).map(fabric_label);
-    let names: Vec<&str> = headings.chain(numbers).chain(["fabric", "value", "among"]).collect();
-    Selected::new(what, &[sorted], &names)
-}
+impl FabricsScreen {
+    /// The list with its header; the name takes what the numbers leave.
+    fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
+        let fabrics = self.shown(state);
+        let width = usize::from(width);
+        let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns, _)| columns).sum::<usize>();
+        let shown = (0..=HEADINGS.len()).rev().find(|n| LEAST_NAME + MARKS + numbers(*n) <= width).unwrap_or(0);
+        let longest = fabrics.iter().map(|row| text::width(&row.fabric.name)).max().unwrap_or(0);
+        let name = width.saturating_sub(MARKS + numbers(shown)).min(longest.max(LEAST_NAME));
+        let at = self.index_in(&fabrics);
+        let left_over = width.saturating_sub(name + MARKS + numbers(HEADINGS.len()));
+        let follows = FOLLOWS.iter().map(|(_, columns)| columns).sum::<usize>() <= left_over;
+        let mut head = self.header(name, shown);
+        if follows {
+            head.extend(FOLLOWS.iter().map(|(title, columns)| right(title, *columns)));
+        }
+        let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
+        lines.extend(listed(
+            &fabrics,
+            at,
+            usize::from(height).saturating_sub(1),
+            state.theme.selection(focused),
+            |row| {
+                let tail = if follows { tail(row) } else { String::new() };
+                Line::raw(shortened(&(list_line(row, name, shown) + &tail), width))
+            },
+        ));
+        if fabrics.is_empty() {
+            lines.push(Line::raw("no fabric matches the filter"));
+        }
+        lines
+    }
 
-/// Rows and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let (fabrics, selected) = (state.fabrics(), state.fabric().map(|row| &row.fabric.name));
-    let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
-    if is_narrow(area) {
-        return jump::rows(0, area, 1, fabrics.len(), at);
+    fn header(&self, name: usize, shown: usize) -> String {
+        let mut text = left(&self.order.titled("fabric", FabricOrder::Name), name + MARKS);
+        for (k, (title, columns, _)) in HEADINGS.iter().take(shown).enumerate() {
+            text += &right(&self.order.titled(title, FabricOrder::Number(k)), *columns);
+        }
+        text
     }
-    let [list, table, _] = panes(area);
-    let mut targets = jump::rows(0, jump::inside(list), 1, fabrics.len(), at);
-    targets.push(jump::pane(table, 1));
-    targets
-}
-
-/// The list with its header; the name takes what the numbers leave.
-fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
-    let fabrics = state.fabrics();
-    let width = usize::from(width);
-    let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns, _)| columns).sum::<usize>();
-    let shown = (0..=HEADINGS.len()).rev().find(|n| LEAST_NAME + MARKS + numbers(*n) <= width).unwrap_or(0);
-    let longest = fabrics.iter().map(|row| text::width(&row.fabric.name)).max().unwrap_or(0);
-    let name = width.saturating_sub(MARKS + numbers(shown)).min(longest.max(LEAST_NAME));
-    let selected = state.fabric().map(|row| &row.fabric.name);
-    let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
-    let height = usize::from(height).saturating_sub(1);
-    let first = first_shown(at, fabrics.len(), height);
-    let left_over = width.saturating_sub(name + MARKS + numbers(HEADINGS.len()));
-    let follows = FOLLOWS.iter().map(|(_, columns)| columns).sum::<usize>() <= left_over;
-    let mut head = header(state, name, shown);
-    if follows {
-        head.extend(FOLLOWS.iter().map(|(title, columns)| right(title, *columns)));
-    }
-    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
-    for (k, row) in fabrics.iter().enumerate().skip(first).take(height) {
-        let tail = if follows { tail(row) } else { String::new() };
-        let line = Line::raw(shortened(&(list_line(row, name, shown) + &tail), width));
-        lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
-    }
-    if fabrics.is_empty() {
-        lines.push(Line::raw("no fabric matches the filter"));
-    }
-    lines
-}
-
-fn header(state: &State, name: usize, shown: usize) -> String {
-    let order = state.fabrics.order;
-    let titled = |title: &str, by: FabricOrder| match (order.by == by, order.reversed) {
-        (false, _) => title.to_owned(),
-        (true, false) => format!("{title}▲"),
-        (true, true) => format!("{title}▼"),
-    };
-    let mut text = left(&titled("fabric", FabricOrder::Name), name + MARKS);
-    for (k, (title, columns, _)) in HEADINGS.iter().take(shown).enumerate() {
-        text += &right(&titled(title, FabricOrder::Number(k)), *columns);
-    }
-    text
 }
 
 fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
@@ -180,8 +183,8 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
     text
 }
 
-/// What follows from the numbers of a fabric, along and across the grain, once where both are the same: bending lengths, and
-/// where its bending stands among the known cloths of its weight.
+/// Quantities that follow from the numbers of a fabric, along and across the grain, once where both are the same: bending
+/// lengths, and the standing of its bending among the known cloths of its weight.
 fn tail(row: &FabricRow) -> String {
     let lengths = row.fabric.bending_lengths_m().map(text::mm);
     let ranks = row.fabric.standings().map(|standing| standing.to_string());
@@ -198,7 +201,7 @@ fn in_four(value: f64) -> String {
     }
 }
 
-/// All numbers with their units, and where each stands among the fabrics of the catalogue; what follows from them.
+/// All numbers with their units, and the rank of each among the fabrics of the catalogue; quantities that follow from them.
 fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
     let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
     let label = columns.saturating_sub(VALUE + 7).min(34);
@@ -234,7 +237,7 @@ fn rank(value: f64, all: impl Iterator<Item = f64>) -> Option<f64> {
     (below + above > 0).then(|| 100.0 * below as f64 / (below + above) as f64)
 }
 
-/// Where the numbers are from, who uses the fabric, and, where there is room, how it stretches.
+/// Draws the source of the numbers, the users of the fabric, and, where there is room, its curves of force over stretch.
 fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&FabricRow>) {
     let block = pane(state.theme, "source", false);
     let inner = block.inner(area);
@@ -269,9 +272,9 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
 fn draw_curves(frame: &mut Frame<'_>, area: Rect, state: &State, row: &FabricRow) {
     const POINTS: usize = 40;
     let most = row.fabric.stretched.map_or(WOVEN, |law| law.stretch * BEYOND);
-    let at = |k: usize| most * k as f64 / POINTS as f64;
+    let stretch_at = |k: usize| most * k as f64 / POINTS as f64;
     let curve = |side: usize| -> Vec<(f64, f64)> {
-        (0..=POINTS).map(|k| (100.0 * at(k), row.tensions_n_m(at(k))[side])).collect()
+        (0..=POINTS).map(|k| (100.0 * stretch_at(k), row.tensions_n_m(stretch_at(k))[side])).collect()
     };
     let (warp, weft) = (curve(0), curve(1));
     let top = warp.iter().chain(&weft).map(|(_, force)| *force).fold(0.0, f64::max);

@@ -1,11 +1,11 @@
-//! Where the user is among fabrics.
+//! State of the screen of fabrics.
 
 use crate::screens::order::Order;
 
 /// Numbers in the list of fabrics, by their places in [`spec::FABRIC_NUMBERS`].
 pub const FABRIC_SHOWN: [usize; 7] = [0, 1, 2, 3, 5, 6, 7];
 
-/// How fabrics are ordered.
+/// Order of fabrics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum FabricOrder {
     /// By name, alphabetically.
@@ -27,10 +27,10 @@ impl FabricOrder {
     }
 }
 
-/// Where the user is among fabrics.
-#[derive(Debug, Default)]
-pub struct Fabrics {
-    /// Name of the fabric selected.
+/// The screen of fabrics.
+#[derive(Default)]
+pub struct FabricsScreen {
+    /// Name of the fabric chosen.
     pub chosen: Option<String>,
     /// Order of fabrics.
     pub order: Order<FabricOrder>,

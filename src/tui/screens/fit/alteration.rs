@@ -1,11 +1,12 @@
-//! What to change of a size: handles, ease before and after, the drape, and what is to be known.
+//! Drawing the change of a size: handles, ease before and after, the drape, and remarks.
 
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
+use crate::screens::fit::actions::{passes, worn};
 use crate::screens::fit::card::{name, sign, target};
-use crate::screens::fit::state::Draping;
+use crate::screens::fit::state::{Alter, Draping};
 use crate::screens::state::State;
 use crate::widgets::text::{self, left, right, words, wrapped};
 use crate::widgets::theme::Theme;
@@ -20,71 +21,73 @@ const SIGN: usize = 3;
 /// The fewest columns with the ease that is promised, and words beside signs.
 const ROOMY: usize = 62;
 
-/// Which size of which garment, for whom.
-pub fn title(state: &State) -> String {
-    match &state.fit.alter.asked {
-        Some(asked) => format!("what to change · {} {} for {}", asked.garment, asked.size, asked.subject),
-        None => "what to change".to_owned(),
+impl Alter {
+    /// Title of the pane: garment, size and subject.
+    pub fn title(&self) -> String {
+        match &self.asked {
+            Some(asked) => format!("what to change · {} {} for {}", asked.garment, asked.size, asked.subject),
+            None => "what to change".to_owned(),
+        }
     }
-}
 
-/// How many lines there are above and below those shown.
-pub fn hidden_mark(state: &State, hidden: usize) -> Option<String> {
-    let down = state.fit.alter.down.min(hidden);
-    let mark = match (down, hidden - down) {
-        (0, 0) => return None,
-        (0, below) => format!(" ↓ {below} more lines: j "),
-        (above, 0) => format!(" ↑ {above} more lines: k "),
-        (above, below) => format!(" ↑ {above} ↓ {below} more lines: j k "),
-    };
-    Some(mark)
-}
+    /// Mark of the numbers of lines above and below those shown.
+    pub fn hidden_mark(&self, hidden: usize) -> Option<String> {
+        let down = self.down.min(hidden);
+        let mark = match (down, hidden - down) {
+            (0, 0) => return None,
+            (0, below) => format!(" ↓ {below} more lines: j "),
+            (above, 0) => format!(" ↑ {above} more lines: k "),
+            (above, below) => format!(" ↑ {above} ↓ {below} more lines: j k "),
+        };
+        Some(mark)
+    }
 
-/// How many lines there is no room for in a pane.
-pub fn hidden(state: &State, pane: Rect) -> usize {
-    let (columns, rows) = inner(pane);
-    lines(state, columns, rows).len().saturating_sub(rows)
+    /// Number of lines that there is no room for in a pane.
+    pub fn hidden(&self, state: &State, pane: Rect) -> usize {
+        let (columns, rows) = inner(pane);
+        self.lines(state, columns, rows).len().saturating_sub(rows)
+    }
+
+    /// All lines. Where so many rows have room for that, parts are set apart, and it is said in full what handles do.
+    pub fn lines(&self, state: &State, columns: usize, rows: usize) -> Vec<Line<'static>> {
+        let theme = state.theme;
+        let told = |text: &str, style: Style| -> Vec<Line<'static>> {
+            wrapped(text, columns).into_iter().map(|line| Line::styled(line, style)).collect()
+        };
+        let found = match (&self.asked, &self.answer) {
+            (None, _) => return vec![Line::raw("reading…")],
+            (Some(asked), None) => {
+                return told(&format!("finding what to change of {} for {}…", asked.size, asked.subject), theme.busy());
+            }
+            (_, Some(Err(error))) => return told(&format!("no change is found: {error}"), theme.bad()),
+            (_, Some(Ok(found))) => found,
+        };
+        let drape = match (&found.drape, &self.draping) {
+            (_, Draping::GoesOn) => {
+                told(&format!("draping the changed pattern by FEM-GS: {}", self.how_long(state)), theme.busy())
+            }
+            (_, Draping::Failed(error)) => told(&format!("not draped: {error}"), theme.bad()),
+            (Some(drape), Draping::No) => told(
+                &format!("draped again: {}", drape.words()),
+                if drape.converged { Style::new() } else { theme.warn() },
+            ),
+            (None, Draping::No) => vec![],
+        };
+        let remarks: Vec<Line<'static>> = found.remarks.iter().flat_map(|remark| hanging(remark, columns)).collect();
+        let told = |is_whole: bool, gap: &[Line<'static>]| {
+            let (moves, levels) = (moves(theme, found, columns, is_whole), levels(state, found, columns));
+            let mut parts = vec![verdict(theme, found, columns), moves, levels, drape.clone(), remarks.clone()];
+            parts.retain(|part| !part.is_empty());
+            parts.join(gap)
+        };
+        let roomy = [true, false].map(|is_whole| told(is_whole, &[Line::raw("")]));
+        roomy.into_iter().find(|lines| lines.len() <= rows).unwrap_or_else(|| told(false, &[]))
+    }
 }
 
 /// Columns and rows inside a pane.
 pub fn inner(pane: Rect) -> (usize, usize) {
     (usize::from(pane.width.saturating_sub(2)), usize::from(pane.height.saturating_sub(2)))
-}
-
-/// All lines. Where so many rows have room for that, parts are set apart, and it is said in full what handles do.
-pub fn lines(state: &State, columns: usize, rows: usize) -> Vec<Line<'static>> {
-    let theme = state.theme;
-    let told = |text: &str, style: Style| -> Vec<Line<'static>> {
-        wrapped(text, columns).into_iter().map(|line| Line::styled(line, style)).collect()
-    };
-    let alter = &state.fit.alter;
-    let found = match (&alter.asked, &alter.answer) {
-        (None, _) => return vec![Line::raw("reading…")],
-        (Some(asked), None) => {
-            return told(&format!("finding what to change of {} for {}…", asked.size, asked.subject), theme.busy());
-        }
-        (_, Some(Err(error))) => return told(&format!("no change is found: {error}"), theme.bad()),
-        (_, Some(Ok(found))) => found,
-    };
-    let drape = match (&found.drape, &alter.draping) {
-        (_, Draping::GoesOn) => {
-            told(&format!("draping the changed pattern by FEM-GS: {}", state.how_long()), theme.busy())
-        }
-        (_, Draping::Failed(error)) => told(&format!("not draped: {error}"), theme.bad()),
-        (Some(drape), Draping::No) => {
-            told(&format!("draped again: {}", drape.words()), if drape.converged { Style::new() } else { theme.warn() })
-        }
-        (None, Draping::No) => vec![],
-    };
-    let remarks: Vec<Line<'static>> = found.remarks.iter().flat_map(|remark| hanging(remark, columns)).collect();
-    let told = |is_whole: bool, gap: &[Line<'static>]| {
-        let (moves, levels) = (moves(theme, found, columns, is_whole), levels(state, found, columns));
-        let mut parts = vec![verdict(theme, found, columns), moves, levels, drape.clone(), remarks.clone()];
-        parts.retain(|part| !part.is_empty());
-        parts.join(gap)
-    };
-    let roomy = [true, false].map(|is_whole| told(is_whole, &[Line::raw("")]));
-    roomy.into_iter().find(|lines| lines.len() <= rows).unwrap_or_else(|| told(false, &[]))
 }
 
 /// A remark, its further lines set in.
@@ -93,7 +96,7 @@ fn hanging(remark: &str, columns: usize) -> Vec<Line<'static>> {
     lines.map(|(k, line)| Line::raw(format!("{}{line}", if k == 0 { "• " } else { "  " }))).collect()
 }
 
-/// In a line whether anything is to change, and whether all is met then.
+/// Verdict in a line: the number of handles that change, and the levels that are missed then.
 fn verdict(theme: Theme, found: &Alteration, columns: usize) -> Vec<Line<'static>> {
     let missed: Vec<&AlteredLevel> = found.levels.iter().filter(|level| !level.is_met()).collect();
     let has_target = found.levels.iter().any(|level| level.target_mm.is_some());
@@ -117,12 +120,12 @@ fn verdict(theme: Theme, found: &Alteration, columns: usize) -> Vec<Line<'static
     lines.into_iter().map(|line| Line::styled(line, style.patch(theme.bold()))).collect()
 }
 
-/// The handles that move: by how much, and what that does, the whole of it or as far as there is room in a line.
+/// The handles that move: amount and effect, the whole of it or as far as there is room in a line.
 fn moves(theme: Theme, found: &Alteration, columns: usize, is_whole: bool) -> Vec<Line<'static>> {
     if found.moves.is_empty() {
         return vec![];
     }
-    let longest = found.moves.iter().map(|one| text::width(one.handle)).max().unwrap_or(0).max(6);
+    let longest = found.moves.iter().map(|moved| text::width(moved.handle)).max().unwrap_or(0).max(6);
     let room = columns.saturating_sub(longest + AMOUNT + 2);
     let head = left("handle", longest) + &right("by mm", AMOUNT);
     let head = if room >= 20 { head + "  plus means" } else { head };
@@ -150,26 +153,27 @@ fn clause(whole: &str, columns: usize) -> &str {
 /// Ease at the levels that pass the filter, from the neck down.
 fn levels(state: &State, found: &Alteration, columns: usize) -> Vec<Line<'static>> {
     let (theme, is_roomy) = (state.theme, columns >= ROOMY);
-    let order = state.worn().map_or(vec![], |worn| worn.card.levels());
-    let mut levels: Vec<&AlteredLevel> = found.levels.iter().filter(|one| state.passes(&words(&one.level))).collect();
-    levels.sort_by_key(|one| order.iter().position(|level| *level == one.level).unwrap_or(order.len()));
-    let longest = levels.iter().map(|one| text::width(&name(&one.level, !is_roomy))).max().unwrap_or(0).max(8);
+    let order = worn(state).map_or(vec![], |worn| worn.card.levels());
+    let shown = found.levels.iter().filter(|altered| passes(state, &words(&altered.level)));
+    let mut levels: Vec<&AlteredLevel> = shown.collect();
+    levels.sort_by_key(|altered| order.iter().position(|level| *level == altered.level).unwrap_or(order.len()));
+    let longest = levels.iter().map(|altered| text::width(&name(&altered.level, !is_roomy))).max().unwrap_or(0).max(8);
     let promised = if is_roomy { right("promised", EASE + SIGN) } else { String::new() };
     let head = left("ease, mm", longest) + &right("target", TARGET) + &right("before", EASE) + &" ".repeat(SIGN);
     let mut told = vec![Line::styled(head + &promised + &right("achieved", EASE + SIGN), theme.dim())];
-    for one in levels {
+    for altered in levels {
         let mut spans = vec![
-            Span::raw(left(&name(&one.level, !is_roomy), longest)),
-            Span::styled(right(&target(theme, one.target_mm), TARGET), theme.dim()),
-            ease(theme, one, one.before_mm, EASE),
+            Span::raw(left(&name(&altered.level, !is_roomy), longest)),
+            Span::styled(right(&target(theme, altered.target_mm), TARGET), theme.dim()),
+            ease(theme, altered, altered.before_mm, EASE),
         ];
         if is_roomy {
-            spans.push(Span::raw(right(&signed(one.promised_mm), EASE + SIGN)));
+            spans.push(Span::raw(right(&signed(altered.promised_mm), EASE + SIGN)));
         }
-        spans.push(ease(theme, one, one.achieved_mm, EASE + SIGN));
-        if is_roomy && one.target_mm.is_some() {
-            let (_, style) = sign(theme, one.sits(one.achieved_mm));
-            spans.push(Span::styled(if one.is_met() { "met" } else { "missed" }, style));
+        spans.push(ease(theme, altered, altered.achieved_mm, EASE + SIGN));
+        if is_roomy && altered.target_mm.is_some() {
+            let (_, style) = sign(theme, altered.sits(altered.achieved_mm));
+            spans.push(Span::styled(if altered.is_met() { "met" } else { "missed" }, style));
         }
         told.push(Line::from(spans));
     }
@@ -180,8 +184,8 @@ fn levels(state: &State, found: &Alteration, columns: usize) -> Vec<Line<'static
 }
 
 /// An ease in so many columns, and its sign.
-fn ease(theme: Theme, one: &AlteredLevel, mm: f64, columns: usize) -> Span<'static> {
-    let sits = one.sits(mm);
+fn ease(theme: Theme, altered: &AlteredLevel, mm: f64, columns: usize) -> Span<'static> {
+    let sits = altered.sits(mm);
     let (sign, style) = sign(theme, sits);
     let mark = if mm < 0.0 && sits == Some(Sits::Tight) { "!" } else { " " };
     Span::styled(format!("{} {sign}{mark}", right(&signed(mm), columns)), style)

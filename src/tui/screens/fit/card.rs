@@ -4,8 +4,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::screens::fit::actions::is_same;
-use crate::screens::fit::state::View;
+use crate::screens::fit::actions::{card_levels, worn};
+use crate::screens::fit::state::{FitScreen, View};
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::first_shown;
@@ -13,7 +13,7 @@ use crate::widgets::text::{self, left, right, whole, words, wrapped};
 use crate::widgets::theme::Theme;
 use results::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
 
-/// What the signs mean.
+/// Meaning of the signs.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
 /// Columns of body and target.
 const BODY: usize = 6;
@@ -23,12 +23,12 @@ const LONG: usize = 20;
 const SHORT: usize = 18;
 const SIGNS: usize = 9;
 
-/// Garment, subject, intended fit, and which of how many.
+/// Title of the pane: garment, subject and its number, intended fit.
 pub fn title(state: &State) -> String {
     let Some(grid) = state.grid() else { return "fit".to_owned() };
-    let at = state.study.place.subject;
+    let at = state.place.subject;
     let subject = grid.subjects.get(at).map_or("", String::as_str);
-    let intended = state.worn().and_then(|worn| worn.card.intended.as_deref());
+    let intended = worn(state).and_then(|worn| worn.card.intended.as_deref());
     let intended = intended.map_or(String::new(), |fit| format!(" · {fit} fit"));
     let which = match grid.subjects.len() {
         0 | 1 => String::new(),
@@ -37,45 +37,47 @@ pub fn title(state: &State) -> String {
     format!("{} on {subject}{which}{intended}", grid.garment)
 }
 
-/// The card in so many columns, and at most so many lines.
-pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
-    let Some(worn) = state.worn() else { return vec![Line::raw("reading…")] };
-    let card = &worn.card;
-    if card.sizes.is_empty() {
-        return vec![Line::raw("no ease is known yet: R runs the study, which measures it")];
+impl FitScreen {
+    /// The card in so many columns, and at most so many lines.
+    pub fn card_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
+        let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
+        let card = &worn.card;
+        if card.sizes.is_empty() {
+            return vec![Line::raw("no ease is known yet: R runs the study, which measures it")];
+        }
+        let levels = card_levels(state);
+        let missing = missing(worn, columns);
+        let widths = Columns::new(card, columns);
+        let mut told = head(state.theme, card, &widths, columns, lines.saturating_sub(levels.len() + missing.len()));
+        let at = self.level_in(state, &levels);
+        let room = lines.saturating_sub(told.len() + missing.len());
+        let first = first_shown(at.unwrap_or(0), levels.len(), room);
+        for (k, level) in levels.iter().enumerate().skip(first).take(room) {
+            let selection = (Some(k) == at).then(|| state.theme.selection(focused));
+            told.push(row(state.theme, &widths, level, selection.unwrap_or_default()));
+        }
+        if levels.is_empty() {
+            told.push(Line::raw("no level matches the filter"));
+        }
+        told.extend(missing.into_iter().map(|line| Line::styled(line, state.theme.busy())));
+        told
     }
-    let levels = state.card_levels();
-    let missing = missing(worn, columns);
-    let widths = Columns::new(card, columns);
-    let mut told = head(state.theme, card, &widths, columns, lines.saturating_sub(levels.len() + missing.len()));
-    let at = state.level().and_then(|level| levels.iter().position(|one| is_same(one, level)));
-    let room = lines.saturating_sub(told.len() + missing.len());
-    let first = first_shown(at.unwrap_or(0), levels.len(), room);
-    for (k, level) in levels.iter().enumerate().skip(first).take(room) {
-        let selection = (Some(k) == at).then(|| state.theme.selection(focused));
-        told.push(row(state.theme, &widths, level, selection.unwrap_or_default()));
+
+    /// The levels that can be gone to.
+    pub fn card_targets(&self, state: &State, inner: Rect) -> Vec<Target> {
+        let Some(worn) = worn(state).filter(|worn| !worn.card.sizes.is_empty()) else { return vec![] };
+        let (columns, lines) = (usize::from(inner.width), usize::from(inner.height));
+        let levels = card_levels(state);
+        let missing = missing(worn, columns).len();
+        let widths = Columns::new(&worn.card, columns);
+        let head = head(state.theme, &worn.card, &widths, columns, lines.saturating_sub(levels.len() + missing)).len();
+        let at = self.level_in(state, &levels);
+        let inner = Rect { height: inner.height.saturating_sub(missing as u16), ..inner };
+        jump::rows(View::Card as usize, inner, head, levels.len(), at.unwrap_or(0))
     }
-    if levels.is_empty() {
-        told.push(Line::raw("no level matches the filter"));
-    }
-    told.extend(missing.into_iter().map(|line| Line::styled(line, state.theme.busy())));
-    told
 }
 
-/// The levels that can be gone to.
-pub fn targets(state: &State, inner: Rect) -> Vec<Target> {
-    let Some(worn) = state.worn().filter(|worn| !worn.card.sizes.is_empty()) else { return vec![] };
-    let (columns, lines) = (usize::from(inner.width), usize::from(inner.height));
-    let levels = state.card_levels();
-    let missing = missing(worn, columns).len();
-    let widths = Columns::new(&worn.card, columns);
-    let head = head(state.theme, &worn.card, &widths, columns, lines.saturating_sub(levels.len() + missing)).len();
-    let at = state.level().and_then(|level| levels.iter().position(|one| is_same(one, level)));
-    let inner = Rect { height: inner.height.saturating_sub(missing as u16), ..inner };
-    jump::rows(View::Card as usize, inner, head, levels.len(), at.unwrap_or(0))
-}
-
-/// What is missing where there is no drape.
+/// Note on the parts that are missing where there is no drape.
 fn missing(worn: &GarmentWorn, columns: usize) -> Vec<String> {
     if worn.sizes.is_empty() {
         wrapped("no drape yet: sections and the comparison of sizes need one, R runs the study", columns)
@@ -84,7 +86,7 @@ fn missing(worn: &GarmentWorn, columns: usize) -> Vec<String> {
     }
 }
 
-/// What to wear, what is wrong with the sizes beside it where there is room in so many lines, and the header.
+/// The verdict, the faults of the sizes beside the one to wear where there is room in so many lines, and the header.
 fn head(theme: Theme, card: &FitCard, widths: &Columns<'_>, columns: usize, lines: usize) -> Vec<Line<'static>> {
     let mut told = vec![verdict(theme, card, columns)];
     let others = others(card, columns);
@@ -95,21 +97,21 @@ fn head(theme: Theme, card: &FitCard, widths: &Columns<'_>, columns: usize, line
     told
 }
 
-/// What to wear, and what is worst with it.
+/// The size to wear, and its worst fault.
 fn verdict(theme: Theme, card: &FitCard, columns: usize) -> Line<'static> {
     let (sign, style) =
-        card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |one| sign(theme, one.sits()));
+        card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |sits| sign(theme, sits.sits()));
     let verdict = text::shortened(&format!("{sign} {}", card.verdict()), columns);
     Line::styled(verdict, style.patch(theme.bold()))
 }
 
-/// What is worst with the sizes beside the one to wear.
+/// The worst faults of the sizes beside the one to wear.
 fn others(card: &FitCard, columns: usize) -> Vec<String> {
     let others = card.beside().iter().filter(|size| size.place.is_some_and(|place| place != 1));
     wrapped(&others.map(|size| format!("not {}: {}", size.size, size.words())).collect::<Vec<_>>().join("; "), columns)
 }
 
-/// What there is room for: as many of the sizes to wear and beside it, then target and body.
+/// Columns that there is room for: as many as possible of the size to wear and those beside it, then target and body.
 struct Columns<'a> {
     level: usize,
     sizes: Vec<&'a SizeSits>,
@@ -162,39 +164,39 @@ fn header(theme: Theme, card: &FitCard, columns: &Columns<'_>) -> Line<'static> 
 /// The title of a size's column, in the colour of its line in sections.
 pub fn headed(theme: Theme, card: &FitCard, size: &str) -> (String, Style) {
     let style = colour(theme, card, size);
-    let mark = card.sizes.iter().find(|one| one.size == size).and_then(SizeSits::mark);
+    let mark = card.sizes.iter().find(|other| other.size == size).and_then(SizeSits::mark);
     match mark {
         Some(mark) => (format!("▸{size} {mark}"), style.patch(theme.bold())),
         None => (size.to_owned(), style),
     }
 }
 
-/// Whether a size is the one to wear.
+/// True if a size is the one to wear.
 pub fn is_to_wear(card: &FitCard, size: &str) -> bool {
     card.to_wear().is_some_and(|wear| wear.size == size)
 }
 
 /// The colour of a size.
 pub fn colour(theme: Theme, card: &FitCard, size: &str) -> Style {
-    let number = card.sizes.iter().position(|one| one.size == size).unwrap_or(0);
+    let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     Style::new().fg(theme.lettered(number))
 }
 
 fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Line<'static> {
     let of_sizes: Vec<Option<&LevelSits>> =
-        columns.sizes.iter().map(|size| size.levels.iter().find(|one| one.level == level)).collect();
+        columns.sizes.iter().map(|size| size.levels.iter().find(|sits| sits.level == level)).collect();
     let known = of_sizes.iter().flatten().next();
     let mut spans = vec![Span::styled(left(&name(level, columns.size < LONG), columns.level), selection)];
     if columns.body {
-        spans.push(Span::raw(right(&known.map_or(String::new(), |one| whole(one.body_girth_mm)), BODY)));
+        spans.push(Span::raw(right(&known.map_or(String::new(), |sits| whole(sits.body_girth_mm)), BODY)));
     }
     if columns.target {
-        let target = target(theme, known.and_then(|one| one.target_mm));
+        let target = target(theme, known.and_then(|sits| sits.target_mm));
         spans.push(Span::styled(right(&target, TARGET - 1), theme.dim()));
     }
-    for one in of_sizes {
-        spans.push(match one {
-            Some(one) => cell(theme, one, columns.size),
+    for sits in of_sizes {
+        spans.push(match sits {
+            Some(sits) => cell(theme, sits, columns.size),
             None => Span::styled(left(" —", columns.size), theme.dim()),
         });
     }
@@ -208,17 +210,17 @@ pub fn target(theme: Theme, target_mm: Option<[f64; 2]>) -> String {
 }
 
 /// Ease, sign and words of a size at a level.
-fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
-    let (sign, style) = sign(theme, one.sits());
-    let ease = format!("{:+.0}", one.ease_mm).replace('-', "−");
-    let told = one.words();
+fn cell(theme: Theme, sits: &LevelSits, columns: usize) -> Span<'static> {
+    let (sign, style) = sign(theme, sits.sits());
+    let ease = format!("{:+.0}", sits.ease_mm).replace('-', "−");
+    let told = sits.words();
     let told = told.split(" mm").next().unwrap_or_default();
     let told = match columns {
         LONG.. => told.to_owned(),
         SHORT.. => told.replace("by ", "").replace("as designed", "designed"),
         _ => String::new(),
     };
-    let mark = if is_undersized(one) { "!" } else { "" };
+    let mark = if is_undersized(sits) { "!" } else { "" };
     Span::styled(left(format!("{} {sign} {told}{mark}", right(&ease, 5)).trim_end(), columns), style)
 }
 
@@ -232,7 +234,7 @@ pub fn sign(theme: Theme, sits: Option<Sits>) -> (&'static str, Style) {
     }
 }
 
-/// Whether a level is too tight and smaller than the body.
-fn is_undersized(one: &LevelSits) -> bool {
-    one.ease_mm < 0.0 && one.sits() == Some(Sits::Tight)
+/// True if a size is too tight at a level and smaller than the body.
+fn is_undersized(sits: &LevelSits) -> bool {
+    sits.ease_mm < 0.0 && sits.sits() == Some(Sits::Tight)
 }

@@ -1,17 +1,20 @@
-//! Where the parts of the screen lie.
+//! Layout of the screen, and drawing of its parts.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
-use crate::screens::fit::state::View;
-use crate::screens::fit::{alteration, card, section, sizes};
+use crate::overlays::explanation::Selected;
+use crate::screens::fit::actions::{quantities_shown, worn};
+use crate::screens::fit::state::{FitScreen, View};
+use crate::screens::fit::{alteration, card, sizes};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::WIDE;
 use crate::widgets::lists::pane;
-use crate::widgets::text;
+use crate::widgets::text::{self, words};
 
 /// Bodies of at least so many rows have room for the card above the comparison.
 const TALL: u16 = 34;
@@ -20,62 +23,135 @@ const CARD: u16 = 94;
 /// The fewest columns of a section beside the card.
 const SECTION: u16 = 40;
 
-/// Draws the screen: all parts where there is room, card or comparison beside the section, or one of them.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    if state.fit.alter.is_open {
-        draw_alteration(frame, area, state);
-        return;
-    }
-    let parts = parts(area, state);
-    let is_alone = parts.len() == 1;
-    for (part, area) in parts {
-        let focused = is_alone || state.fit.view == part;
-        match part {
-            View::Card => draw_card(frame, area, state, focused),
-            View::Section => section::draw(frame, area, state, focused),
-            View::Sizes => draw_sizes(frame, area, state, focused),
+/// Names of what is shown, as the glossary has them.
+const NAMES: [&str; 11] = [
+    "ease",
+    "target",
+    "body",
+    "wear",
+    "level",
+    "mean gap",
+    "hem",
+    "side seam lean",
+    "greatest pressure",
+    "folds",
+    "drag lines",
+];
+
+impl Draw for FitScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        if self.alter.is_open {
+            self.draw_alteration(frame, area, state);
+            return;
         }
+        let parts = self.parts(area, state);
+        let is_alone = parts.len() == 1;
+        for (part, area) in parts {
+            let focused = is_alone || self.view == part;
+            match part {
+                View::Card => self.draw_card(frame, area, state, focused),
+                View::Section => self.draw_section(frame, area, state, focused),
+                View::Sizes => self.draw_sizes(frame, area, state, focused),
+            }
+        }
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        if self.alter.is_open {
+            return vec![];
+        }
+        let targets = |(part, area): (View, Rect)| {
+            let inner = jump::inside(area);
+            match part {
+                View::Card => self.card_targets(state, inner),
+                View::Section => vec![jump::pane(area, part as usize)],
+                View::Sizes => jump::rows(part as usize, inner, 1, quantities_shown(state).len(), self.row),
+            }
+        };
+        self.parts(area, state).into_iter().flat_map(targets).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let quantities = quantities_shown(state);
+        let quantity = quantities.get(self.row).filter(|_| self.view == View::Sizes);
+        let (what, name) = match quantity {
+            Some(quantity) => {
+                let cells: Vec<&str> = quantity.cells.iter().flatten().map(String::as_str).collect();
+                (format!("{}: {}", quantity.name, cells.join("; ")), quantity.name.clone())
+            }
+            None => {
+                let level = words(self.level(state).unwrap_or_default());
+                (level.clone(), level)
+            }
+        };
+        Selected::new(what, &[&name], &NAMES)
     }
 }
 
-/// The parts that there is room for, each with its place.
-fn parts(area: Rect, state: &State) -> Vec<(View, Rect)> {
-    let view = state.fit.view;
-    if !has_drape(state) {
-        return vec![(View::Card, area)];
-    }
-    if area.width < WIDE {
-        return vec![(view, area)];
-    }
-    let [left, right] = beside(area);
-    let section = (View::Section, right);
-    if area.height >= TALL {
-        let lines = card::lines(state, usize::from(left.width - 2), usize::from(area.height), false).len() as u16;
-        let [card, sizes] = Layout::vertical([Constraint::Length(lines + 2), Constraint::Fill(1)]).areas(left);
-        return vec![section, (View::Card, card), (View::Sizes, sizes)];
-    }
-    let left_view = if view == View::Sizes { View::Sizes } else { View::Card };
-    vec![section, (left_view, left)]
-}
-
-/// Rows and parts that can be gone to; none while it is shown what to change.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    if state.fit.alter.is_open {
-        return vec![];
-    }
-    let of = |(part, area): (View, Rect)| {
-        let inner = jump::inside(area);
-        match part {
-            View::Card => card::targets(state, inner),
-            View::Section => vec![jump::pane(area, part as usize)],
-            View::Sizes => jump::rows(part as usize, inner, 1, state.quantities().len(), state.fit.row),
+impl FitScreen {
+    /// The parts that there is room for, each with its place.
+    fn parts(&self, area: Rect, state: &State) -> Vec<(View, Rect)> {
+        let view = self.view;
+        if !has_drape(state) {
+            return vec![(View::Card, area)];
         }
-    };
-    parts(area, state).into_iter().flat_map(of).collect()
+        if area.width < WIDE {
+            return vec![(view, area)];
+        }
+        let [left, right] = beside(area);
+        let section = (View::Section, right);
+        if area.height >= TALL {
+            let lines =
+                self.card_lines(state, usize::from(left.width - 2), usize::from(area.height), false).len() as u16;
+            let [card, sizes] = Layout::vertical([Constraint::Length(lines + 2), Constraint::Fill(1)]).areas(left);
+            return vec![section, (View::Card, card), (View::Sizes, sizes)];
+        }
+        let left_view = if view == View::Sizes { View::Sizes } else { View::Card };
+        vec![section, (left_view, left)]
+    }
+
+    /// Number of lines of what to change that there is no room for.
+    pub fn hidden_lines(&self, state: &State) -> usize {
+        self.alter.hidden(state, alteration_panes(state.body(), state).0)
+    }
+
+    fn draw_alteration(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let (pane_area, section_area) = alteration_panes(area, state);
+        if let Some(area) = section_area {
+            self.draw_section(frame, area, state, false);
+        }
+        let hidden = self.alter.hidden(state, pane_area);
+        let more = self.alter.hidden_mark(hidden).unwrap_or_default();
+        // Where there is room for one of both, that there is more matters more.
+        let has_legend = text::width(&more) + text::width(card::LEGEND) + 2 < usize::from(pane_area.width);
+        let legend = if has_legend || more.is_empty() { card::LEGEND } else { "" };
+        let block = pane(state.theme, self.alter.title(), true)
+            .title_bottom(Line::styled(more, state.theme.busy()))
+            .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+        let (columns, rows) = alteration::inner(pane_area);
+        let lines = self.alter.lines(state, columns, rows).into_iter().skip(self.alter.down.min(hidden));
+        frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).block(block), pane_area);
+    }
+
+    fn draw_card(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+        let block = pane(state.theme, card::title(state), focused)
+            .title_bottom(Line::styled(card::LEGEND, state.theme.legend()).right_aligned());
+        let inner = block.inner(area);
+        let lines = self.card_lines(state, usize::from(inner.width), usize::from(inner.height), focused);
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+
+    fn draw_sizes(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+        let block = pane(state.theme, sizes::title(state), focused)
+            .title_bottom(Line::styled(sizes::LEGEND, state.theme.legend()).right_aligned());
+        let inner = block.inner(area);
+        let lines = self.size_lines(state, usize::from(inner.width), usize::from(inner.height), focused);
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
 }
 
 fn has_drape(state: &State) -> bool {
-    state.worn().is_none_or(|worn| !worn.sizes.is_empty())
+    worn(state).is_none_or(|worn| !worn.sizes.is_empty())
 }
 
 /// The card and the section in a wide area.
@@ -83,50 +159,11 @@ fn beside(area: Rect) -> [Rect; 2] {
     Layout::horizontal([Constraint::Length(CARD.min(area.width - SECTION)), Constraint::Fill(1)]).areas(area)
 }
 
-/// Where what to change lies, and beside it the section where there is room.
+/// The pane of what to change, and beside it that of the section where there is room.
 fn alteration_panes(area: Rect, state: &State) -> (Rect, Option<Rect>) {
     if area.width < WIDE || !has_drape(state) {
         return (area, None);
     }
     let [left, right] = beside(area);
     (left, Some(right))
-}
-
-/// How many lines of what to change there is no room for.
-pub fn hidden_lines(state: &State) -> usize {
-    alteration::hidden(state, alteration_panes(state.body(), state).0)
-}
-
-fn draw_alteration(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let (pane_area, section_area) = alteration_panes(area, state);
-    if let Some(area) = section_area {
-        section::draw(frame, area, state, false);
-    }
-    let hidden = alteration::hidden(state, pane_area);
-    let more = alteration::hidden_mark(state, hidden).unwrap_or_default();
-    // Where there is room for one of both, that there is more matters more.
-    let has_legend = text::width(&more) + text::width(card::LEGEND) + 2 < usize::from(pane_area.width);
-    let legend = if has_legend || more.is_empty() { card::LEGEND } else { "" };
-    let block = pane(state.theme, alteration::title(state), true)
-        .title_bottom(Line::styled(more, state.theme.busy()))
-        .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
-    let (columns, rows) = alteration::inner(pane_area);
-    let lines = alteration::lines(state, columns, rows).into_iter().skip(state.fit.alter.down.min(hidden));
-    frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).block(block), pane_area);
-}
-
-fn draw_card(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
-    let block = pane(state.theme, card::title(state), focused)
-        .title_bottom(Line::styled(card::LEGEND, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    let lines = card::lines(state, usize::from(inner.width), usize::from(inner.height), focused);
-    frame.render_widget(Paragraph::new(lines).block(block), area);
-}
-
-fn draw_sizes(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
-    let block = pane(state.theme, sizes::title(state), focused)
-        .title_bottom(Line::styled(sizes::LEGEND, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    let lines = sizes::lines(state, usize::from(inner.width), usize::from(inner.height), focused);
-    frame.render_widget(Paragraph::new(lines).block(block), area);
 }

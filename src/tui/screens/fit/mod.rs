@@ -1,7 +1,7 @@
-//! Screen 0: how a garment sits on a subject: its fit card, a cross section of all sizes, the sizes side by side, and what
-//! to change of a size so that it fits.
+//! Screen 0: the fit of a garment on a subject: its fit card, a cross section of all sizes, the sizes side by side, and
+//! the change of a size so that it fits.
 
-mod actions;
+pub mod actions;
 mod alteration;
 mod altering;
 mod card;
@@ -11,18 +11,13 @@ mod section;
 mod sizes;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
-use crate::screens::fit::state::View;
+use crate::screens::fit::state::{FitScreen, View};
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
 /// Keys and what they do; Tab leads to the next part.
 const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
@@ -50,83 +45,62 @@ const ALTER_HINTS: [(&str, &str); 8] = [
     (":", "command"),
 ];
 
-/// The screen of fit.
-pub struct FitPage;
-
-impl Page for FitPage {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        draw::draw(frame, area, state);
-    }
-
-    fn go(&self, state: &mut State, movement: Movement) {
-        if state.fit.alter.is_open {
-            state.scroll_alteration(movement, draw::hidden_lines(state));
+impl Page for FitScreen {
+    fn go(&mut self, state: &mut State, movement: Movement) {
+        if self.alter.is_open {
+            self.alter.scroll(movement, self.hidden_lines(state));
         } else {
-            state.go_in_fit(movement);
+            self.go_in_view(state, movement);
         }
     }
 
-    fn sideways(&self, state: &mut State, step: isize) {
-        state.go_to_subject(step);
-    }
-
-    fn go_to_match(&self, state: &mut State, step: isize) {
-        self.go(state, Movement::Round(step));
+    fn sideways(&mut self, state: &mut State, step: isize) {
+        state.step_subject(step);
     }
 
     /// Levels and quantities have one order.
-    fn sort(&self, _state: &mut State) {}
+    fn sort(&mut self, _state: &mut State) {}
 
-    fn reverse(&self, _state: &mut State) {}
-
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        match state.fit.view {
-            _ if state.fit.alter.is_open => altering::command(state).map(|command| (command, "the command")),
-            View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
-            View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
+    fn copied(&self, state: &State) -> Option<Copied> {
+        match self.view {
+            _ if self.alter.is_open => self.alter.command(state).map(|text| Copied { name: "the command", text }),
+            View::Sizes => actions::size_table(state).map(|text| Copied { name: "the comparison of sizes", text }),
+            View::Card | View::Section => actions::card_table(state).map(|text| Copied { name: "the fit card", text }),
         }
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        draw::targets(state, area)
+    fn focus(&mut self, _state: &mut State, pane: usize) {
+        self.view = View::ALL[pane];
     }
 
-    fn focus(&self, state: &mut State, pane: usize) {
-        state.fit.view = View::ALL[pane];
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        actions::explained(state)
-    }
-
-    fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+    fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         let is_shown = state.nav.screen == Screen::Fit;
         match action {
-            Action::NextLevel => state.step_level(1),
-            Action::PreviousLevel => state.step_level(-1),
-            Action::NextPane if is_shown => state.step_view(1),
-            Action::PreviousPane if is_shown => state.step_view(-1),
-            Action::Alter => return Some(state.open_alteration()),
-            Action::DrapeChange => return Some(state.drape_alteration()),
-            Action::WriteChange => state.write_alteration(),
-            Action::LargerSize => return Some(state.step_altered_size(1)),
-            Action::SmallerSize => return Some(state.step_altered_size(-1)),
+            Action::NextLevel => self.step_level(state, 1),
+            Action::PreviousLevel => self.step_level(state, -1),
+            Action::NextPane if is_shown => self.step_view(1),
+            Action::PreviousPane if is_shown => self.step_view(-1),
+            Action::Alter => return Some(self.alter.open(state)),
+            Action::DrapeChange => return Some(self.alter.drape(state)),
+            Action::WriteChange => self.alter.write(state),
+            Action::LargerSize => return Some(self.alter.step_size(state, 1)),
+            Action::SmallerSize => return Some(self.alter.step_size(state, -1)),
             _ => return None,
         }
         Some(vec![])
     }
 
-    fn shrink(&self, state: &mut State) -> bool {
-        std::mem::take(&mut state.fit.alter.is_open)
+    fn shrink(&mut self, _state: &mut State) -> bool {
+        std::mem::take(&mut self.alter.is_open)
     }
 
-    fn wanted(&self, state: &mut State) -> Vec<Effect> {
-        state.ask_for_sections().into_iter().chain(state.ask_for_alteration()).collect()
+    fn wanted(&mut self, state: &State) -> Vec<Effect> {
+        self.ask_for_sections(state).into_iter().chain(self.alter.ask_if_wanted(state)).collect()
     }
 
     fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {
-        let hints = match state.fit.view {
-            _ if state.fit.alter.is_open => &ALTER_HINTS,
+        let hints = match self.view {
+            _ if self.alter.is_open => &ALTER_HINTS,
             View::Card => const { &hints("section") },
             View::Section => const { &hints("sizes") },
             View::Sizes => const { &hints("card") },

@@ -1,4 +1,4 @@
-//! What is measured on the drapes of a garment, a row a quantity, a cell a size.
+//! Quantities measured on the drapes of a garment, a row a quantity, a cell a size.
 
 use crate::widgets::text::{whole, words};
 use results::{FoldLine, SizeWorn};
@@ -40,10 +40,10 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     });
     rows.add("drag lines, longest", |size| Some(longest(&size.folds, "drag_line")));
     rows.add("folds, longest", |size| Some(longest(&size.folds, "fold")));
-    for opening in names(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
+    for opening in names(sizes, |size| size.drawn.iter().map(|drawn| drawn.opening.as_str()).collect()) {
         rows.add(&format!("drawn {opening}"), |size| {
-            let one = size.drawn.iter().find(|one| one.opening == opening)?;
-            Some(signed(one.drawn_mm))
+            let drawn = size.drawn.iter().find(|drawn| drawn.opening == opening)?;
+            Some(signed(drawn.drawn_mm))
         });
     }
     let mut levels = names(sizes, |size| size.gaps.iter().map(|gap| gap.level.as_str()).collect());
@@ -55,7 +55,7 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     }
     for point in names(sizes, |size| size.points.iter().map(|point| point.point.as_str()).collect()) {
         rows.add(&words(point), |size| {
-            let found = size.points.iter().find(|one| one.point == point)?;
+            let found = size.points.iter().find(|worn| worn.point == point)?;
             let worn = found.draped_mm.map_or(String::new(), |worn| format!(" → {worn:.1}"));
             Some(format!("{:.1}{worn}", found.flat_mm))
         });
@@ -71,8 +71,8 @@ struct Rows<'a> {
 
 impl Rows<'_> {
     /// Adds a quantity, where any size has it.
-    fn add(&mut self, name: &str, of: impl Fn(&SizeWorn) -> Option<String>) {
-        let cells: Vec<Option<String>> = self.sizes.iter().map(of).collect();
+    fn add(&mut self, name: &str, cell: impl Fn(&SizeWorn) -> Option<String>) {
+        let cells: Vec<Option<String>> = self.sizes.iter().map(cell).collect();
         if cells.iter().any(Option::is_some) {
             self.found.push(Quantity { name: name.to_owned(), cells });
         }
@@ -80,9 +80,9 @@ impl Rows<'_> {
 }
 
 /// Names that any size has, in order.
-fn names(sizes: &[SizeWorn], of: fn(&SizeWorn) -> Vec<&str>) -> Vec<&str> {
+fn names(sizes: &[SizeWorn], names_of: fn(&SizeWorn) -> Vec<&str>) -> Vec<&str> {
     let mut found = vec![];
-    for name in sizes.iter().flat_map(of) {
+    for name in sizes.iter().flat_map(names_of) {
         if !found.contains(&name) {
             found.push(name);
         }
@@ -95,7 +95,7 @@ fn signed(value: f64) -> String {
     if value.abs() < 0.5 { "0".to_owned() } else { format!("{value:+.0}").replace('-', "−") }
 }
 
-/// How far and which way a side seam leans on its way down.
+/// Angle and direction in which a side seam leans on its way down.
 fn lean(deg: f64) -> String {
     match deg {
         deg if deg.abs() < 0.5 => "upright".to_owned(),
@@ -104,7 +104,7 @@ fn lean(deg: f64) -> String {
     }
 }
 
-/// How many folds of a kind there are, and how long the longest is.
+/// Number of folds of a kind, and length of the longest.
 fn longest(folds: &[FoldLine], kind: &str) -> String {
     let lengths = || folds.iter().filter(|fold| fold.kind == kind).map(|fold| fold.length_mm);
     let longest = lengths().reduce(f64::max);

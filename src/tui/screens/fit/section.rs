@@ -6,14 +6,16 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Wrap};
 
+use crate::screens::fit::actions::worn;
 use crate::screens::fit::card::{colour, is_to_wear};
+use crate::screens::fit::state::FitScreen;
 use crate::screens::state::State;
 use crate::widgets::dots::{Dash, Dots};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{left, right, whole, words};
 use results::{CrossSection, CutCloth, CutLine, FitCard};
 
-/// Where one looks from, and in a few words.
+/// Legend of the view, in full and in a few words.
 const LEGEND: [&str; 2] = [" front up, the subject's right on the right ", " front up, right on the right "];
 /// Columns of the legend, and of its parts: a piece of the line, the name, least, mean and greatest gap.
 const KEY: u16 = 33;
@@ -31,41 +33,44 @@ const TRUNK: [&str; 4] = ["chest", "underbust", "waist", "hip"];
 /// Dots between those that fill the body.
 const FILL: usize = 4;
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
-    let section = state.section();
-    let title = match (section, state.level()) {
-        (Some(section), _) => format!("{} · {:.0} mm above the floor", words(&section.level), section.height_mm),
-        (None, level) => format!("section · {}", words(level.unwrap_or_default())),
-    };
-    let legend = LEGEND[usize::from(area.width < 50)];
-    let block =
-        pane(state.theme, title, focused).title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    frame.render_widget(block, area);
-    let (Some(section), Some(worn)) = (section, state.worn()) else {
-        frame.render_widget(Paragraph::new(state.why_no_section()).wrap(Wrap { trim: true }), inner);
-        return;
-    };
-    let key = key(state, section, &worn.card);
-    // Beside a wide picture the key takes nothing of its height.
-    let is_wide = inner.width > 3 * inner.height && inner.width > 2 * KEY;
-    let [key_area, picture] = if is_wide {
-        Layout::horizontal([Constraint::Length(KEY + 1), Constraint::Fill(1)]).areas(inner)
-    } else {
-        Layout::vertical([Constraint::Length(key.len() as u16), Constraint::Fill(1)]).areas(inner)
-    };
-    frame.render_widget(Paragraph::new(key), key_area);
-    frame.render_widget(Paragraph::new(outlines(state, section, &worn.card, picture)), picture);
+impl FitScreen {
+    /// Draws the section, or why there is none.
+    pub fn draw_section(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+        let section = self.section(state);
+        let title = match (section, self.level(state)) {
+            (Some(section), _) => format!("{} · {:.0} mm above the floor", words(&section.level), section.height_mm),
+            (None, level) => format!("section · {}", words(level.unwrap_or_default())),
+        };
+        let legend = LEGEND[usize::from(area.width < 50)];
+        let block =
+            pane(state.theme, title, focused).title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+        let inner = block.inner(area);
+        frame.render_widget(block, area);
+        let (Some(section), Some(worn)) = (section, worn(state)) else {
+            frame.render_widget(Paragraph::new(self.why_no_section(state)).wrap(Wrap { trim: true }), inner);
+            return;
+        };
+        let key = key(state, section, &worn.card);
+        // Beside a wide picture the key takes nothing of its height.
+        let is_wide = inner.width > 3 * inner.height && inner.width > 2 * KEY;
+        let [key_area, picture] = if is_wide {
+            Layout::horizontal([Constraint::Length(KEY + 1), Constraint::Fill(1)]).areas(inner)
+        } else {
+            Layout::vertical([Constraint::Length(key.len() as u16), Constraint::Fill(1)]).areas(inner)
+        };
+        frame.render_widget(Paragraph::new(key), key_area);
+        frame.render_widget(Paragraph::new(outlines(state, section, &worn.card, picture)), picture);
+    }
 }
 
-/// How a size is drawn.
+/// Dash and style of the lines of a size.
 fn pen(state: &State, card: &FitCard, size: &str) -> (Dash, Style) {
-    let number = card.sizes.iter().position(|one| one.size == size).unwrap_or(0);
+    let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     let dash = if is_to_wear(card, size) { WHOLE } else { DASHES[number % DASHES.len()] };
     (dash, colour(state.theme, card, size))
 }
 
-/// What the lines are: size, least, mean and greatest gap.
+/// Key of the lines: size, least, mean and greatest gap.
 fn key(state: &State, section: &CrossSection, card: &FitCard) -> Vec<Line<'static>> {
     let head: String = GAPS.iter().map(|(title, columns)| right(title, *columns)).collect();
     let mut told = vec![Line::styled(left("gap, mm", SAMPLE + 1 + NAME) + &head, state.theme.dim())];
@@ -98,7 +103,7 @@ fn sample(dash: Dash, style: Style) -> Span<'static> {
 /// Body and cloth in a place, the size to wear last, so that nothing hides it.
 fn outlines(state: &State, section: &CrossSection, card: &FitCard, area: Rect) -> Vec<Line<'static>> {
     let mut dots = Dots::new(usize::from(area.width), usize::from(area.height));
-    let Some(scale) = Scale::of(section, dots.size()) else { return vec![] };
+    let Some(scale) = Scale::fit(section, dots.size()) else { return vec![] };
     let dim = state.theme.dim();
     let skin = scale.places(&section.skin);
     fill(&mut dots, &skin, dim);
@@ -125,7 +130,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(section: &CrossSection, size: [usize; 2]) -> Option<Self> {
+    fn fit(section: &CrossSection, size: [usize; 2]) -> Option<Self> {
         let is_trunk = TRUNK.contains(&section.level.as_str());
         let cloth = section.cloth.iter().filter(|_| !is_trunk).flat_map(|cloth| &cloth.lines);
         let points = || cloth.clone().chain([&section.skin]).flat_map(|line| &line.points);
@@ -133,8 +138,8 @@ impl Scale {
         let gaps = section.cloth.iter().filter(|_| is_trunk).filter_map(|cloth| cloth.gap_mm());
         let air_mm = gaps.map(|[_, _, greatest]| greatest).fold(0.0, f64::max);
         let bounds = |k: usize| {
-            let reach = |(low, high): (f64, f64), v: f64| (low.min(v - air_mm), high.max(v + air_mm));
-            points().map(|p| p[k]).fold((f64::INFINITY, f64::NEG_INFINITY), reach)
+            let reach = |(low, high): (f64, f64), mm: f64| (low.min(mm - air_mm), high.max(mm + air_mm));
+            points().map(|point| point[k]).fold((f64::INFINITY, f64::NEG_INFINITY), reach)
         };
         let (across, deep) = (bounds(0), bounds(1));
         let size = size.map(|dots| dots as f64);
@@ -162,12 +167,12 @@ fn fill(dots: &mut Dots, outline: &[[f64; 2]], style: Style) {
         // Where the row crosses the outline, from the left: inside is between the first and the second, and so on.
         let mut crossed: Vec<f64> = outline
             .windows(2)
-            .filter(|two| (two[0][1] > y) != (two[1][1] > y))
-            .map(|two| two[0][0] + (two[1][0] - two[0][0]) * (y - two[0][1]) / (two[1][1] - two[0][1]))
+            .filter(|ends| (ends[0][1] > y) != (ends[1][1] > y))
+            .map(|ends| ends[0][0] + (ends[1][0] - ends[0][0]) * (y - ends[0][1]) / (ends[1][1] - ends[0][1]))
             .collect();
         crossed.sort_by(f64::total_cmp);
         for x in (0..width).step_by(FILL) {
-            if crossed.partition_point(|at| *at < x as f64) % 2 == 1 {
+            if crossed.partition_point(|crossing| *crossing < x as f64) % 2 == 1 {
                 dots.draw([x as f64, y], style);
             }
         }
@@ -189,7 +194,7 @@ mod tests {
             others: vec![],
             cloth: vec![],
         };
-        let scale = Scale::of(&section, [104, 104]).expect("it has a size");
+        let scale = Scale::fit(&section, [104, 104]).expect("it has a size");
         let [left, right, front] = [0, 1, 2].map(|k| scale.places(&section.skin)[k]);
         assert!(right[0] > left[0] && front[1] < left[1], "{left:?} {right:?} {front:?}");
         assert_eq!((right[0] - left[0]).round(), 100.0, "two millimetres a dot, and a margin");

@@ -2,46 +2,47 @@
 
 use ratatui::text::{Line, Span};
 
+use crate::screens::fit::actions::{quantities_shown, worn};
 use crate::screens::fit::card::headed;
+use crate::screens::fit::state::FitScreen;
 use crate::screens::state::State;
-use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::lists::{first_shown, listed};
 use crate::widgets::text::{self, left, shortened};
 use results::GarmentWorn;
 
-/// What the numbers are.
+/// Meaning of the numbers.
 pub const LEGEND: &str = " mm  → from flat to worn ";
 /// Columns of a size.
 const SIZE: usize = 17;
 /// The fewest and the most columns of a quantity's name.
 const NAME: [usize; 2] = [12, 24];
 
-/// Whose sizes, by which simulator.
+/// Title of the pane: garment, subject, simulator.
 pub fn title(state: &State) -> String {
-    let Some(worn) = state.worn() else { return "sizes".to_owned() };
+    let Some(worn) = worn(state) else { return "sizes".to_owned() };
     let simulator = worn.simulator.map_or(String::new(), |simulator| format!(" · {}", text::sim(simulator)));
     format!("sizes · {} on {}{simulator}", worn.card.garment, worn.card.subject)
 }
 
-/// The comparison in so many columns and lines.
-pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
-    let Some(worn) = state.worn() else { return vec![Line::raw("reading…")] };
-    let name = columns.saturating_sub(worn.sizes.len() * SIZE).clamp(NAME[0], NAME[1]);
-    let shown = shown(worn, columns.saturating_sub(name) / SIZE);
-    let rows = state.quantities();
-    let mut told = vec![header(state, worn, name, &shown)];
-    let room = lines.saturating_sub(1);
-    let at = state.fit.row.min(rows.len().saturating_sub(1));
-    let first = first_shown(at, rows.len(), room);
-    for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-        let cells: String =
-            shown.clone().map(|size| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ").collect();
-        let line = Line::raw(left(&shortened(&row.name, name - 1), name) + &cells);
-        told.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
+impl FitScreen {
+    /// The comparison in so many columns and lines.
+    pub fn size_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
+        let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
+        let name = columns.saturating_sub(worn.sizes.len() * SIZE).clamp(NAME[0], NAME[1]);
+        let shown = shown(worn, columns.saturating_sub(name) / SIZE);
+        let rows = quantities_shown(state);
+        let mut told = vec![header(state, worn, name, &shown)];
+        let room = lines.saturating_sub(1);
+        let at = self.row.min(rows.len().saturating_sub(1));
+        told.extend(listed(&rows, at, room, state.theme.selection(focused), |row| {
+            let cell = |size: usize| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ";
+            Line::raw(left(&shortened(&row.name, name - 1), name) + &shown.clone().map(cell).collect::<String>())
+        }));
+        if rows.is_empty() {
+            told.push(Line::raw("no quantity matches the filter"));
+        }
+        told
     }
-    if rows.is_empty() {
-        told.push(Line::raw("no quantity matches the filter"));
-    }
-    told
 }
 
 /// The sizes that there is room for, the one to wear near their middle.

@@ -1,6 +1,7 @@
-//! Where the user is in the fit of a garment, its cross sections, and what to change of it.
+//! State of the screen of fit.
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::answered::Answered;
 use advice::Alteration;
 use results::CrossSection;
 use store::JobId;
@@ -25,10 +26,10 @@ impl View {
 /// Cross sections of results at all levels, or why there are none.
 pub type Sections = Result<Vec<CrossSection>, String>;
 
-/// Whether a changed pattern is draped.
+/// Progress of the drape of a changed pattern.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Draping {
-    /// Not, or that is over.
+    /// None goes on.
     #[default]
     No,
     /// It goes on.
@@ -37,24 +38,24 @@ pub enum Draping {
     Failed(String),
 }
 
-/// What to change of a size.
+/// The change of a size so that it fits, as it is asked for and found.
 #[derive(Debug, Default)]
 pub struct Alter {
-    /// Whether it is shown, over the part that has the focus.
+    /// True where it is shown, over the part that has the focus.
     pub is_open: bool,
-    /// What is asked for, without a drape.
+    /// The request, without a drape.
     pub asked: Option<AlterRequest>,
-    /// What was found, or why nothing was; `None` while it is sought.
+    /// The change that was found, or why none was; `None` while it is sought.
     pub answer: Option<Result<Box<Alteration>, String>>,
-    /// Whether it is draped.
+    /// Progress of its drape.
     pub draping: Draping,
     /// Lines that it is scrolled down.
     pub down: usize,
 }
 
-/// Where the user is in the fit of a garment, and its cross sections.
-#[derive(Debug, Default)]
-pub struct Fit {
+/// The screen of fit.
+#[derive(Default)]
+pub struct FitScreen {
     /// Part that has the focus.
     pub view: View,
     /// Level chosen; before that it is the one that is worst.
@@ -63,8 +64,8 @@ pub struct Fit {
     pub row: usize,
     /// Results whose sections are asked for.
     pub asked: Vec<JobId>,
-    /// The sections that came last, with their results.
-    pub cut: Option<(Vec<JobId>, Sections)>,
-    /// What to change of a size.
+    /// The sections that came last, and the results that they are of.
+    pub cut: Option<Answered<Vec<JobId>, Vec<CrossSection>>>,
+    /// The change of a size.
     pub alter: Alter,
 }

@@ -6,31 +6,168 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 use crate::overlays::explanation::Selected;
-use crate::screens::jobs::state::JobOrder;
+use crate::screens::jobs::state::{JobOrder, JobsScreen};
+use crate::screens::page::Draw;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::is_narrow;
-use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::lists::{first_shown, listed, no_rows, pane};
 use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use store::{JobRow, LogLine, Status};
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    if is_narrow(area) {
-        frame.render_widget(Paragraph::new(list(state, area)), area);
-        return;
+impl Draw for JobsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        if is_narrow(area) {
+            frame.render_widget(Paragraph::new(self.list(state, area)), area);
+            return;
+        }
+        let [table_area, log_area] = panes(area);
+        let shown = self.shown(state).len();
+        let all = state.data.as_ref().map_or(0, |data| data.jobs.len());
+        let study = state.study().map_or("", |study| &study.name);
+        let title =
+            if shown == all { format!("{study} · {all} jobs") } else { format!("{study} · {shown} of {all} jobs") };
+        let block = pane(state.theme, title, !state.in_second_pane());
+        let inner = block.inner(table_area);
+        let lines = self.table(state, inner.width, inner.height, !state.in_second_pane());
+        frame.render_widget(Paragraph::new(lines).block(block), table_area);
+        self.draw_log(frame, log_area, state);
     }
-    let [table_area, log_area] = panes(area);
-    let shown = state.jobs().len();
-    let all = state.data.as_ref().map_or(0, |data| data.jobs.len());
-    let study = state.data.as_ref().and_then(|data| data.study()).map_or("", |study| &study.name);
-    let title =
-        if shown == all { format!("{study} · {all} jobs") } else { format!("{study} · {shown} of {all} jobs") };
-    let block = pane(state.theme, title, !state.in_second_pane());
-    let inner = block.inner(table_area);
-    let lines = table(state, inner.width, inner.height, !state.in_second_pane());
-    frame.render_widget(Paragraph::new(lines).block(block), table_area);
-    draw_log(frame, log_area, state);
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let jobs = self.shown(state);
+        let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+        if is_narrow(area) {
+            return jump::rows(0, area, 0, jobs.len(), at);
+        }
+        let [table, log] = panes(area);
+        let mut targets = jump::rows(0, jump::inside(table), 1, jobs.len(), at);
+        targets.push(jump::pane(log, 1));
+        targets
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        let what = state.job().map_or(String::new(), |job| {
+            let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
+            format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
+        });
+        Selected::new(what, &NAMES, &[])
+    }
+}
+
+impl JobsScreen {
+    fn table(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
+        let jobs = self.shown(state);
+        let columns = Columns::new(&jobs, usize::from(width));
+        let room = usize::from(height).saturating_sub(1);
+        let at = jobs.iter().position(|job| Some(job.id) == state.focus.job);
+        let selection = at.map(|_| state.theme.selection(focused));
+        let mut lines = vec![self.header(state, &columns)];
+        lines.extend(listed(&jobs, at.unwrap_or(0), room, selection, |job| line(state, job, &columns)));
+        if jobs.is_empty() {
+            lines.push(no_rows(state.filter(), "no job matches the filter", "no jobs yet: R runs the study"));
+        }
+        lines
+    }
+
+    fn header(&self, state: &State, columns: &Columns) -> Line<'static> {
+        let order = self.order;
+        let name = |title: &str, by: JobOrder| {
+            let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
+            let mark = if order.by != by {
+                ""
+            } else if rises {
+                "▲"
+            } else {
+                "▼"
+            };
+            format!("{title}{mark}")
+        };
+        let text = format!(
+            "{} {} {} {} {} {}{}{}{}{}  {}",
+            right(&name("ID", JobOrder::Number), columns.id),
+            left(&name("S", JobOrder::Status), 2),
+            left("style", columns.garment),
+            left("size", columns.size),
+            left("subj", columns.subject),
+            left("sim", 4),
+            left("progress", columns.bar + PROGRESS),
+            right("ETA", 6),
+            right(&name("took", JobOrder::Time), 7),
+            right(&name("EI", JobOrder::Ei), 8),
+            text::shortened("why", columns.why)
+        );
+        Line::styled(text, state.theme.dim())
+    }
+
+    fn draw_log(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let title = match state.job() {
+            Some(job) => format!("log of job {} (UTC)", job.id),
+            None => "log".into(),
+        };
+        let block = pane(state.theme, title, state.in_second_pane());
+        let inner = block.inner(area);
+        let width = usize::from(inner.width);
+        let mut lines = self.curves(state, width);
+        let room = usize::from(inner.height).saturating_sub(lines.len());
+        lines.extend(self.log_lines(state, width, room));
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+
+    /// Residual, on a logarithmic scale, and E(chi) over the steps.
+    fn curves(&self, state: &State, width: usize) -> Vec<Line<'static>> {
+        let steps = self.steps(state);
+        let Some(last) = steps.last() else { return vec![] };
+        let room = width.saturating_sub(23);
+        let residuals: Vec<f64> = steps.iter().map(|step| step.residual.max(1e-300).log10()).collect();
+        let chi: Vec<f64> = steps.iter().map(|step| step.e_chi).collect();
+        let curve = |name: &str, value: String, values: &[f64]| {
+            let label = Span::raw(format!("{}{} ", left(name, 13), right(&value, 8)));
+            Line::from(vec![label, Span::styled(sparkline(values, room), state.theme.busy())])
+        };
+        vec![
+            curve("log residual", format!("{:.1e}", last.residual), &residuals),
+            curve("E(chi)", format!("{:.4}", last.e_chi), &chi),
+        ]
+    }
+
+    /// The part of the log that is scrolled to, the error of a failed job in full above it.
+    fn log_lines(&self, state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
+        let Some(detail) = state.detail() else { return vec![] };
+        let error = state.job().and_then(|job| job.error.as_deref()).unwrap_or_default();
+        let mut lines: Vec<Line<'_>> = wrapped(error, width)
+            .into_iter()
+            .map(|line| Line::styled(line, state.theme.bad()))
+            .take(room.saturating_sub(1))
+            .collect();
+        let log: Vec<&LogLine> = detail.log.iter().filter(|line| line.text != error).collect();
+        let end = log.len().saturating_sub(self.log_up);
+        let shown = &log[end.saturating_sub(room - lines.len())..end];
+        lines.extend(shown.iter().map(|line| log_line(state, line, width)));
+        if detail.log.is_empty() && lines.is_empty() {
+            lines.push(Line::styled("nothing logged yet", state.theme.dim()));
+        }
+        lines
+    }
+
+    /// The jobs in the fewest columns, where there is no room for the table.
+    fn list(&self, state: &State, area: Rect) -> Vec<Line<'static>> {
+        let jobs = self.shown(state);
+        let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+        let height = usize::from(area.height);
+        let first = first_shown(at, jobs.len(), height);
+        let id = longest_id(&jobs);
+        let line = |(k, job): (usize, &&JobRow)| {
+            let share = job.progress.as_ref().map(|progress| format!("{:.0}%", progress.fraction * 100.0));
+            let number = share.or(job.ei.map(|ei| format!("{ei:.4}"))).unwrap_or_default();
+            let cell = format!("{} {} {} {}", job.garment, job.size, job.subject, text::sim(job.simulator));
+            let text = format!("{} {} {} {cell}", right(&job.id.to_string(), id), glyph(job.status), left(&number, 6));
+            let style = if k == at { state.theme.selected() } else { state.theme.status(job.status) };
+            Line::styled(text::shortened(&text, usize::from(area.width)), style)
+        };
+        jobs.iter().enumerate().skip(first).take(height).map(line).collect()
+    }
 }
 
 /// The panes: table and log.
@@ -39,31 +176,9 @@ fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area)
 }
 
-/// Rows and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let jobs = state.jobs();
-    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
-    if is_narrow(area) {
-        return jump::rows(0, area, 0, jobs.len(), at);
-    }
-    let [table, log] = panes(area);
-    let mut targets = jump::rows(0, jump::inside(table), 1, jobs.len(), at);
-    targets.push(jump::pane(log, 1));
-    targets
-}
-
 /// Names of what is shown, as the glossary has them.
 const NAMES: [&str; 13] =
     ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
-
-/// The selected job, and what is shown of all.
-pub fn explained(state: &State) -> Selected {
-    let what = state.job().map_or(String::new(), |job| {
-        let ei = job.ei.map_or(String::new(), |ei| format!(", EI {ei:.4}"));
-        format!("job {}, {} {} on {}: {}{ei}", job.id, job.garment, job.size, job.subject, text::status(job.status))
-    });
-    Selected::new(what, &NAMES, &[])
-}
 
 /// Columns of phase and percent.
 const PROGRESS: usize = 10;
@@ -102,59 +217,9 @@ fn longest_id(jobs: &[&JobRow]) -> usize {
     jobs.iter().map(|job| job.id.0).max().unwrap_or(0).to_string().len().max(4)
 }
 
-fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
-    let jobs = state.jobs();
-    let columns = Columns::new(&jobs, usize::from(width));
-    let height = usize::from(height).saturating_sub(1);
-    let selected = jobs.iter().position(|job| Some(job.id) == state.focus.job);
-    let first = first_shown(selected.unwrap_or(0), jobs.len(), height);
-    let mut lines = vec![header(state, &columns)];
-    for (k, job) in jobs.iter().enumerate().skip(first).take(height) {
-        let line = line(state, job, &columns);
-        let is_selected = selected == Some(k);
-        lines.push(if is_selected { selected_line(line, state.theme.selection(focused)) } else { line });
-    }
-    if jobs.is_empty() {
-        let text =
-            if state.filter().is_empty() { "no jobs yet: R runs the study" } else { "no job matches the filter" };
-        lines.push(Line::raw(text));
-    }
-    lines
-}
-
-fn header(state: &State, columns: &Columns) -> Line<'static> {
-    let order = state.jobs.order;
-    let name = |title: &str, by: JobOrder| {
-        let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
-        let mark = if order.by != by {
-            ""
-        } else if rises {
-            "▲"
-        } else {
-            "▼"
-        };
-        format!("{title}{mark}")
-    };
-    let text = format!(
-        "{} {} {} {} {} {}{}{}{}{}  {}",
-        right(&name("ID", JobOrder::Number), columns.id),
-        left(&name("S", JobOrder::Status), 2),
-        left("style", columns.garment),
-        left("size", columns.size),
-        left("subj", columns.subject),
-        left("sim", 4),
-        left("progress", columns.bar + PROGRESS),
-        right("ETA", 6),
-        right(&name("took", JobOrder::Time), 7),
-        right(&name("EI", JobOrder::Ei), 8),
-        text::shortened("why", columns.why)
-    );
-    Line::styled(text, state.theme.dim())
-}
-
 fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
     let now = state.data.as_ref().map_or(0, |data| data.now_ms);
-    let is_paused = state.data.as_ref().and_then(|data| data.study()).is_some_and(|study| study.paused);
+    let is_paused = state.study().is_some_and(|study| study.paused);
     let elapsed = job.started_at_ms.filter(|_| job.status == Status::Running).map(|start| now - start);
     let progress = job.progress.as_ref().map_or(String::new(), |progress| {
         let share = format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0);
@@ -183,74 +248,6 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
         )),
         Span::styled(text::shortened(&why, columns.why), status),
     ])
-}
-
-fn draw_log(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let title = match state.job() {
-        Some(job) => format!("log of job {} (UTC)", job.id),
-        None => "log".into(),
-    };
-    let block = pane(state.theme, title, state.in_second_pane());
-    let inner = block.inner(area);
-    let width = usize::from(inner.width);
-    let mut lines = curves(state, width);
-    let room = usize::from(inner.height).saturating_sub(lines.len());
-    lines.extend(log_lines(state, width, room));
-    frame.render_widget(Paragraph::new(lines).block(block), area);
-}
-
-/// Residual, on a logarithmic scale, and E(chi) over the steps.
-fn curves(state: &State, width: usize) -> Vec<Line<'static>> {
-    let steps = state.steps();
-    let Some(last) = steps.last() else { return vec![] };
-    let room = width.saturating_sub(23);
-    let residuals: Vec<f64> = steps.iter().map(|step| step.residual.max(1e-300).log10()).collect();
-    let chi: Vec<f64> = steps.iter().map(|step| step.e_chi).collect();
-    let curve = |name: &str, value: String, values: &[f64]| {
-        let label = Span::raw(format!("{}{} ", left(name, 13), right(&value, 8)));
-        Line::from(vec![label, Span::styled(sparkline(values, room), state.theme.busy())])
-    };
-    vec![
-        curve("log residual", format!("{:.1e}", last.residual), &residuals),
-        curve("E(chi)", format!("{:.4}", last.e_chi), &chi),
-    ]
-}
-
-/// The part of the log that is scrolled to, the error of a failed job in full above it.
-fn log_lines(state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
-    let Some(detail) = state.detail() else { return vec![] };
-    let error = state.job().and_then(|job| job.error.as_deref()).unwrap_or_default();
-    let mut lines: Vec<Line<'_>> = wrapped(error, width)
-        .into_iter()
-        .map(|line| Line::styled(line, state.theme.bad()))
-        .take(room.saturating_sub(1))
-        .collect();
-    let log: Vec<&LogLine> = detail.log.iter().filter(|line| line.text != error).collect();
-    let end = log.len().saturating_sub(state.jobs.log_up);
-    let shown = &log[end.saturating_sub(room - lines.len())..end];
-    lines.extend(shown.iter().map(|line| log_line(state, line, width)));
-    if detail.log.is_empty() && lines.is_empty() {
-        lines.push(Line::styled("nothing logged yet", state.theme.dim()));
-    }
-    lines
-}
-
-/// The jobs in the fewest columns, where there is no room for the table.
-fn list(state: &State, area: Rect) -> Vec<Line<'static>> {
-    let jobs = state.jobs();
-    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
-    let height = usize::from(area.height);
-    let first = first_shown(at, jobs.len(), height);
-    let id = longest_id(&jobs);
-    let line = |(k, job): (usize, &&JobRow)| {
-        let share = job.progress.as_ref().map(|progress| format!("{:.0}%", progress.fraction * 100.0));
-        let number = share.or(job.ei.map(|ei| format!("{ei:.4}"))).unwrap_or_default();
-        let cell = format!("{} {} {} {}", job.garment, job.size, job.subject, text::sim(job.simulator));
-        let text = format!("{} {} {} {cell}", right(&job.id.to_string(), id), glyph(job.status), left(&number, 6));
-        let style = if k == at { state.theme.selected() } else { state.theme.status(job.status) };
-        Line::styled(text::shortened(&text, usize::from(area.width)), style)
-    };
-    jobs.iter().enumerate().skip(first).take(height).map(line).collect()
 }
 
 fn log_line(state: &State, line: &LogLine, width: usize) -> Line<'static> {

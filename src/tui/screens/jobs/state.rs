@@ -1,4 +1,4 @@
-//! Where the user is among jobs.
+//! State of the screen of jobs.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use store::{JobId, JobRow, Status};
 /// Steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;
 
-/// How jobs are ordered.
+/// Order of jobs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum JobOrder {
     /// By number, as they were queued.
@@ -37,16 +37,18 @@ impl JobOrder {
     }
 }
 
-/// The jobs shown, and of what they were found: data, filter, order.
+/// The jobs shown, and the number of the reading, the filter and the order that they were found for.
 #[derive(Clone, Debug, Default)]
 struct Arranged {
-    of: Option<(u64, String, Order<JobOrder>)>,
+    reads: u64,
+    filter: String,
+    order: Order<JobOrder>,
     rows: Vec<usize>,
 }
 
-/// Where the user is among jobs.
-#[derive(Debug, Default)]
-pub struct Jobs {
+/// The screen of jobs.
+#[derive(Default)]
+pub struct JobsScreen {
     /// The jobs shown, in order.
     arranged: Arranged,
     /// Order of jobs.
@@ -55,13 +57,13 @@ pub struct Jobs {
     pub log_up: usize,
     /// Steps of running jobs, as they came.
     pub traces: BTreeMap<JobId, Vec<Step>>,
-    /// How often data came.
+    /// Number of readings of the database.
     reads: u64,
 }
 
-impl Jobs {
+impl JobsScreen {
     /// Takes in jobs that were read: those that run have come on by a step.
-    pub fn receive(&mut self, jobs: &[JobRow]) {
+    pub fn trace(&mut self, jobs: &[JobRow]) {
         self.reads += 1;
         for job in jobs.iter().filter(|job| job.status == Status::Running) {
             let Some(progress) = &job.progress else { continue };
@@ -77,12 +79,12 @@ impl Jobs {
 
     /// Finds which jobs contain a filter and in which order, where data, filter or order have changed since: with ten
     /// thousand jobs that takes too long for every frame.
-    pub fn arrange(&mut self, jobs: &[JobRow], filter: String) {
-        let wanted = (self.reads, filter, self.order);
-        if self.arranged.of.as_ref() == Some(&wanted) {
+    pub fn arrange_rows(&mut self, jobs: &[JobRow], filter: String) {
+        let Arranged { reads, filter: arranged, order, .. } = &self.arranged;
+        if (*reads, arranged, *order) == (self.reads, &filter, self.order) {
             return;
         }
-        let passes = |row: &usize| wanted.1.is_empty() || words(&jobs[*row]).contains(&wanted.1);
+        let passes = |row: &usize| filter.is_empty() || words(&jobs[*row]).contains(&filter);
         let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
         let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
         match self.order.by {
@@ -94,7 +96,7 @@ impl Jobs {
         if self.order.reversed {
             rows.reverse();
         }
-        self.arranged = Arranged { of: Some(wanted), rows };
+        self.arranged = Arranged { reads: self.reads, filter, order: self.order, rows };
     }
 
     /// The jobs shown, as rows of the data.
@@ -104,7 +106,7 @@ impl Jobs {
     }
 }
 
-/// How soon a user wants to see jobs in a state; the least first.
+/// Rank of jobs in a state by how soon a user wants to see them; the least first.
 fn attention(status: Status) -> u8 {
     match status {
         Status::Running => 0,
@@ -116,7 +118,7 @@ fn attention(status: Status) -> u8 {
     }
 }
 
-/// What a filter looks at in a job.
+/// Text of a job that a filter looks at.
 fn words(job: &JobRow) -> String {
     let error = job.error.as_deref().unwrap_or_default();
     format!(

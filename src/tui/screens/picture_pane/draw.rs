@@ -70,13 +70,13 @@ pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
 
 /// Draws a picture, or why there is none.
 pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pictured>, otherwise: &str) {
-    let fits = |(request, _): &&(PictureRequest, _)| {
+    let fits = |request: &PictureRequest| {
         Some(request.of) == of && request.columns == area.width && request.rows == area.height
     };
-    let drawn = state.pictures.drawn.iter().find(fits);
+    let drawn = state.pictures.drawn.iter().find(|drawn| fits(&drawn.request)).map(|drawn| &drawn.outcome);
     let text = match drawn {
-        Some((_, Ok(drawn))) => return draw_cells(frame, area, drawn, state),
-        Some((_, Err(error))) => format!("no picture: {error}"),
+        Some(Ok(drawn)) => return draw_cells(frame, area, drawn, state),
+        Some(Err(error)) => format!("no picture: {error}"),
         None if !state.setup.abilities.pictures => "pictures are off (--images off)".into(),
         None if state.pictures.requests.iter().any(|request| Some(request.of) == of) => "drawing…".into(),
         None => otherwise.to_owned(),
@@ -84,7 +84,7 @@ pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pi
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
 }
 
-/// What the colours mean: name, least value, the run of colours, greatest value with its unit.
+/// Draws the legend of the colours: name, least value, the run of colours, greatest value with its unit.
 pub fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(scale) = state.pictures.map.scale() else { return };
     let before = format!("{} {} ", scale.label, text::whole(scale.low));

@@ -1,4 +1,4 @@
-//! The pane with the picture of a drape or a body, which four screens have.
+//! The pane with the picture of a drape or a body, which several screens have.
 
 pub mod actions;
 pub mod draw;

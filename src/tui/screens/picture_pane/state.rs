@@ -1,20 +1,21 @@
-//! How drapes are seen.
+//! View and pictures of drapes.
 
+use crate::messages::answered::Answered;
 use crate::widgets::picture::{Drawn, FRONT, PictureRequest};
 use results::{Look, Map};
 
-/// How drapes are seen, and the pictures there are.
+/// View of drapes, and the pictures there are.
 pub struct Pictures {
-    /// From where drapes are seen.
+    /// Direction and distance from which drapes are seen.
     pub look: Look,
-    /// In which colours.
+    /// Quantity that the colours show.
     pub map: Map,
-    /// Whether the picture has all the room.
+    /// True where the picture has all the room.
     pub enlarged: bool,
     /// The pictures asked for.
     pub requests: Vec<PictureRequest>,
     /// The picture of each that came last.
-    pub drawn: Vec<(PictureRequest, Result<Drawn, String>)>,
+    pub drawn: Vec<Answered<PictureRequest, Drawn>>,
 }
 
 impl Default for Pictures {

@@ -2,63 +2,82 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
 
+use crate::screens::page::Draw;
 use crate::screens::reports::actions::address;
+use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
 use crate::widgets::jump::{self, Target};
-use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::lists::{listed, no_rows, pane};
 use crate::widgets::text::{self, left, right, shortened};
 use results::ReportRow;
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let [list, facts] = panes(area);
-    draw_list(frame, list, state);
-    draw_facts(frame, facts, state);
+impl Draw for ReportsScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let [list, facts] = panes(area);
+        self.draw_list(frame, list, state);
+        self.draw_facts(frame, facts, state);
+    }
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let rows = self.shown(state).len();
+        jump::rows(0, jump::inside(panes(area)[0]), 1, rows, self.row.min(rows.saturating_sub(1)))
+    }
 }
 
-/// The panes: list, and where the selected report is.
+impl ReportsScreen {
+    fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let rows = self.shown(state);
+        let title = match &self.building {
+            Some(study) => format!("reports: building that of {study}…"),
+            None if rows.len() == 1 => "1 report".to_owned(),
+            None => format!("{} reports", rows.len()),
+        };
+        let block = pane(state.theme, title, true);
+        let inner = block.inner(area);
+        let width = usize::from(inner.width);
+        let name = width.saturating_sub(10 + 8 + 19).clamp(8, 32);
+        let mark = if self.by_time { "▼" } else { "" };
+        let head = format!("{}{}{}  built (UTC){mark}", left("study", name), right("page", 10), right("files", 8));
+        let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
+        let room = usize::from(inner.height).saturating_sub(1);
+        let at = self.row.min(rows.len().saturating_sub(1));
+        lines.extend(listed(&rows, at, room, state.theme.selected(), |row| {
+            Line::raw(shortened(&line(row, name), width))
+        }));
+        if rows.is_empty() {
+            lines.push(no_rows(
+                state.filter(),
+                "no report matches the filter",
+                "no report yet: b builds that of the study",
+            ));
+        }
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+
+    /// Draws the place of the selected report, and how to look at it from elsewhere.
+    fn draw_facts(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let block = pane(state.theme, "where", false);
+        let lines = match self.selected(state) {
+            None => vec![Line::raw("A report is one page with its pictures and raw data: HTML, PNG, CSV.")],
+            Some(row) => vec![
+                Line::raw(address(&row.page)),
+                Line::styled(
+                    "↵ opens it where there is a display, else copies its address; y copies its path",
+                    state.theme.dim(),
+                ),
+                Line::styled("from your own machine: scp -r this folder, then open index.html", state.theme.dim()),
+            ],
+        };
+        frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), area);
+    }
+}
+
+/// The panes: list, and place of the selected report.
 fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area)
-}
-
-/// Rows that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let rows = state.reports().len();
-    jump::rows(0, jump::inside(panes(area)[0]), 1, rows, state.reports.row.min(rows.saturating_sub(1)))
-}
-
-fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let rows = state.reports();
-    let title = match &state.reports.building {
-        Some(study) => format!("reports: building that of {study}…"),
-        None if rows.len() == 1 => "1 report".to_owned(),
-        None => format!("{} reports", rows.len()),
-    };
-    let block = pane(state.theme, title, true);
-    let inner = block.inner(area);
-    let width = usize::from(inner.width);
-    let name = width.saturating_sub(10 + 8 + 19).clamp(8, 32);
-    let mark = if state.reports.by_time { "▼" } else { "" };
-    let head = format!("{}{}{}  built (UTC){mark}", left("study", name), right("page", 10), right("files", 8));
-    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
-    let room = usize::from(inner.height).saturating_sub(1);
-    let at = state.reports.row.min(rows.len().saturating_sub(1));
-    let first = first_shown(at, rows.len(), room);
-    for (k, row) in rows.iter().enumerate().skip(first).take(room) {
-        let style = if k == at { state.theme.selected() } else { Style::new() };
-        lines.push(Line::styled(shortened(&line(row, name), width), style));
-    }
-    if rows.is_empty() {
-        lines.push(Line::raw(if state.filter().is_empty() {
-            "no report yet: b builds that of the study"
-        } else {
-            "no report matches the filter"
-        }));
-    }
-    frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
 fn line(row: &ReportRow, name: usize) -> String {
@@ -70,21 +89,4 @@ fn line(row: &ReportRow, name: usize) -> String {
         right(&row.files.to_string(), 8),
         text::date(row.written_ms)
     )
-}
-
-/// Where the selected report is, and how to look at it from elsewhere.
-fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let block = pane(state.theme, "where", false);
-    let lines = match state.report() {
-        None => vec![Line::raw("A report is one page with its pictures and raw data: HTML, PNG, CSV.")],
-        Some(row) => vec![
-            Line::raw(address(&row.page)),
-            Line::styled(
-                "↵ opens it where there is a display, else copies its address; y copies its path",
-                state.theme.dim(),
-            ),
-            Line::styled("from your own machine: scp -r this folder, then open index.html", state.theme.dim()),
-        ],
-    };
-    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), area);
 }

@@ -4,57 +4,35 @@ mod actions;
 mod draw;
 pub mod state;
 
-use ratatui::Frame;
-use ratatui::layout::Rect;
-
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
+use crate::screens::page::{Copied, Page};
+use crate::screens::reports::state::ReportsScreen;
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
 
-/// The screen of reports.
-pub struct ReportsPage;
-
-impl Page for ReportsPage {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        draw::draw(frame, area, state);
+impl Page for ReportsScreen {
+    fn go(&mut self, state: &mut State, movement: Movement) {
+        self.row = movement.from(self.row, self.shown(state).len());
     }
 
-    fn go(&self, state: &mut State, movement: Movement) {
-        state.reports.row = movement.from(state.reports.row, state.reports().len());
+    fn sort(&mut self, _state: &mut State) {
+        self.by_time = !self.by_time;
     }
 
-    fn go_to_match(&self, state: &mut State, step: isize) {
-        self.go(state, Movement::Round(step));
+    fn copied(&self, state: &State) -> Option<Copied> {
+        self.selected(state).map(|row| Copied { name: "the path", text: row.page.display().to_string() })
     }
 
-    fn sort(&self, state: &mut State) {
-        state.reports.by_time = !state.reports.by_time;
-    }
-
-    fn reverse(&self, state: &mut State) {
-        self.sort(state);
-    }
-
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        state.report().map(|row| (row.page.display().to_string(), "the path"))
-    }
-
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        draw::targets(state, area)
-    }
-
-    fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+    fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         Some(match action {
-            Action::BuildReport => state.build_report(),
-            Action::OpenReport => state.open_report(),
+            Action::BuildReport => self.build(state),
+            Action::OpenReport => self.open(state),
             _ => return None,
         })
     }
 
-    fn wanted(&self, state: &mut State) -> Vec<Effect> {
-        state.ask_for_reports().into_iter().collect()
+    fn wanted(&mut self, _state: &State) -> Vec<Effect> {
+        self.ask_for_reports().into_iter().collect()
     }
 }

@@ -1,15 +1,15 @@
-//! Where the user is among reports.
+//! State of the screen of reports.
 
 use results::ReportRow;
 
-/// Where the user is among reports.
-#[derive(Debug, Default)]
-pub struct Reports {
-    /// Those there are; `None` until they were listed.
+/// The screen of reports.
+#[derive(Default)]
+pub struct ReportsScreen {
+    /// All reports; `None` until they were listed.
     pub rows: Option<Vec<ReportRow>>,
     /// The one selected.
     pub row: usize,
-    /// Whether the latest comes first.
+    /// True where the latest comes first.
     pub by_time: bool,
     /// The study whose report is being built.
     pub building: Option<String>,

@@ -1,88 +1,50 @@
-//! Choosing a result, a stage and a measurement.
+//! Choosing a result and a stage.
 
-use crate::keys::screen::Screen;
-use crate::screens::movement::{Movement, stepped};
-use crate::screens::results::state::ChiOrder;
+use crate::screens::measurements;
+use crate::screens::measurements::state::stages;
+use crate::screens::movement::stepped;
 use crate::screens::state::State;
 use crate::widgets::text;
-use store::{ChiRow, JobId};
+use store::{JobId, JobRow};
 
-impl State {
-    /// Stages of the selected result, in the order they are made.
-    #[must_use]
-    pub fn stages(&self) -> Vec<&str> {
-        let Some(detail) = self.detail() else { return vec![] };
-        ["sewn", "popup", "drape"]
-            .into_iter()
-            .filter(|stage| detail.chi.iter().any(|row| row.stage == *stage))
-            .collect()
+/// Goes to the next or previous job that has a result.
+pub fn step_result(state: &mut State, step: isize) {
+    let is_shown = |job: &&JobRow| job.status.has_result() || Some(job.id) == state.focus.job;
+    let Some(data) = &state.data else { return };
+    let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
+    let at = jobs.iter().position(|id| Some(*id) == state.focus.job).unwrap_or(0);
+    if let Some(next) = stepped(at, step, jobs.len()) {
+        state.focus.job = Some(jobs[next]);
     }
+}
 
-    /// The stage whose measurements are shown: the one wanted, or the last there is.
-    #[must_use]
-    pub fn stage(&self) -> Option<&str> {
-        let stages = self.stages();
-        stages.iter().copied().find(|stage| Some(*stage) == self.results.stage.as_deref()).or(stages.last().copied())
+/// Goes to the same size and subject by the other simulator.
+pub fn other_simulator(state: &mut State) {
+    let (Some(data), Some(job)) = (&state.data, state.job()) else { return };
+    match data.same_by_other(job).map(|other| other.id) {
+        Some(id) => state.focus.job = Some(id),
+        None => state.say("the study has no job of the other simulator here"),
     }
+}
 
-    /// Measurements of the selected result that pass the filter of the Results screen, in its order.
-    #[must_use]
-    pub fn chi(&self) -> Vec<&ChiRow> {
-        let (Some(detail), Some(stage)) = (self.detail(), self.stage()) else { return vec![] };
-        let filter = self.nav.filters[Screen::Results as usize].to_lowercase();
-        let matches = |row: &ChiRow| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter);
-        let mut rows: Vec<&ChiRow> = detail.chi.iter().filter(|row| row.stage == stage && matches(row)).collect();
-        if self.results.order.by == ChiOrder::Error {
-            let error = |row: &ChiRow| (row.chi() - 1.0).abs();
-            rows.sort_by(|a, b| error(b).total_cmp(&error(a)));
-        }
-        if self.results.order.reversed {
-            rows.reverse();
-        }
-        rows
-    }
-
-    /// Goes to the next or previous job that has a result.
-    pub fn step_result(&mut self, step: isize) {
-        let is_shown = |job: &&store::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
-        let Some(data) = &self.data else { return };
-        let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
-        let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
-        if let Some(next) = stepped(at, step, jobs.len()) {
-            self.select(jobs[next]);
-        }
-    }
-
-    /// Goes to the same size and subject by the other simulator.
-    pub fn other_simulator(&mut self) {
-        let Some(job) = self.job() else { return };
-        match self.same_by_other(job).map(|other| other.id) {
-            Some(id) => self.focus.job = Some(id),
-            None => self.say("the study has no job of the other simulator here"),
-        }
-    }
-
-    /// Shows the measurements of the next stage.
-    pub fn next_stage(&mut self) {
-        let stages = self.stages();
-        let at = stages.iter().position(|stage| Some(*stage) == self.stage()).unwrap_or(0);
-        let next = stepped(at, 1, stages.len()).map(|next| stages[next].to_owned());
-        let is_only = stages.len() < 2;
-        self.results.stage = next.or(self.results.stage.take());
-        if is_only {
-            self.say("this result was measured at one stage only");
-        }
-    }
-
-    /// Moves in the table of measurements.
-    pub fn go_in_measurements(&mut self, movement: Movement) {
-        self.results.row = movement.from(self.results.row, self.chi().len());
+/// Shows the measurements of the next stage.
+pub fn next_stage(state: &mut State) {
+    let detail = state.detail();
+    let stages = detail.map_or(vec![], stages);
+    let shown = detail.and_then(|detail| state.measurements.stage(detail));
+    let at = stages.iter().position(|stage| Some(*stage) == shown).unwrap_or(0);
+    let next = stepped(at, 1, stages.len()).map(|next| stages[next].to_owned());
+    let is_only = stages.len() < 2;
+    state.measurements.stage = next.or(state.measurements.stage.take());
+    if is_only {
+        state.say("this result was measured at one stage only");
     }
 }
 
 /// The table of measurements, tab-separated.
+#[must_use]
 pub fn chi_table(state: &State) -> Option<String> {
-    let rows = state.chi();
+    let rows = measurements::rows(state);
     if rows.is_empty() {
         return None;
     }

@@ -6,11 +6,15 @@ use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
+use crate::overlays::explanation::Selected;
+use crate::screens::page::Draw;
+use crate::screens::sql::actions::is_editing;
+use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
 use crate::widgets::editor::{Mode, Offer};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::result_table::{ResultTable, cell_text};
+use crate::widgets::result_table::{Column, ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
 
 /// Words that the editor sets off.
@@ -23,61 +27,122 @@ const KEYWORDS: [&str; 34] = [
 /// Words offered at once.
 const OFFERED: usize = 6;
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let [editor, result] = panes(area, state);
-    draw_result(frame, result, state);
-    draw_editor(frame, editor, area, state);
-}
-
-/// Editor and answer.
-fn panes(area: Rect, state: &State) -> [Rect; 2] {
-    let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
-    let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
-    Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
-}
-
-/// Rows and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let [editor, result] = panes(area, state);
-    let inner = jump::inside(result);
-    let head = 1 + refusal(state, inner.width).len();
-    let rows = state.sql.table.as_ref().map_or(vec![], |table| jump::rows(1, inner, head, table.len(), table.row));
-    rows.into_iter().chain([jump::pane(editor, 0)]).collect()
-}
-
-fn draw_editor(frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
-    let focused = state.is_editing();
-    let title = match state.sql.editor.mode() {
-        _ if !focused => "query: e edits, F5 runs",
-        None => "query: F5 runs, Tab completes, Esc leaves",
-        Some(Mode::Insert) => "query, insert: F5 runs, Tab completes, Esc to normal mode",
-        Some(Mode::Normal) => "query, normal: F5 runs, i a o type, Esc leaves",
-    };
-    let block = pane(state.theme, title, focused);
-    let inner = block.inner(area);
-    let editor = &state.sql.editor;
-    let (line, column) = editor.place();
-    let room = usize::from(inner.height);
-    let first = first_shown(line, editor.text().split('\n').count(), room);
-    let from = (column + 1).saturating_sub(usize::from(inner.width));
-    let mut lines: Vec<Line<'_>> = editor
-        .text()
-        .split('\n')
-        .enumerate()
-        .skip(first)
-        .take(room)
-        .map(|(k, text)| query_line(state, text, from, (focused && k == line).then_some(column)))
-        .collect();
-    if editor.text().is_empty() {
-        let hint = "SELECT study, garment, size, subject, simulator, ei FROM v_metrics ORDER BY ei DESC";
-        let cursor = Span::styled(" ", if focused { state.theme.selected() } else { Style::new() });
-        lines = vec![Line::from(vec![cursor, Span::styled(format!(" like {hint}"), state.theme.dim())])];
+impl Draw for SqlScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let [editor, result] = self.panes(area);
+        self.draw_result(frame, result, state);
+        self.draw_editor(frame, editor, area, state);
     }
-    frame.render_widget(Paragraph::new(lines).block(block), area);
-    if let Some(offer) = editor.offer().filter(|_| focused) {
-        let x = inner.x + ((column.saturating_sub(from)) as u16).min(inner.width.saturating_sub(24));
-        let y = inner.y + (line - first) as u16 + 1;
-        draw_offer(frame, Rect::new(x, y, 24, OFFERED as u16).intersection(screen), offer, state);
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let [editor, result] = self.panes(area);
+        let inner = jump::inside(result);
+        let head = 1 + self.refusal(state, inner.width).len();
+        let rows = self.table.as_ref().map_or(vec![], |table| jump::rows(1, inner, head, table.len(), table.row));
+        rows.into_iter().chain([jump::pane(editor, 0)]).collect()
+    }
+
+    fn explained(&self, _state: &State) -> Selected {
+        let Some(table) = &self.table else { return Selected::default() };
+        let names: Vec<&str> = table.names().iter().map(String::as_str).collect();
+        let Some(column) = names.get(table.column) else { return Selected::default() };
+        let value = table.values(table.row).map_or(String::new(), |values| cell_text(&values[table.column]));
+        Selected::new(format!("{column}: {value}"), &[column], &names)
+    }
+}
+
+impl SqlScreen {
+    /// Editor and answer.
+    fn panes(&self, area: Rect) -> [Rect; 2] {
+        let lines = self.editor.text().matches('\n').count() as u16 + 1;
+        let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
+        Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area)
+    }
+
+    fn draw_editor(&self, frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
+        let focused = is_editing(state);
+        let title = match self.editor.mode() {
+            _ if !focused => "query: e edits, F5 runs",
+            None => "query: F5 runs, Tab completes, Esc leaves",
+            Some(Mode::Insert) => "query, insert: F5 runs, Tab completes, Esc to normal mode",
+            Some(Mode::Normal) => "query, normal: F5 runs, i a o type, Esc leaves",
+        };
+        let block = pane(state.theme, title, focused);
+        let inner = block.inner(area);
+        let editor = &self.editor;
+        let (line, column) = editor.place();
+        let room = usize::from(inner.height);
+        let first = first_shown(line, editor.text().split('\n').count(), room);
+        let from = (column + 1).saturating_sub(usize::from(inner.width));
+        let mut lines: Vec<Line<'_>> = editor
+            .text()
+            .split('\n')
+            .enumerate()
+            .skip(first)
+            .take(room)
+            .map(|(k, text)| query_line(state, text, from, (focused && k == line).then_some(column)))
+            .collect();
+        if editor.text().is_empty() {
+            let hint = "SELECT study, garment, size, subject, simulator, ei FROM v_metrics ORDER BY ei DESC";
+            let cursor = Span::styled(" ", if focused { state.theme.selected() } else { Style::new() });
+            lines = vec![Line::from(vec![cursor, Span::styled(format!(" like {hint}"), state.theme.dim())])];
+        }
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+        if let Some(offer) = editor.offer().filter(|_| focused) {
+            let x = inner.x + ((column.saturating_sub(from)) as u16).min(inner.width.saturating_sub(24));
+            let y = inner.y + (line - first) as u16 + 1;
+            draw_offer(frame, Rect::new(x, y, 24, OFFERED as u16).intersection(screen), offer, state);
+        }
+    }
+
+    fn draw_result(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let title = match (&self.running, &self.outcome) {
+            (Some(_), _) => "asking… C-c cancels".to_owned(),
+            (None, Some(Ok(told))) => told.clone(),
+            (None, Some(Err(_))) => "the query was refused".to_owned(),
+            (None, None) => "rows".to_owned(),
+        };
+        let legend = match &self.table {
+            Some(table) if !table.names().is_empty() => {
+                let row = if table.len() == 0 { 0 } else { table.row + 1 };
+                format!(" row {row} of {}, column {} of {} ", table.len(), table.column + 1, table.names().len())
+            }
+            _ => " o saved queries  C-p history ".to_owned(),
+        };
+        let block = pane(state.theme, title, !is_editing(state))
+            .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+        let inner = block.inner(area);
+        let mut lines = self.refusal(state, inner.width);
+        let room = usize::from(inner.height).saturating_sub(lines.len());
+        match &self.table {
+            Some(table) if !table.names().is_empty() => {
+                lines.extend(rows(state, table, usize::from(inner.width), room))
+            }
+            Some(_) => lines.push(Line::raw("nothing was asked")),
+            None if lines.is_empty() => lines.extend(self.names(state, usize::from(inner.width))),
+            None => {}
+        }
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+
+    /// Reason why the query was refused, if it was.
+    fn refusal(&self, state: &State, width: u16) -> Vec<Line<'static>> {
+        let Some(Err(error)) = &self.outcome else { return vec![] };
+        let wrapped = wrapped(error, usize::from(width).saturating_sub(2));
+        wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())).collect()
+    }
+
+    /// The views there are, before anything was asked.
+    fn names(&self, state: &State, width: usize) -> Vec<Line<'static>> {
+        let relations = self.relations.as_deref().unwrap_or_default();
+        let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
+        let longest = relations.iter().map(|relation| text::width(&relation.name)).max().unwrap_or(0) + 2;
+        let line = |relation: &store::Relation| {
+            let columns = shortened(&relation.columns.join(", "), width.saturating_sub(longest));
+            let name = Span::styled(left(&relation.name, longest), state.theme.bold());
+            Line::from(vec![name, Span::styled(columns, state.theme.dim())])
+        };
+        views.map(line).collect()
     }
 }
 
@@ -126,55 +191,6 @@ fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
     frame.render_widget(Paragraph::new(shown.iter().enumerate().map(line).collect::<Vec<_>>()), place);
 }
 
-fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let sql = &state.sql;
-    let title = match (&sql.running, &sql.outcome) {
-        (Some(_), _) => "asking… C-c cancels".to_owned(),
-        (None, Some(Ok(told))) => told.clone(),
-        (None, Some(Err(_))) => "the query was refused".to_owned(),
-        (None, None) => "rows".to_owned(),
-    };
-    let legend = match &sql.table {
-        Some(table) if !table.names().is_empty() => {
-            let row = if table.len() == 0 { 0 } else { table.row + 1 };
-            format!(" row {row} of {}, column {} of {} ", table.len(), table.column + 1, table.names().len())
-        }
-        _ => " o saved queries  C-p history ".to_owned(),
-    };
-    let block = pane(state.theme, title, !state.is_editing())
-        .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
-    let inner = block.inner(area);
-    let mut lines = refusal(state, inner.width);
-    let room = usize::from(inner.height).saturating_sub(lines.len());
-    match &sql.table {
-        Some(table) if !table.names().is_empty() => lines.extend(rows(state, table, usize::from(inner.width), room)),
-        Some(_) => lines.push(Line::raw("nothing was asked")),
-        None if lines.is_empty() => lines.extend(names(state, usize::from(inner.width))),
-        None => {}
-    }
-    frame.render_widget(Paragraph::new(lines).block(block), area);
-}
-
-/// Why the query was refused, if it was.
-fn refusal(state: &State, width: u16) -> Vec<Line<'static>> {
-    let Some(Err(error)) = &state.sql.outcome else { return vec![] };
-    let wrapped = wrapped(error, usize::from(width).saturating_sub(2));
-    wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())).collect()
-}
-
-/// The views there are, before anything was asked.
-fn names(state: &State, width: usize) -> Vec<Line<'static>> {
-    let relations = state.sql.relations.as_deref().unwrap_or_default();
-    let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
-    let longest = relations.iter().map(|relation| text::width(&relation.name)).max().unwrap_or(0) + 2;
-    let line = |relation: &store::Relation| {
-        let columns = shortened(&relation.columns.join(", "), width.saturating_sub(longest));
-        let name = Span::styled(left(&relation.name, longest), state.theme.bold());
-        Line::from(vec![name, Span::styled(columns, state.theme.dim())])
-    };
-    views.map(line).collect()
-}
-
 /// The head and the rows around the selected one.
 pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> Vec<Line<'static>> {
     let shown = table.columns_shown(width);
@@ -189,7 +205,7 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
             }
             _ => "",
         };
-        let (room, is_number) = table.column_of(k);
+        let Column { width: room, is_number } = table.column_of(k);
         let name = format!("{}{mark}", shortened(&table.names()[k], room - text::width(mark)));
         if is_number { right(&name, room) } else { left(&name, room) }
     };
@@ -229,10 +245,10 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
 fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> Line<'static> {
     let Some(values) = table.values(row) else { return Line::default() };
     let is_selected = row == table.row;
-    let selection = state.theme.selection(!state.is_editing());
+    let selection = state.theme.selection(!is_editing(state));
     let mut spans = vec![];
     for (n, &k) in shown.iter().enumerate() {
-        let (room, is_number) = table.column_of(k);
+        let Column { width: room, is_number } = table.column_of(k);
         let cell = cell_text(&values[k]);
         let cell = if is_number { right(&cell, room) } else { left(&cell, room) };
         let gap = if n == 0 {

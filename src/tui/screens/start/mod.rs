@@ -1,4 +1,4 @@
-//! What a new user sees: a database without studies.
+//! The first screen of a new user: a database without studies.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};

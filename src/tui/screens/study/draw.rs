@@ -1,4 +1,4 @@
-//! Drawing the grid and what is known of the selected cell.
+//! Drawing the grid and the numbers of the selected cell.
 
 use std::ops::Range;
 
@@ -8,37 +8,80 @@ use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
+use crate::messages::snapshot::Place;
+use crate::overlays::explanation::Selected;
+use crate::screens::measurements::{self, draw as measured};
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::{drape_in, requests};
 use crate::screens::picture_pane::draw::draw_drape;
-use crate::screens::results::measurements;
 use crate::screens::state::State;
-use crate::screens::study::state::Place;
+use crate::screens::study::StudyScreen;
+use crate::screens::study::actions::{self, is_match, places};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
 use store::{Cell, Grid, Status};
 
 /// Lines that make a picture below the grid worth while.
 const LEAST_PICTURE: u16 = 14;
-/// What the marks of fits mean.
+/// Meaning of the marks of fits.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let Some(grid) = state.grid() else {
-        let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";
-        frame.render_widget(Paragraph::new(text), area);
-        return;
-    };
-    if is_narrow(area) {
-        draw_list(frame, area, state, grid);
-        return;
+impl Draw for StudyScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let Some(grid) = state.grid() else {
+            let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";
+            frame.render_widget(Paragraph::new(text), area);
+            return;
+        };
+        if is_narrow(area) {
+            draw_list(frame, area, state, grid);
+            return;
+        }
+        let panes = Panes::new(area, grid);
+        draw_grid(frame, panes.grid, state, grid);
+        draw_detail(frame, panes.detail, state, grid);
+        if let Some(area) = panes.picture {
+            draw_drape(frame, area, state, false, "");
+        }
     }
-    let panes = Panes::new(area, grid);
-    draw_grid(frame, panes.grid, state, grid);
-    draw_detail(frame, panes.detail, state, grid);
-    if let Some(area) = panes.picture {
-        draw_drape(frame, area, state, false, "");
+
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let Some(grid) = state.grid() else { return vec![] };
+        let places = places(state);
+        let cell = |place: &Place| places.iter().position(|other| other == place).unwrap_or(0);
+        if is_narrow(area) {
+            let selected = cell(&state.place);
+            let first = first_shown(selected, places.len(), usize::from(area.height));
+            let rows = jump::rows(0, area, 0, places.len(), selected).into_iter().enumerate();
+            return rows.map(|(k, row)| Target { goal: Goal::Item(first + k), ..row }).collect();
+        }
+        let panes = Panes::new(area, grid);
+        let inner = jump::inside(panes.grid);
+        let Shown { subjects, lines } = Shown::of(inner, state, grid);
+        let of_size = grid.simulators.len() + 1;
+        let cells = lines.clone().filter(|line| line % of_size + 1 < of_size).flat_map(|line| {
+            let y = inner.y + 1 + (line - lines.start) as u16;
+            subjects.clone().map(move |subject| (line, subject, y))
+        });
+        let target = |(line, subject, y): (usize, usize, u16)| {
+            let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
+            let place = Place { size: line / of_size, simulator: line % of_size, subject };
+            Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
+        };
+        let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
+        cells.map(target).chain([other]).collect()
+    }
+
+    fn explained(&self, state: &State) -> Selected {
+        if state.in_second_pane() { measured::explained(state) } else { actions::explained(state) }
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        requests(state, drape_in(state, picture_pane(area, state)))
     }
 }
 
@@ -94,7 +137,7 @@ struct Shown {
 
 impl Shown {
     fn of(inner: Rect, state: &State, grid: &Grid) -> Self {
-        let place = state.study.place;
+        let place = state.place;
         let shown = (usize::from(inner.width).saturating_sub(label_width(grid)) / cell_width(grid)).max(1);
         let first = first_shown(place.subject, grid.subjects.len(), shown);
         let of_size = grid.simulators.len() + 1;
@@ -105,37 +148,9 @@ impl Shown {
     }
 }
 
-/// Cells and panes that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let Some(grid) = state.grid() else { return vec![] };
-    let places = state.places();
-    let cell = |place: &Place| places.iter().position(|one| one == place).unwrap_or(0);
-    if is_narrow(area) {
-        let selected = cell(&state.study.place);
-        let first = first_shown(selected, places.len(), usize::from(area.height));
-        let rows = jump::rows(0, area, 0, places.len(), selected).into_iter().enumerate();
-        return rows.map(|(k, row)| Target { goal: Goal::Item(first + k), ..row }).collect();
-    }
-    let panes = Panes::new(area, grid);
-    let inner = jump::inside(panes.grid);
-    let Shown { subjects, lines } = Shown::of(inner, state, grid);
-    let of_size = grid.simulators.len() + 1;
-    let cells = lines.clone().filter(|line| line % of_size + 1 < of_size).flat_map(|line| {
-        let y = inner.y + 1 + (line - lines.start) as u16;
-        subjects.clone().map(move |subject| (line, subject, y))
-    });
-    let target = |(line, subject, y): (usize, usize, u16)| {
-        let x = inner.x + (label_width(grid) + (subject - subjects.start) * cell_width(grid)) as u16;
-        let place = Place { size: line / of_size, simulator: line % of_size, subject };
-        Target { at: Position::new(x, y), goal: Goal::Item(cell(&place)) }
-    };
-    let other = if state.in_second_pane() { jump::pane(panes.grid, 0) } else { jump::pane(panes.detail, 1) };
-    cells.map(target).chain([other]).collect()
-}
-
-/// Study and garment, and which of how many.
+/// Title of the pane: study, garment and its number.
 fn title(state: &State, grid: &Grid) -> String {
-    let garments = state.data.as_ref().and_then(|data| data.study()).map_or(&[][..], |study| &study.garments);
+    let garments = state.study().map_or(&[][..], |study| &study.garments);
     let at = garments.iter().position(|name| *name == grid.garment).unwrap_or(0);
     match garments.len() {
         0 | 1 => format!("{} · {}", grid.study, grid.garment),
@@ -161,7 +176,7 @@ fn header(state: &State, grid: &Grid, subjects: Range<usize>) -> Line<'static> {
     let mut spans = vec![Span::styled(left("EI", label_width(grid) - 1) + more, state.theme.dim())];
     let last = subjects.end;
     for subject in subjects {
-        let style = if subject == state.study.place.subject { state.theme.bold() } else { state.theme.dim() };
+        let style = if subject == state.place.subject { state.theme.bold() } else { state.theme.dim() };
         spans.push(Span::styled(left(&grid.subjects[subject], cell_width(grid)), style));
     }
     if last < grid.subjects.len() {
@@ -172,17 +187,17 @@ fn header(state: &State, grid: &Grid, subjects: Range<usize>) -> Line<'static> {
 
 fn row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize, simulator: usize) -> Line<'static> {
     let name = if simulator == 0 { grid.sizes[size].as_str() } else { "" };
-    let is_selected = (size, simulator) == (state.study.place.size, state.study.place.simulator);
+    let is_selected = (size, simulator) == (state.place.size, state.place.simulator);
     let label = format!("{} {} ", left(name, size_width(grid)), text::sim(grid.simulators[simulator]));
     let mut spans = vec![Span::styled(label, if is_selected { state.theme.bold() } else { Style::new() })];
     for subject in subjects {
         let place = Place { size, simulator, subject };
         let cell = &grid.cells[size][subject][simulator];
         let mut style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
-        if !state.is_match(place) {
+        if !is_match(state, place) {
             style = style.add_modifier(Modifier::DIM);
         }
-        if place == state.study.place {
+        if place == state.place {
             style = style.patch(state.theme.selection(!state.in_second_pane()));
         }
         let width = cell_width(grid);
@@ -214,16 +229,15 @@ fn fit_row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize) -> L
 }
 
 fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
-    let place = state.study.place;
+    let place = state.place;
     let job = state.focus.job.map_or(String::new(), |id| format!(" · job {id}"));
     let simulator = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
     let title = format!("{} · {} · {simulator}{job}", grid.sizes[place.size], grid.subjects[place.subject]);
     let block = pane(state.theme, title, state.in_second_pane())
-        .title_bottom(Line::styled(measurements::LEGEND, state.theme.legend()).right_aligned());
+        .title_bottom(Line::styled(measured::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
-    let facts =
-        measurements::provenance(state).iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>();
+    let facts = measured::provenance(state).iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>();
     let mut origin = wrapped(&facts.join(" · "), usize::from(inner.width));
     origin.truncate(if inner.height >= 10 { 2 } else { 1 });
     let [inner, origin_area] =
@@ -238,32 +252,32 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
             .spacing(1)
     };
     let [numbers_area, table_area] = layout.areas(inner);
-    let mut numbers = measurements::numbers(state, usize::from(numbers_area.width));
+    let mut numbers = measured::numbers(state, usize::from(numbers_area.width));
     if numbers.is_empty() {
         numbers.push(Line::raw("no job yet: R runs the study"));
     }
     frame.render_widget(Paragraph::new(numbers), numbers_area);
-    if state.chi().is_empty() {
+    if measurements::rows(state).is_empty() {
         let wait = state.job().map_or("", |_| "no measurements yet");
         frame.render_widget(Paragraph::new(Line::styled(wait, state.theme.dim())), table_area);
         return;
     }
     let selected = state.in_second_pane().then_some(true);
     let (columns, lines) = (usize::from(table_area.width), usize::from(table_area.height));
-    frame.render_widget(Paragraph::new(measurements::table(state, columns, lines, selected)), table_area);
+    frame.render_widget(Paragraph::new(measured::table(state, columns, lines, selected)), table_area);
 }
 
 /// The cells one below the other, where there is no room for the grid.
 fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
-    let places = state.places();
-    let selected = places.iter().position(|place| *place == state.study.place).unwrap_or(0);
+    let places = places(state);
+    let selected = places.iter().position(|place| *place == state.place).unwrap_or(0);
     let first = first_shown(selected, places.len(), usize::from(area.height));
     let line = |place: &Place| {
         let cell = &grid.cells[place.size][place.subject][place.simulator];
-        let fit =
-            state.fit_at(*place).map_or(String::new(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
+        let fit = grid.fits[place.size][place.subject]
+            .map_or(String::new(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
         let style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
-        let style = if *place == state.study.place { style.patch(state.theme.selected()) } else { style };
+        let style = if *place == state.place { style.patch(state.theme.selected()) } else { style };
         let simulator = text::sim(grid.simulators[place.simulator]);
         let (size, subject) = (left(&grid.sizes[place.size], 4), left(&grid.subjects[place.subject], 9));
         Line::styled(format!("{size} {subject} {simulator} {} {fit}", left(&cell_text(cell), 9)), style)

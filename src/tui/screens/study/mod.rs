@@ -1,84 +1,63 @@
-//! Screen 1: the study as a grid, sizes and simulators down, subjects across, and what is known of the selected cell.
+//! Screen 1: the study as a grid, sizes and simulators down, subjects across, and the numbers of the selected cell.
 
-mod actions;
+pub mod actions;
 mod draw;
-pub mod state;
-
-use ratatui::Frame;
-use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::overlays::explanation::Selected;
+use crate::screens::jobs::actions::job_line;
+use crate::screens::measurements;
 use crate::screens::movement::Movement;
-use crate::screens::page::Page;
-use crate::screens::results::measurements;
+use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
-use crate::widgets::jump::Target;
-use crate::widgets::picture::Pictured;
 
-/// The screen of the study.
-pub struct StudyPage;
+/// The screen of the study. All that it shows is shared with other screens.
+#[derive(Default)]
+pub struct StudyScreen;
 
-impl Page for StudyPage {
-    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
-        draw::draw(frame, area, state);
-    }
-
-    fn go(&self, state: &mut State, movement: Movement) {
+impl Page for StudyScreen {
+    fn go(&mut self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
-            state.go_in_measurements(movement);
+            measurements::go(state, movement);
         } else {
-            state.go_in_grid(movement);
+            actions::go_in_grid(state, movement);
         }
     }
 
-    fn sideways(&self, state: &mut State, step: isize) {
-        state.go_to_subject(step);
+    fn sideways(&mut self, state: &mut State, step: isize) {
+        state.step_subject(step);
     }
 
-    fn go_to_match(&self, state: &mut State, step: isize) {
-        state.go_to_matching_cell(step);
+    fn go_to_match(&mut self, state: &mut State, step: isize) {
+        actions::go_to_matching_cell(state, step);
     }
 
-    fn sort(&self, state: &mut State) {
-        state.results.sort();
+    fn sort(&mut self, state: &mut State) {
+        state.measurements.sort();
     }
 
-    fn reverse(&self, state: &mut State) {
-        state.results.order.reverse();
+    fn reverse(&mut self, state: &mut State) {
+        state.measurements.order.reverse();
     }
 
-    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        state.job_line().map(|line| (line, "the job"))
+    fn copied(&self, state: &State) -> Option<Copied> {
+        job_line(state).map(|text| Copied { name: "the job", text })
     }
 
-    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
-        draw::targets(state, area)
+    fn go_to_item(&mut self, state: &mut State, item: usize) {
+        actions::go_to_cell(state, item);
     }
 
-    fn go_to_item(&self, state: &mut State, item: usize) {
-        state.go_to_cell(item);
-    }
-
-    fn explained(&self, state: &State) -> Selected {
-        if state.in_second_pane() { measurements::explained(state) } else { actions::explained(state) }
-    }
-
-    fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+    fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         match action {
-            Action::Open => return Some(state.open()),
-            Action::NextGarment => state.step_garment(1),
-            Action::PreviousGarment => state.step_garment(-1),
-            Action::NextStudy => state.next_study(),
-            Action::NewStudy => state.new_study(),
+            Action::Open => return Some(actions::open(state)),
+            Action::NextGarment => actions::step_garment(state, 1),
+            Action::PreviousGarment => actions::step_garment(state, -1),
+            Action::NextStudy => actions::next_study(state),
+            Action::NewStudy => actions::new_study(state),
             _ => return None,
         }
         Some(vec![])
-    }
-
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
-        state.drape_in(draw::picture_pane(area, state))
     }
 
     fn needs_study(&self) -> bool {

@@ -7,13 +7,16 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, Paragraph};
 
 use crate::messages::seams::SizeLayout;
+use crate::overlays::explanation::Selected;
+use crate::screens::page::Draw;
+use crate::screens::picture_pane::actions::requests;
 use crate::screens::state::State;
 use crate::screens::styles::pieces::{self, letter};
-use crate::screens::styles::state::{EdgeAt, TableLine};
-use crate::screens::styles::{preview, question};
+use crate::screens::styles::state::{EdgeAt, StylesScreen, TableLine};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
-use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::lists::{first_shown, listed, no_rows, pane, selected_line};
+use crate::widgets::picture::PictureRequest;
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use wardrobe::SizeRow;
 use wardrobe::seams::{Desk, DeskSeam};
@@ -38,237 +41,248 @@ struct Panes {
     pieces: Option<Rect>,
 }
 
-fn panes(area: Rect, state: &State) -> Panes {
-    // While something is asked it has to be seen.
-    if state.styles.enlarged && state.styles.asking.is_none() {
-        return Panes { pieces: Some(area), ..Panes::default() };
-    }
-    if is_narrow(area) {
-        if !state.in_second_pane() || !matches!(state.layout(), Some(Ok(_))) {
-            return Panes { list: Some(area), ..Panes::default() };
+impl Draw for StylesScreen {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
+        let panes = self.panes(area, state);
+        if let Some(area) = panes.list {
+            self.draw_list(frame, area, state, is_bare);
         }
-        if area.width < BESIDE {
-            return Panes { table: Some(area), ..Panes::default() };
-        }
-        let [table, pieces] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(area);
-        return Panes { table: Some(table), pieces: Some(pieces), ..Panes::default() };
-    }
-    let share = if area.width >= WIDE { area.width * 9 / 20 } else { area.width / 2 };
-    let [left, pieces] = Layout::horizontal([Constraint::Length(share), Constraint::Fill(1)]).areas(area);
-    let list = (state.sizes().len().max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
-    let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
-    Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
-}
-
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let (on_desk, is_bare) = (state.in_second_pane(), is_narrow(area));
-    let panes = panes(area, state);
-    if let Some(area) = panes.list {
-        draw_list(frame, area, state, is_bare);
-    }
-    if let Some(area) = panes.table {
-        match (state.asked(), state.layout()) {
-            (Some(asked), _) => question::draw(frame, area, state, &asked),
-            (None, Some(Ok(layout))) if is_bare => {
-                frame.render_widget(Paragraph::new(table(state, layout, area.width, area.height)), area);
+        if let Some(area) = panes.table {
+            match (self.asked(state), self.layout(state)) {
+                (Some(asked), _) => self.draw_question(frame, area, state, &asked),
+                (None, Some(Ok(layout))) if is_bare => {
+                    frame.render_widget(Paragraph::new(self.table(state, layout, area.width, area.height)), area);
+                }
+                (None, _) => self.draw_table(frame, area, state, on_desk),
             }
-            (None, _) => draw_table(frame, area, state, on_desk),
+        }
+        if let Some(area) = panes.pieces {
+            let is_alone = panes.table.is_none();
+            self.draw_pieces(frame, area, state, is_alone || on_desk && self.asking.is_none());
         }
     }
-    if let Some(area) = panes.pieces {
-        let is_alone = panes.table.is_none();
-        draw_pieces(frame, area, state, is_alone || on_desk && state.styles.asking.is_none());
-    }
-}
 
-/// Rows, seams and edges that can be gone to.
-pub fn targets(state: &State, area: Rect) -> Vec<Target> {
-    let Panes { list, table, pieces } = panes(area, state);
-    let is_bare = is_narrow(area);
-    let inner = |area: Rect| if is_bare { area } else { jump::inside(area) };
-    let sizes = state.sizes();
-    let key = state.size_row().map(|row| row.key);
-    let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
-    let mut targets = list.map_or(vec![], |area| jump::rows(0, inner(area), 1, sizes.len(), at));
-    if let Some(Ok(layout)) = state.layout() {
-        let lines = table.filter(|_| state.asked().is_none());
-        targets.extend(lines.into_iter().flat_map(|area| line_targets(state, layout, inner(area))));
-        let pieces = pieces.map(|area| beside_preview(state, area)).filter(|area| area.width > 0);
-        targets.extend(pieces.into_iter().flat_map(|area| pieces::targets(layout, area)));
-    }
-    targets
-}
-
-/// The lines of the table that can be gone to: a selected question takes several.
-fn line_targets(state: &State, layout: &SizeLayout, area: Rect) -> Vec<Target> {
-    let items = layout.lines();
-    let at = state.styles.line.min(items.len().saturating_sub(1));
-    let mut targets = jump::rows(1, area, 1, items.len(), at);
-    let below = match items.get(at) {
-        Some(TableLine::Question(_)) => {
-            item_lines(state, layout, items[at], usize::from(area.width), true).0.len().saturating_sub(1) as u16
+    fn targets(&self, state: &State, area: Rect) -> Vec<Target> {
+        let Panes { list, table, pieces } = self.panes(area, state);
+        let is_bare = is_narrow(area);
+        let inner = |area: Rect| if is_bare { area } else { jump::inside(area) };
+        let sizes = self.sizes(state);
+        let key = self.size_row(state).map(|row| row.key);
+        let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
+        let mut targets = list.map_or(vec![], |area| jump::rows(0, inner(area), 1, sizes.len(), at));
+        if let Some(layout) = self.laid_out(state) {
+            let lines = table.filter(|_| self.asked(state).is_none());
+            targets.extend(lines.into_iter().flat_map(|area| self.line_targets(state, layout, inner(area))));
+            let pieces = pieces.map(|area| self.beside_preview(state, area)).filter(|area| area.width > 0);
+            targets.extend(pieces.into_iter().flat_map(|area| pieces::targets(layout, area)));
         }
-        _ => 0,
-    };
-    for target in &mut targets {
-        target.at.y += if matches!(target.goal, Goal::Row(_, step) if step > 0) { below } else { 0 };
+        targets
     }
-    targets.retain(|target| area.contains(target.at));
-    targets
-}
 
-/// Where pieces and the garment sewn of them are drawn; `None` where there is only room for lists.
-pub fn pieces_area(state: &State, area: Rect) -> Option<Rect> {
-    panes(area, state).pieces
-}
-
-/// The room that the garment leaves for the pieces.
-fn beside_preview(state: &State, area: Rect) -> Rect {
-    preview::place(state, area).map_or(area, |garment| Rect { width: area.width - garment.width, ..area })
-}
-
-/// The list of sizes, in a border where there is room for one.
-fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, is_bare: bool) {
-    if is_bare {
-        frame.render_widget(Paragraph::new(list(state, area.width, area.height)), area);
-        return;
+    fn explained(&self, _state: &State) -> Selected {
+        Selected::new(String::new(), &HEADINGS, &[])
     }
-    let sizes = state.sizes();
-    let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
-    styles.dedup();
-    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
-    let legend = "• study  * not saved  ? proposed";
-    let block = pane(state.theme, title, !state.in_second_pane());
-    let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
-    let inner = block.inner(area);
-    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), area);
-}
 
-/// Draws the pieces, and beside them or instead of them the garment.
-fn draw_pieces(frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
-    let garment = preview::place(state, area);
-    let left = beside_preview(state, area);
-    if left.width > 0 {
-        pieces::draw(frame, left, state, on_desk);
-    }
-    if let Some(garment) = garment {
-        preview::draw(frame, garment, state);
+    fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
+        let panes = self.pieces_area(state, area).map_or(vec![], |area| self.previewed(state, area));
+        requests(state, panes)
     }
 }
 
-/// The list of sizes with its header.
-fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
-    let sizes = state.sizes();
-    let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
-    let key = state.size_row().map(|row| row.key);
-    let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
-    let first = first_shown(at, sizes.len(), height);
-    let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
-    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
-    for (k, row) in sizes.iter().enumerate().skip(first).take(height) {
-        let line = Line::raw(list_line(state, row, width));
-        let style = state.theme.selection(!state.in_second_pane());
-        lines.push(if k == at { selected_line(line, style) } else { line });
-    }
-    if sizes.is_empty() {
-        let is_filtered = !state.filter().is_empty();
-        lines.push(Line::raw(if is_filtered { "no size matches the filter" } else { "no styles yet: i imports one" }));
-    }
-    lines
-}
-
-fn list_line(state: &State, row: &SizeRow, width: usize) -> String {
-    let study = state.data.as_ref().and_then(|data| data.study());
-    let used = if study.is_some_and(|study| study.garments.contains(&row.style)) { "•" } else { " " };
-    let edited = if state.styles.edits.contains_key(&row.style) { "*" } else { " " };
-    let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
-    let revisions = format!("{}/{}", row.style_revision, row.revision);
-    let (style, size) = (left(&row.style, 14), left(&row.size, 6));
-    let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions, 4));
-    let file = shortened(&row.pattern_file, width.saturating_sub(text::width(&start)));
-    shortened(&format!("{start}{file}"), width)
-}
-
-fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
-    let Some(row) = state.size_row() else {
-        frame.render_widget(Block::bordered().border_style(state.theme.dim()), area);
-        return;
-    };
-    let name = format!("{} {}", row.style, row.size);
-    let columns = usize::from(area.width.saturating_sub(2));
-    match state.layout() {
-        None => {
-            let block = pane(state.theme, name, focused);
-            frame.render_widget(Paragraph::new("reading the pattern…").block(block), area);
+impl StylesScreen {
+    fn panes(&self, area: Rect, state: &State) -> Panes {
+        // While something is asked it has to be seen.
+        if self.enlarged && self.asking.is_none() {
+            return Panes { pieces: Some(area), ..Panes::default() };
         }
-        Some(Err(error)) => {
-            let lines = wrapped(&format!("✗ {error}"), columns);
-            let lines: Vec<Line<'_>> = lines.into_iter().map(|line| Line::styled(line, state.theme.bad())).collect();
-            frame.render_widget(Paragraph::new(lines).block(pane(state.theme, name, focused)), area);
+        if is_narrow(area) {
+            if !state.in_second_pane() || !matches!(self.layout(state), Some(Ok(_))) {
+                return Panes { list: Some(area), ..Panes::default() };
+            }
+            if area.width < BESIDE {
+                return Panes { table: Some(area), ..Panes::default() };
+            }
+            let [table, pieces] = Layout::horizontal([Constraint::Fill(1), Constraint::Fill(1)]).areas(area);
+            return Panes { table: Some(table), pieces: Some(pieces), ..Panes::default() };
         }
-        Some(Ok(layout)) => {
-            let title = {
-                let counts = format!(" · {} seams, {} to decide", layout.out.desk.seams.len(), to_decide(layout));
-                // Four columns are the border's and the mark of the focus.
-                let room = columns.saturating_sub(width(&counts) + 4);
-                shortened(&name, room) + &counts
-            };
-            let below = shortened(&selection(state, layout), columns);
-            let block = pane(state.theme, title, focused).title_bottom(Line::styled(below, state.theme.legend()));
-            let inner = block.inner(area);
-            frame.render_widget(Paragraph::new(table(state, layout, inner.width, inner.height)).block(block), area);
+        let share = if area.width >= WIDE { area.width * 9 / 20 } else { area.width / 2 };
+        let [left, pieces] = Layout::horizontal([Constraint::Length(share), Constraint::Fill(1)]).areas(area);
+        let list = (self.sizes(state).len().max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
+        let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
+        Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
+    }
+
+    /// The lines of the table that can be gone to: a selected question takes several.
+    fn line_targets(&self, state: &State, layout: &SizeLayout, area: Rect) -> Vec<Target> {
+        let items = layout.lines();
+        let at = self.line.min(items.len().saturating_sub(1));
+        let mut targets = jump::rows(1, area, 1, items.len(), at);
+        let below = match items.get(at) {
+            Some(TableLine::Question(_)) => {
+                item_lines(state, layout, items[at], usize::from(area.width), true).0.len().saturating_sub(1) as u16
+            }
+            _ => 0,
+        };
+        for target in &mut targets {
+            target.at.y += if matches!(target.goal, Goal::Row(_, step) if step > 0) { below } else { 0 };
         }
+        targets.retain(|target| area.contains(target.at));
+        targets
+    }
+
+    /// Place of the pieces and of the garment sewn of them; `None` where there is only room for lists.
+    pub fn pieces_area(&self, state: &State, area: Rect) -> Option<Rect> {
+        self.panes(area, state).pieces
+    }
+
+    /// The room that the garment leaves for the pieces.
+    fn beside_preview(&self, state: &State, area: Rect) -> Rect {
+        self.preview_place(state, area).map_or(area, |garment| Rect { width: area.width - garment.width, ..area })
+    }
+
+    /// The list of sizes, in a border where there is room for one.
+    fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State, is_bare: bool) {
+        if is_bare {
+            frame.render_widget(Paragraph::new(self.list(state, area.width, area.height)), area);
+            return;
+        }
+        let sizes = self.sizes(state);
+        let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
+        styles.dedup();
+        let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
+        let legend = "• study  * not saved  ? proposed";
+        let block = pane(state.theme, title, !state.in_second_pane());
+        let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
+        let inner = block.inner(area);
+        frame.render_widget(Paragraph::new(self.list(state, inner.width, inner.height)).block(block), area);
+    }
+
+    /// Draws the pieces, and beside them or instead of them the garment.
+    fn draw_pieces(&self, frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
+        let garment = self.preview_place(state, area);
+        let left = self.beside_preview(state, area);
+        if left.width > 0 {
+            self.draw_piece_pane(frame, left, state, on_desk);
+        }
+        if let Some(garment) = garment {
+            self.draw_preview(frame, garment, state);
+        }
+    }
+
+    /// The list of sizes with its header.
+    fn list(&self, state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
+        let sizes = self.sizes(state);
+        let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
+        let key = self.size_row(state).map(|row| row.key);
+        let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
+        let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
+        let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
+        let selection = state.theme.selection(!state.in_second_pane());
+        lines.extend(listed(&sizes, at, height, selection, |row| Line::raw(self.list_line(state, row, width))));
+        if sizes.is_empty() {
+            lines.push(no_rows(state.filter(), "no size matches the filter", "no styles yet: i imports one"));
+        }
+        lines
+    }
+
+    fn list_line(&self, state: &State, row: &SizeRow, width: usize) -> String {
+        let study = state.study();
+        let used = if study.is_some_and(|study| study.garments.contains(&row.style)) { "•" } else { " " };
+        let edited = if self.edits.contains_key(&row.style) { "*" } else { " " };
+        let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
+        let revisions = format!("{}/{}", row.style_revision, row.revision);
+        let (style, size) = (left(&row.style, 14), left(&row.size, 6));
+        let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions, 4));
+        let file = shortened(&row.pattern_file, width.saturating_sub(text::width(&start)));
+        shortened(&format!("{start}{file}"), width)
+    }
+
+    fn draw_table(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+        let Some(row) = self.size_row(state) else {
+            frame.render_widget(Block::bordered().border_style(state.theme.dim()), area);
+            return;
+        };
+        let name = format!("{} {}", row.style, row.size);
+        let columns = usize::from(area.width.saturating_sub(2));
+        match self.layout(state) {
+            None => {
+                let block = pane(state.theme, name, focused);
+                frame.render_widget(Paragraph::new("reading the pattern…").block(block), area);
+            }
+            Some(Err(error)) => {
+                let lines = wrapped(&format!("✗ {error}"), columns);
+                let lines: Vec<Line<'_>> =
+                    lines.into_iter().map(|line| Line::styled(line, state.theme.bad())).collect();
+                frame.render_widget(Paragraph::new(lines).block(pane(state.theme, name, focused)), area);
+            }
+            Some(Ok(layout)) => {
+                let title = {
+                    let counts = format!(" · {} seams, {} to decide", layout.out.desk.seams.len(), to_decide(layout));
+                    // Four columns are the border's and the mark of the focus.
+                    let room = columns.saturating_sub(width(&counts) + 4);
+                    shortened(&name, room) + &counts
+                };
+                let below = shortened(&self.selection(layout), columns);
+                let block = pane(state.theme, title, focused).title_bottom(Line::styled(below, state.theme.legend()));
+                let inner = block.inner(area);
+                frame.render_widget(
+                    Paragraph::new(self.table(state, layout, inner.width, inner.height)).block(block),
+                    area,
+                );
+            }
+        }
+    }
+
+    /// The selected edge, and its seam with everything about it.
+    fn selection(&self, layout: &SizeLayout) -> String {
+        let (piece, edge) = self.edge;
+        let Some(piece) = layout.out.desk.pieces.get(piece) else { return String::new() };
+        let Some(edge) = piece.edges.get(edge) else { return String::new() };
+        let edge = format!("{}.{} {:.1} mm", piece.id, edge.number, edge.length_mm);
+        match layout.seam_at(self.edge) {
+            Some(k) => {
+                let seam = &layout.out.desk.seams[k];
+                let turned = if seam.same_direction { ", turned" } else { "" };
+                format!("{} {} · {edge}{turned}", letter(k), seam.name)
+            }
+            None => format!("in no seam · {edge}"),
+        }
+    }
+
+    /// Seams, questions and measurements, the selected line among them.
+    fn table(&self, state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
+        let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
+        let items = layout.lines();
+        let at = self.line.min(items.len().saturating_sub(1));
+        let first = first_shown(at, items.len(), height);
+        let mut lines = vec![Line::styled(head(width), state.theme.dim())];
+        for (k, item) in items.iter().enumerate().skip(first) {
+            // An edge in no seam is selected beside the line of another one.
+            let is_selected = k == at
+                && match item {
+                    TableLine::Seam(seam) => layout.seam_at(self.edge) == Some(*seam),
+                    _ => true,
+                };
+            let (texts, style) = item_lines(state, layout, *item, width, is_selected);
+            for text in texts {
+                let line = Line::styled(text, style);
+                lines.push(if is_selected {
+                    selected_line(line, state.theme.selection(state.in_second_pane()))
+                } else {
+                    line
+                });
+            }
+        }
+        lines.truncate(height + 1);
+        lines
     }
 }
 
 /// Number of things a person must decide.
 fn to_decide(layout: &SizeLayout) -> usize {
     layout.out.undecided.len()
-}
-
-/// The selected edge, and its seam with everything about it.
-fn selection(state: &State, layout: &SizeLayout) -> String {
-    let (piece, edge) = state.styles.edge;
-    let Some(piece) = layout.out.desk.pieces.get(piece) else { return String::new() };
-    let Some(edge) = piece.edges.get(edge) else { return String::new() };
-    let edge = format!("{}.{} {:.1} mm", piece.id, edge.number, edge.length_mm);
-    match layout.seam_at(state.styles.edge) {
-        Some(k) => {
-            let seam = &layout.out.desk.seams[k];
-            let turned = if seam.same_direction { ", turned" } else { "" };
-            format!("{} {} · {edge}{turned}", letter(k), seam.name)
-        }
-        None => format!("in no seam · {edge}"),
-    }
-}
-
-/// Seams, questions and measurements, the selected line among them.
-fn table(state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
-    let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
-    let items = layout.lines();
-    let at = state.styles.line.min(items.len().saturating_sub(1));
-    let first = first_shown(at, items.len(), height);
-    let mut lines = vec![Line::styled(head(width), state.theme.dim())];
-    for (k, item) in items.iter().enumerate().skip(first) {
-        // An edge in no seam is selected beside the line of another one.
-        let is_selected = k == at
-            && match item {
-                TableLine::Seam(seam) => layout.seam_at(state.styles.edge) == Some(*seam),
-                _ => true,
-            };
-        let (texts, style) = item_lines(state, layout, *item, width, is_selected);
-        for text in texts {
-            let line = Line::styled(text, style);
-            lines.push(if is_selected {
-                selected_line(line, state.theme.selection(state.in_second_pane()))
-            } else {
-                line
-            });
-        }
-    }
-    lines.truncate(height + 1);
-    lines
 }
 
 /// A line of the table; a selected question at its full length.

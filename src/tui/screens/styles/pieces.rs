@@ -10,7 +10,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 
 use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
-use crate::screens::styles::state::EdgeAt;
+use crate::screens::styles::state::{EdgeAt, StylesScreen};
 use crate::widgets::jump::{self, Goal, Target};
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
@@ -18,7 +18,7 @@ use wardrobe::seams::{DeskEdge, DeskPiece, DeskSeam};
 
 /// Digits of answers.
 const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
-/// How far labels stand off their edge, in dots of braille: inside the piece first.
+/// Distances of labels from their edge, in dots of braille: inside the piece first.
 const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
 
 /// The letter of a seam, in the table and in the picture.
@@ -27,21 +27,24 @@ pub fn letter(seam: usize) -> char {
     ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
 }
 
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
-    let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
-    let room = usize::from(area.width).saturating_sub(26);
-    let legend =
-        if area.width < 34 { " ● edge ○ sewn ◆ marked " } else { " ● edge  ○ sewn to it  ◆ marked " };
-    let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
-        .title_bottom(Line::styled(legend, state.theme.legend()));
-    let inner = block.inner(area);
-    frame.render_widget(block, area);
-    let Some(Ok(layout)) = state.layout() else { return };
-    let Some(view) = View::of(inner, layout) else { return };
-    let drawing = Drawing { state, layout, view };
-    drawing.outlines(frame);
-    drawing.selection(frame);
-    drawing.labels(frame);
+impl StylesScreen {
+    /// Draws the pane of the pieces.
+    pub fn draw_piece_pane(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+        let title = self.size_row(state).map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
+        let room = usize::from(area.width).saturating_sub(26);
+        let legend =
+            if area.width < 34 { " ● edge ○ sewn ◆ marked " } else { " ● edge  ○ sewn to it  ◆ marked " };
+        let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
+            .title_bottom(Line::styled(legend, state.theme.legend()));
+        let inner = block.inner(area);
+        frame.render_widget(block, area);
+        let Some(layout) = self.laid_out(state) else { return };
+        let Some(view) = View::of(inner, layout) else { return };
+        let drawing = Drawing { screen: self, state, layout, view };
+        drawing.outlines(frame);
+        drawing.selection(frame);
+        drawing.labels(frame);
+    }
 }
 
 /// The edges that can be gone to, at their middles.
@@ -54,7 +57,7 @@ pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
     layout.edges().into_iter().enumerate().filter_map(place).collect()
 }
 
-/// How millimetres become dots of braille, two by four a cell.
+/// Scale from millimetres to dots of braille, two by four a cell.
 struct View {
     area: Rect,
     /// Left and upper end of the pane, mm.
@@ -94,6 +97,7 @@ impl View {
 }
 
 struct Drawing<'a> {
+    screen: &'a StylesScreen,
     state: &'a State,
     layout: &'a SizeLayout,
     view: View,
@@ -134,8 +138,8 @@ impl Drawing<'_> {
 
     /// The selected edge and what is sewn to it, in glyphs that need no colour; what may be sewn to it, by the digit of the answer.
     fn selection(&self, frame: &mut Frame<'_>) {
-        let chosen = self.state.styles.edge;
-        let asked = self.state.asked();
+        let chosen = self.screen.edge;
+        let asked = self.screen.asked(self.state);
         let offered = |at: EdgeAt| {
             let choices = &asked.as_ref()?.choices;
             choices.iter().position(|choice| choice.edges.contains(&at)).filter(|place| *place < DIGITS.len())
@@ -145,7 +149,7 @@ impl Drawing<'_> {
         for (at, _, edge) in self.edges() {
             let glyph = match at {
                 at if at == chosen => "●",
-                at if self.state.styles.marks.contains(&at) => "◆",
+                at if self.screen.marks.contains(&at) => "◆",
                 at if others.contains(&at) => "○",
                 at => match offered(at) {
                     Some(place) => DIGITS[place],
@@ -172,11 +176,11 @@ impl Drawing<'_> {
     /// Numbers of edges with the letters of their seams, and names of pieces, as far as there is room: what is selected
     /// first, then long edges before short ones.
     fn labels(&self, frame: &mut Frame<'_>) {
-        let styles = &self.state.styles;
+        let screen = self.screen;
         let mut edges: Vec<_> = self.edges().collect();
         let rank = |at: EdgeAt| match at {
-            at if at == styles.edge => 0,
-            at if styles.marks.contains(&at) => 1,
+            at if at == screen.edge => 0,
+            at if screen.marks.contains(&at) => 1,
             _ => 2,
         };
         edges.sort_by(|(a, _, one), (b, _, two)| {
@@ -220,7 +224,7 @@ impl Drawing<'_> {
     }
 }
 
-/// The edges of a seam, each with whether the seam runs along it as it is drawn: both sides then run together.
+/// The edges of a seam, each with true if the seam runs along it as it is drawn: both sides then run together.
 fn sides(seam: &DeskSeam) -> Vec<(EdgeAt, bool)> {
     let forwards = seam.a.iter().map(|edge| (*edge, true));
     forwards.chain(seam.b.iter().map(|edge| (*edge, seam.same_direction))).collect()
@@ -242,8 +246,8 @@ fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
     for pair in edge.line_mm.windows(2) {
         let [a, b] = [pair[0], pair[1]];
         let steps = ((b[0] - a[0]).hypot(b[1] - a[1]) / apart_mm).ceil().clamp(1.0, 1e4) as usize;
-        let at = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-        places.extend((0..=steps).map(|k| at(k as f64 / steps as f64)));
+        let point_at = |share: f64| [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
+        places.extend((0..=steps).map(|k| point_at(k as f64 / steps as f64)));
     }
     places
 }
@@ -252,8 +256,8 @@ fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
 fn centre(piece: &DeskPiece) -> [f64; 2] {
     let points = || piece.edges.iter().flat_map(|edge| &edge.line_mm);
     [0, 1].map(|k| {
-        let low = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        let high = points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        let low = points().map(|point| point[k]).fold(f64::INFINITY, f64::min);
+        let high = points().map(|point| point[k]).fold(f64::NEG_INFINITY, f64::max);
         (low + high) / 2.0
     })
 }

@@ -1,4 +1,4 @@
-//! Drawing what is asked: the question in full, its answers by digit.
+//! Drawing a question: its text in full, its answers by digit.
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -7,27 +7,30 @@ use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
 use crate::screens::state::State;
+use crate::screens::styles::state::StylesScreen;
 use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
 use wardrobe::seams::Undecided;
 
-/// Draws it in place of the table.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {
-    let count = state.layout().and_then(Result::ok).map_or(0, |layout| layout.out.undecided.len());
-    let title = match state.styles.asking {
-        Some(asking) if asking.own.is_none() => {
-            format!("question {} of {count}", asking.at.min(count.saturating_sub(1)) + 1)
-        }
-        _ => "question".to_owned(),
-    };
-    let block = pane(state.theme, title, true)
-        .title_bottom(Line::styled(" y takes ●  A all sure  n next ", state.theme.legend()));
-    let inner = block.inner(area);
-    let lines = lines(state, asked, usize::from(inner.width), usize::from(inner.height));
-    frame.render_widget(Paragraph::new(lines).block(block), area);
+impl StylesScreen {
+    /// Draws it in place of the table.
+    pub fn draw_question(&self, frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {
+        let count = self.laid_out(state).map_or(0, |layout| layout.out.undecided.len());
+        let title = match self.asking {
+            Some(asking) if asking.own.is_none() => {
+                format!("question {} of {count}", asking.at.min(count.saturating_sub(1)) + 1)
+            }
+            _ => "question".to_owned(),
+        };
+        let block = pane(state.theme, title, true)
+            .title_bottom(Line::styled(" y takes ●  A all sure  n next ", state.theme.legend()));
+        let inner = block.inner(area);
+        let lines = lines(state, asked, usize::from(inner.width), usize::from(inner.height));
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
 }
 
-/// The question and its answers; where there is no room for all answers, as many as there is room for and how many more there are.
+/// The question and its answers; where there is no room for all lines, the first of them and `…`.
 fn lines(state: &State, asked: &Undecided, width: usize, height: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'_>> =
         wrapped(&asked.text, width).into_iter().map(|text| Line::styled(text, state.theme.bold())).collect();

@@ -1,40 +1,39 @@
-//! What is done to the seams of a style.
+//! Work on the seams of a style.
 
 use crate::keys::screen::Screen;
-use crate::messages::effect::Effect;
+use crate::messages::effect::{Effect, Writing};
 use crate::messages::requests::Command;
-use crate::messages::seams::{LayoutRequest, SeamTask};
+use crate::messages::seams::{LayoutRequest, SeamTask, SeamWork};
 use crate::messages::taught;
+use crate::screens::catalogue::may_change;
 use crate::screens::state::State;
-use crate::screens::styles::state::{Asking, EdgeAt, Edited};
+use crate::screens::styles::state::{Asking, EdgeAt, Edited, StylesScreen};
 use store::files::SourceFile;
+use wardrobe::Part;
 use wardrobe::seams::{DeskSeam, SeamEdit, SeamStep};
-use wardrobe::{Part, SizeRow};
 
-impl State {
-    /// Gives the seams the focus; whether they can be worked on now.
-    pub fn may_sew(&mut self) -> bool {
-        if !self.may_change(Part::Style) {
+impl StylesScreen {
+    /// Gives the seams the focus; returns true if they can be worked on now.
+    pub fn may_sew(&self, state: &mut State) -> bool {
+        if !may_change(state, Part::Style) {
             return false;
         }
-        self.nav.second_pane[Screen::Styles as usize] = true;
-        let is_current =
-            matches!(&self.styles.layout, Some((request, Ok(_))) if Some(request) == self.styles.requested.as_ref());
-        let is_ready = is_current && self.layout().is_some() && !self.styles.is_busy;
-        if !is_ready && self.size_row().is_none() {
-            self.say("no size is selected: i imports one");
+        state.nav.second_pane[Screen::Styles as usize] = true;
+        let is_ready = self.is_current() && self.layout(state).is_some() && !self.is_busy;
+        if !is_ready && self.size_row(state).is_none() {
+            state.say("no size is selected: i imports one");
         } else if !is_ready {
-            self.say("the pieces are not laid out yet");
+            state.say("the pieces are not laid out yet");
         }
         is_ready
     }
 
     /// Marks the selected edge, or takes its mark away.
-    pub fn mark_edge(&mut self) {
-        if !self.may_sew() {
+    pub fn mark_edge(&mut self, state: &mut State) {
+        if !self.may_sew(state) {
             return;
         }
-        let (edge, marks) = (self.styles.edge, &mut self.styles.marks);
+        let (edge, marks) = (self.edge, &mut self.marks);
         match marks.iter().position(|mark| *mark == edge) {
             Some(at) => drop(marks.remove(at)),
             None => marks.push(edge),
@@ -42,19 +41,18 @@ impl State {
     }
 
     /// Sews the edge marked first to the others marked, or to the selected one.
-    pub fn add_seam(&mut self) -> Vec<Effect> {
-        if !self.may_sew() {
+    pub fn add_seam(&mut self, state: &mut State) -> Vec<Effect> {
+        if !self.may_sew(state) {
             return vec![];
         }
-        let mut sides = self.styles.marks.clone();
-        if sides.len() < 2 && !sides.contains(&self.styles.edge) {
-            sides.push(self.styles.edge);
+        let mut sides = self.marks.clone();
+        if sides.len() < 2 && !sides.contains(&self.edge) {
+            sides.push(self.edge);
         }
-        let Some(Ok(layout)) = self.layout() else { return vec![] };
+        let Some(layout) = self.laid_out(state) else { return vec![] };
         let [first, others @ ..] = sides.as_slice() else { return vec![] };
         if others.is_empty() {
-            self.say("m marks an edge; then go to the edge it is sewn to, and a sews them");
-            return vec![];
+            return state.reply("m marks an edge; then go to the edge it is sewn to, and a sews them");
         }
         let length = |(piece, edge): &EdgeAt| layout.out.desk.pieces[*piece].edges[*edge].length_mm;
         let (a_mm, b_mm) = (length(first), others.iter().map(length).sum::<f64>());
@@ -66,179 +64,203 @@ impl State {
             a_mm - b_mm,
             a_mm / b_mm
         );
-        let effects = self.step_of_work(SeamStep::Edit(SeamEdit::Add { a, b, name: None, is_eased }));
+        let effects = self.step_of_work(state, SeamStep::Edit(SeamEdit::Add { a, b, name: None, is_eased }));
         if is_eased {
-            self.styles.is_busy = false;
-            self.ask(text, effects);
+            self.is_busy = false;
+            state.ask(text, effects);
             return vec![];
         }
         effects
     }
 
     /// The seam that holds the selected edge.
-    fn selected_seam(&mut self) -> Option<DeskSeam> {
-        if !self.may_sew() {
+    fn selected_seam(&self, state: &mut State) -> Option<DeskSeam> {
+        if !self.may_sew(state) {
             return None;
         }
-        let layout = self.layout()?.ok()?;
-        let found = layout.seam_at(self.styles.edge).map(|k| layout.out.desk.seams[k].clone());
+        let layout = self.laid_out(state)?;
+        let found = layout.seam_at(self.edge).map(|k| layout.out.desk.seams[k].clone());
         if found.is_none() {
-            self.say("no seam holds the selected edge");
+            state.say("no seam holds the selected edge");
         }
         found
     }
 
     /// Two edges that name a seam: one of each side.
-    fn between(&self, seam: &DeskSeam) -> Option<(String, String)> {
-        let layout = self.layout()?.ok()?;
+    fn between(&self, state: &State, seam: &DeskSeam) -> Option<(String, String)> {
+        let layout = self.laid_out(state)?;
         Some((layout.out.desk.edge_name(*seam.a.first()?), layout.out.desk.edge_name(*seam.b.first()?)))
     }
 
     /// Opens the selected seam.
-    pub fn remove_seam(&mut self) -> Vec<Effect> {
-        let edges = self.selected_seam().and_then(|seam| self.between(&seam));
-        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Remove { a, b })))
+    pub fn remove_seam(&mut self, state: &mut State) -> Vec<Effect> {
+        let edges = self.selected_seam(state).and_then(|seam| self.between(state, &seam));
+        edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Remove { a, b })))
     }
 
     /// Turns one side of the selected seam round.
-    pub fn flip_seam(&mut self) -> Vec<Effect> {
-        let edges = self.selected_seam().and_then(|seam| self.between(&seam));
-        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
+    pub fn flip_seam(&mut self, state: &mut State) -> Vec<Effect> {
+        let edges = self.selected_seam(state).and_then(|seam| self.between(state, &seam));
+        edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Gives the seams the focus, and asks what is to be decided about them.
-    pub fn decide(&mut self) {
-        let had_focus = self.in_second_pane();
-        self.show(Screen::Styles);
-        self.nav.second_pane[Screen::Styles as usize] = true;
-        let is_decided = self.layout().is_some_and(|layout| layout.is_ok_and(|layout| layout.out.undecided.is_empty()));
+    /// Gives the seams the focus, and asks the questions about them.
+    pub fn decide(&mut self, state: &mut State) {
+        let had_focus = state.in_second_pane();
+        state.show(Screen::Styles);
+        state.nav.second_pane[Screen::Styles as usize] = true;
+        let is_decided =
+            self.layout(state).is_some_and(|layout| layout.is_ok_and(|layout| layout.out.undecided.is_empty()));
         if had_focus {
-            self.begin_asking();
+            self.begin_asking(state);
         } else if !is_decided {
             // What is not laid out yet is asked once it is.
-            self.styles.asking = Some(Asking { at: 0, own: None, goes_on: true });
-            if self.layout().is_some() {
-                self.go_on_asking();
+            self.asking = Some(Asking { at: 0, own: None, goes_on: true });
+            if self.layout(state).is_some() {
+                self.go_on_asking(state);
             }
         }
     }
 
     /// Proposes the seams of the selected style; asks where that replaces seams that somebody has made or confirmed.
-    pub fn propose_seams(&mut self) -> Vec<Effect> {
+    pub fn propose_seams(&mut self, state: &mut State) -> Vec<Effect> {
         // What cannot be laid out with the seams it has may get others.
-        if !self.may_change(Part::Style) || self.styles.is_busy {
+        if !may_change(state, Part::Style) || self.is_busy {
             return vec![];
         }
-        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
-        let replaced = self.layout().and_then(Result::ok).map_or(0, |layout| {
+        let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return vec![] };
+        let replaced = self.laid_out(state).map_or(0, |layout| {
             layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + layout.out.lengths.len()
         });
-        let effects = self.step_of_work(SeamStep::Propose(style.clone()));
+        let effects = self.step_of_work(state, SeamStep::Propose(style.clone()));
         if replaced > 0 {
-            self.styles.is_busy = false;
+            self.is_busy = false;
             let text = format!("Propose all seams of {style} anew? Its seams and measurements go; u brings them back.");
-            self.ask(text, effects);
+            state.ask(text, effects);
             return vec![];
         }
         effects
     }
 
-    pub fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
-        let Some(request) = self.layout_request() else { return vec![] };
-        self.styles.is_busy = true;
-        vec![Effect::Seams(SeamTask::Sew(request, step))]
+    /// Does a step of work on the seams of the selected size.
+    pub fn step_of_work(&mut self, state: &State, step: SeamStep) -> Vec<Effect> {
+        let Some(request) = self.layout_request(state) else { return vec![] };
+        self.is_busy = true;
+        vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step }))]
     }
 
     /// Takes in a seam file after a step of work.
-    pub fn sewn(&mut self, (request, step): (LayoutRequest, SeamStep), outcome: Result<SourceFile, String>) {
-        self.styles.is_busy = false;
-        let of_size = |row: &SizeRow| row.key.size == request.key.size;
-        let size = self.data.iter().flat_map(|data| &data.sizes).find(|row| of_size(row));
+    pub fn sewn(&mut self, state: &mut State, work: SeamWork, outcome: Result<SourceFile, String>) {
+        let SeamWork { size: request, step } = work;
+        self.is_busy = false;
+        let size = state.data.iter().flat_map(|data| &data.sizes).find(|row| row.key.size == request.key.size);
         let size = size.map_or_else(|| request.style.clone(), |row| format!("{}/{}", row.style, row.size));
         let style = request.style;
         match outcome {
             Ok(seams) => {
-                self.styles.undone.remove(&style);
-                self.styles.edits.entry(style).or_default().push(Edited { size, step, seams });
-                self.say("done; w saves it, u takes it back");
+                self.undone.remove(&style);
+                self.edits.entry(style).or_default().push(Edited { size, step, seams });
+                state.say("done; w saves it, u takes it back");
             }
-            Err(text) => self.complain(text),
+            Err(text) => state.complain(text),
         }
     }
 
     /// Takes the last edit of the selected style back.
-    pub fn undo_edit(&mut self) {
-        self.show(Screen::Styles);
-        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return };
-        let Some(edits) = self.styles.edits.get_mut(&style) else {
-            return self.say(format!("{style} is as saved: nothing to take back"));
+    pub fn undo_edit(&mut self, state: &mut State) {
+        state.show(Screen::Styles);
+        let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
+        let Some(edits) = self.edits.get_mut(&style) else {
+            return state.say(format!("{style} is as saved: nothing to take back"));
         };
-        self.styles.undone.entry(style.clone()).or_default().extend(edits.pop());
+        self.undone.entry(style.clone()).or_default().extend(edits.pop());
         let left = edits.len();
         if left == 0 {
-            self.styles.edits.remove(&style);
+            self.edits.remove(&style);
         }
         let left = match left {
             0 => "none is left".to_owned(),
             1 => "one is left".to_owned(),
             left => format!("{left} are left"),
         };
-        self.say(format!("the last edit of {style} is taken back, {left}; U does it again"));
+        state.say(format!("the last edit of {style} is taken back, {left}; U does it again"));
     }
 
     /// Does the edit of the selected style again that was taken back last.
-    pub fn redo_edit(&mut self) {
-        self.show(Screen::Styles);
-        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return };
-        match self.styles.undone.get_mut(&style).and_then(Vec::pop) {
+    pub fn redo_edit(&mut self, state: &mut State) {
+        state.show(Screen::Styles);
+        let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
+        match self.undone.get_mut(&style).and_then(Vec::pop) {
             Some(edit) => {
-                self.styles.edits.entry(style).or_default().push(edit);
-                self.say("done again");
+                self.edits.entry(style).or_default().push(edit);
+                state.say("done again");
             }
-            None => self.say(format!("no edit of {style} was taken back")),
+            None => state.say(format!("no edit of {style} was taken back")),
         }
     }
 
     /// Saves the edited seams of the selected style.
-    pub fn save_seams(&mut self) -> Vec<Effect> {
-        if !self.may_change(Part::Style) {
+    pub fn save_seams(&self, state: &mut State) -> Vec<Effect> {
+        if !may_change(state, Part::Style) {
             return vec![];
         }
-        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
-        let Some(seams) =
-            self.styles.edits.get(&style).and_then(|edits| edits.last()).map(|edited| edited.seams.clone())
+        let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return vec![] };
+        let Some(seams) = self.edits.get(&style).and_then(|edits| edits.last()).map(|edited| edited.seams.clone())
         else {
-            self.say(format!("{style} is as saved: nothing to save"));
-            return vec![];
+            return state.reply(format!("{style} is as saved: nothing to save"));
         };
         vec![Effect::Do(Command::SaveSeams(style, seams))]
     }
 
     /// Forgets edits that are saved, and asks whether the file of the study is to say the same.
-    pub fn seams_saved(&mut self, style: &str, seams: &SourceFile, outcome: Result<String, String>) {
+    pub fn seams_saved(&mut self, state: &mut State, style: &str, seams: &SourceFile, outcome: Result<String, String>) {
         let text = match outcome {
             Ok(text) => text,
-            Err(text) => return self.complain(text),
+            Err(text) => return state.complain(text),
         };
         let is_last = |edits: &&Vec<Edited>| edits.last().is_some_and(|last| last.seams == *seams);
-        if self.styles.edits.get(style).filter(is_last).is_some() {
-            let edits = self.styles.edits.remove(style).unwrap_or_default();
-            self.told.commands.extend(edits.iter().map(|edited| taught::sewn(&edited.size, &edited.step)));
+        if self.edits.get(style).filter(is_last).is_some() {
+            let edits = self.edits.remove(style).unwrap_or_default();
+            state.told.commands.extend(edits.iter().map(|edited| taught::sewn(&edited.size, &edited.step)));
         }
-        let desk = self.styles.layout.as_ref().filter(|(request, _)| request.style == style);
-        let home = desk
-            .and_then(|(_, layout)| layout.as_ref().ok())
-            .and_then(|layout| layout.home.clone().zip(layout.stored.clone()));
-        self.say(text);
-        if let Some((path, before)) = home.filter(|_| self.overlay.is_none()) {
+        let layout = self.layout.as_ref().filter(|layout| layout.request.style == style);
+        let layout = layout.and_then(|layout| layout.outcome.as_ref().ok());
+        let home = layout.and_then(|layout| layout.home.clone().zip(layout.stored.clone()));
+        state.say(text);
+        if let Some((path, before)) = home.filter(|_| state.overlay.is_none()) {
             let text = format!("Write {} of the study too? Its comments stay; the next run uses it.", path.display());
-            self.ask(text, vec![Effect::Do(Command::WriteSeams(path, before, seams.clone()))]);
+            state.ask(text, vec![Effect::Do(Command::WriteSeams(path, before, seams.clone()))]);
         }
+    }
+
+    /// The seam file of the selected size as it is edited.
+    #[must_use]
+    pub fn seam_file(&self, state: &State) -> Option<Writing> {
+        let request = self.layout_request(state)?;
+        let stored = self.laid_out(state).and_then(|layout| layout.stored.clone());
+        let file = request.seams.clone().or(stored)?;
+        Some(Writing::Seams(request, file))
+    }
+
+    /// Takes in the text of a seam file that was written in an editor.
+    pub fn written(
+        &mut self,
+        state: &mut State,
+        request: LayoutRequest,
+        file: SourceFile,
+        text: String,
+    ) -> Vec<Effect> {
+        if text.as_bytes() == &*file.bytes {
+            return state.reply("the seams are as they were");
+        }
+        let file = SourceFile { name: file.name, bytes: text.into_bytes().into() };
+        self.is_busy = true;
+        vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step: SeamStep::Written(file) }))]
     }
 
     /// Styles with edits that are not saved.
     #[must_use]
     pub fn unsaved(&self) -> String {
-        self.styles.edits.keys().cloned().collect::<Vec<_>>().join(", ")
+        self.edits.keys().cloned().collect::<Vec<_>>().join(", ")
     }
 }

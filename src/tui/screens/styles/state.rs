@@ -1,7 +1,8 @@
-//! Where the user is among the styles.
+//! State of the screen of styles.
 
 use std::collections::BTreeMap;
 
+use crate::messages::answered::Answered;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use store::files::SourceFile;
 use wardrobe::seams::SeamStep;
@@ -9,32 +10,32 @@ use wardrobe::seams::SeamStep;
 /// An edge by its piece and its place on it.
 pub type EdgeAt = (usize, usize);
 
-/// Where the user is among the styles.
-#[derive(Debug, Default)]
-pub struct Styles {
+/// The screen of styles.
+#[derive(Default)]
+pub struct StylesScreen {
     /// Style and size selected.
     pub selected: Option<(String, String)>,
     /// Edits of styles that are not saved, the latest last.
     pub edits: BTreeMap<String, Vec<Edited>>,
     /// Edits that were taken back, the latest last.
     pub undone: BTreeMap<String, Vec<Edited>>,
-    /// What is asked, while questions are answered.
+    /// Place among the questions, while they are answered.
     pub asking: Option<Asking>,
     /// The garment sewn coarsely.
     pub preview: Preview,
     /// The size whose layout was asked for.
     pub requested: Option<LayoutRequest>,
-    /// What was laid out last, or why it could not be.
-    pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
+    /// The layout that came last, or why there is none.
+    pub layout: Option<Answered<LayoutRequest, Box<SizeLayout>>>,
     /// Edge selected: its piece and its index there.
     pub edge: EdgeAt,
     /// Line of the table selected.
     pub line: usize,
     /// Edges marked, in order.
     pub marks: Vec<EdgeAt>,
-    /// Whether a step of work goes on.
+    /// True while a step of work goes on.
     pub is_busy: bool,
-    /// Whether the pieces have all the room.
+    /// True where the pieces have all the room.
     pub enlarged: bool,
 }
 
@@ -49,36 +50,36 @@ pub struct Edited {
     pub seams: SourceFile,
 }
 
-/// Where the user is among what is to be decided.
+/// Place among the questions to be decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asking {
     /// Place in the list.
     pub at: usize,
-    /// What is asked instead of that.
+    /// The question that is asked instead of that.
     pub own: Option<Own>,
-    /// Whether the list is gone on with once that is answered.
+    /// True where the list is gone on with once that is answered.
     pub goes_on: bool,
 }
 
 /// A question of the user's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Own {
-    /// What an edge is sewn to.
+    /// The edges that an edge is sewn to.
     Edge(EdgeAt),
-    /// What a piece is worn as.
+    /// The role of a piece.
     Piece(usize),
-    /// Which of the pieces that are left out, from the first of some on, is worn too.
+    /// The pieces that are worn too of those left out, from the first of some on.
     LeftOut(usize),
 }
 
 /// The garment sewn coarsely while its seams are edited.
 #[derive(Debug, Default)]
 pub struct Preview {
-    /// What was asked for last.
+    /// The request made last.
     pub asked: Option<PreviewRequest>,
-    /// What was seen last, and of what.
-    pub seen: Option<(PreviewRequest, Result<Previewed, String>)>,
-    /// Whether it is shown instead of the pieces where there is no room for both.
+    /// The garment that came last.
+    pub seen: Option<Answered<PreviewRequest, Previewed>>,
+    /// True where it is shown instead of the pieces where there is no room for both.
     pub is_chosen: bool,
 }
 
@@ -87,7 +88,7 @@ pub struct Preview {
 pub enum TableLine {
     /// A seam, by its index on the desk.
     Seam(usize),
-    /// What a person must decide.
+    /// A question that a person must decide.
     Question(usize),
     /// A measurement, by its index among the lengths.
     Length(usize),
@@ -98,7 +99,7 @@ impl SizeLayout {
     #[must_use]
     pub fn lines(&self) -> Vec<TableLine> {
         let seams = (0..self.out.desk.seams.len()).map(TableLine::Seam);
-        let questions = self.out.undecided.iter().enumerate().filter(|(_, one)| one.seam.is_none());
+        let questions = self.out.undecided.iter().enumerate().filter(|(_, question)| question.seam.is_none());
         let questions = questions.map(|(k, _)| TableLine::Question(k));
         seams.chain(questions).chain((0..self.out.lengths.len()).map(TableLine::Length)).collect()
     }

@@ -1,23 +1,25 @@
-//! Choosing a subject.
+//! Choosing, adding, editing and removing a subject.
 
 use crate::keys::screen::Screen;
+use crate::overlays::entry_form::Form;
+use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
-use crate::screens::subjects::state::SubjectOrder;
+use crate::screens::subjects::state::{SubjectOrder, SubjectsScreen};
 use crate::widgets::text;
 use spec::bodies::Measurements;
 use spec::{Field, MEASUREMENTS};
-use wardrobe::SubjectRow;
+use wardrobe::{Part, SubjectRow};
 
-impl State {
-    /// Subjects that pass the filter of the Subjects screen, in its order.
+impl SubjectsScreen {
+    /// Subjects that pass the filter, in order.
     #[must_use]
-    pub fn subjects(&self) -> Vec<&SubjectRow> {
-        let Some(data) = &self.data else { return vec![] };
-        let filter = self.nav.filters[Screen::Subjects as usize].to_lowercase();
+    pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a SubjectRow> {
+        let Some(data) = &state.data else { return vec![] };
+        let filter = state.filter_of(Screen::Subjects);
         let matches = |row: &&SubjectRow| format!("{} {}", row.name, text::sex(row)).to_lowercase().contains(&filter);
         let mut subjects: Vec<&SubjectRow> = data.subjects.iter().filter(matches).collect();
-        match self.subjects.order.by {
+        match self.order.by {
             SubjectOrder::Name => {}
             SubjectOrder::Sex => subjects.sort_by_key(|row| text::sex(row)),
             SubjectOrder::Measurement(k) => {
@@ -25,32 +27,63 @@ impl State {
                 subjects.sort_by(|a, b| value(a).total_cmp(&value(b)));
             }
         }
-        if self.subjects.order.reversed {
+        if self.order.reversed {
             subjects.reverse();
         }
         subjects
     }
 
-    /// The selected subject: the first, where the one wanted is not shown.
+    /// Index of the selected subject among those shown: the first, where the one chosen is not shown.
     #[must_use]
-    pub fn subject(&self) -> Option<&SubjectRow> {
-        let subjects = self.subjects();
-        subjects.iter().find(|row| Some(&row.name) == self.subjects.chosen.as_ref()).or(subjects.first()).copied()
+    pub fn index_in(&self, shown: &[&SubjectRow]) -> usize {
+        shown.iter().position(|row| Some(&row.name) == self.chosen.as_ref()).unwrap_or(0)
     }
 
-    /// Moves in the list of subjects.
-    pub fn go_in_subjects(&mut self, movement: Movement) {
-        let selected = self.subject().map(|row| row.id);
-        let subjects = self.subjects();
-        let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
-        self.subjects.chosen = subjects.get(movement.from(at, subjects.len())).map(|row| row.name.clone());
+    /// The selected subject.
+    #[must_use]
+    pub fn selected<'a>(&self, state: &'a State) -> Option<&'a SubjectRow> {
+        let shown = self.shown(state);
+        shown.get(self.index_in(&shown)).copied()
+    }
+
+    /// Moves in the list.
+    pub fn go_in_list(&mut self, state: &State, movement: Movement) {
+        let shown = self.shown(state);
+        let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
+        self.chosen = next.map(|row| row.name.clone());
+    }
+
+    /// Asks for other values of the selected subject.
+    pub fn edit(&self, state: &mut State) {
+        if catalogue::may_change(state, Part::Subject) {
+            let form = self.selected(state).map(Form::of_subject);
+            catalogue::fill_in(state, form, "no subject is selected");
+        }
+    }
+
+    /// Removes the selected subject, once that is confirmed.
+    pub fn remove(&self, state: &mut State) {
+        if catalogue::may_change(state, Part::Subject) {
+            let name = self.selected(state).map(|row| row.name.clone());
+            catalogue::remove(state, Part::Subject, name);
+        }
+    }
+
+    /// The selected subject, tab-separated.
+    #[must_use]
+    pub fn line(&self, state: &State) -> Option<String> {
+        let subject = self.selected(state)?;
+        let value = |field: &Field<Measurements>| {
+            field.get(&subject.measurements).map_or(String::new(), |value| value.to_string())
+        };
+        let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
+        Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
     }
 }
 
-/// The selected subject, tab-separated.
-pub fn subject_line(state: &State) -> Option<String> {
-    let subject = state.subject()?;
-    let value = |field: &Field<Measurements>| field.get(&subject.measurements).map_or(String::new(), |v| v.to_string());
-    let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
-    Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
+/// Asks for the values of a new subject.
+pub fn add(state: &mut State) {
+    if catalogue::may_change(state, Part::Subject) {
+        catalogue::fill_in(state, Some(Form::new_subject()), "");
+    }
 }

@@ -1,4 +1,4 @@
-//! Where the user is among subjects.
+//! State of the screen of subjects.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use store::SubjectId;
 /// Measurements in the list of subjects: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;
 
-/// How subjects are ordered: by name, or by the measurement of a number in [`spec::MEASUREMENTS`].
+/// Order of subjects: by name, or by the measurement of a number in [`spec::MEASUREMENTS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
     /// By name, alphabetically.
@@ -34,13 +34,13 @@ impl SubjectOrder {
     }
 }
 
-/// Where the user is among subjects.
-#[derive(Debug, Default)]
-pub struct Subjects {
-    /// Name of the subject selected.
+/// The screen of subjects.
+#[derive(Default)]
+pub struct SubjectsScreen {
+    /// Name of the subject chosen.
     pub chosen: Option<String>,
     /// Order of subjects.
     pub order: Order<SubjectOrder>,
-    /// What was read on bodies that were built.
+    /// Measurements read on bodies that were built.
     pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
 }

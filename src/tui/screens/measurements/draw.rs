@@ -1,16 +1,17 @@
-//! The table of measurements and the numbers of a result, as Study and Results show them.
+//! Drawing the table of measurements and the numbers of a result.
 
 use ratatui::text::{Line, Span};
 
 use crate::overlays::explanation::Selected;
-use crate::screens::results::state::ChiOrder;
+use crate::screens::measurements::rows;
+use crate::screens::measurements::state::ChiOrder;
 use crate::screens::state::State;
-use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::lists::listed;
 use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
 use crate::widgets::theme::glyph;
 use store::{ChiRow, FitCell, MetricsRow};
 
-/// What the marks after names mean.
+/// Meaning of the marks after names.
 pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";
 /// Columns of number, two lengths, chi, and the gaps between them.
 const FIXED: usize = 3 + 7 + 7 + 6 + 1;
@@ -30,7 +31,7 @@ impl Columns {
             56.. => 4,
             _ => 0,
         };
-        let widest = |of: &dyn Fn(&ChiRow) -> usize| rows.iter().map(|row| of(row)).max().unwrap_or(0);
+        let widest = |columns_of: &dyn Fn(&ChiRow) -> usize| rows.iter().map(|row| columns_of(row)).max().unwrap_or(0);
         let marks = widest(&|row| marks(row).chars().count());
         let name = widest(&|row| text::width(&row.name)).max(14) + 2;
         Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).min(name).max(6), marks, side }
@@ -39,24 +40,17 @@ impl Columns {
 
 /// The table of measurements in so many columns and lines, with the selected row marked where there is one.
 pub fn table(state: &State, columns: usize, lines: usize, selected: Option<bool>) -> Vec<Line<'static>> {
-    let rows = state.chi();
+    let rows = rows(state);
     let columns = Columns::new(&rows, columns);
     let mut table = vec![header(state, &columns)];
-    let height = lines.saturating_sub(1);
-    let first = first_shown(state.results.row, rows.len(), height);
-    for (k, row) in rows.iter().enumerate().skip(first).take(height) {
-        let line = line(state, row, &columns);
-        let style = selected.filter(|_| k == state.results.row).map(|focused| state.theme.selection(focused));
-        table.push(match style {
-            Some(style) => selected_line(line, style),
-            None => line,
-        });
-    }
+    let selection = selected.map(|focused| state.theme.selection(focused));
+    let room = lines.saturating_sub(1);
+    table.extend(listed(&rows, state.measurements.row, room, selection, |row| line(state, row, &columns)));
     table
 }
 
 fn header(state: &State, columns: &Columns) -> Line<'static> {
-    let (by_number, by_error) = match (state.results.order.by, state.results.order.reversed) {
+    let (by_number, by_error) = match (state.measurements.order.by, state.measurements.order.reversed) {
         (ChiOrder::Number, false) => ("▲", ""),
         (ChiOrder::Number, true) => ("▼", ""),
         (ChiOrder::Error, false) => ("", "▼"),
@@ -78,7 +72,7 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
     Line::styled(text, state.theme.dim())
 }
 
-/// What kind of measurement it is, in marks; [`LEGEND`] says what they mean.
+/// Marks of the kind of measurement; [`LEGEND`] says what they mean.
 fn marks(row: &ChiRow) -> String {
     let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
     marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
@@ -108,7 +102,7 @@ pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let share = job.progress.as_ref().map_or(String::new(), |p| format!(" {} {:.0}%", p.phase, p.fraction * 100.0));
     let status = format!("{} {}{share}{wall}", glyph(job.status), text::status(job.status));
     let mut lines = vec![Line::styled(text::shortened(&status, columns), state.theme.status(job.status))];
-    if let Some(ease) = state.ease(job) {
+    if let Some(ease) = state.data.as_ref().and_then(|data| data.ease_of(job)) {
         lines.push(fact(
             "ease mm",
             &format!("{} {} {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)),
@@ -156,8 +150,8 @@ const NAMES: [&str; 19] = [
 
 /// The selected measurement, and what the table and the numbers show.
 pub fn explained(state: &State) -> Selected {
-    let rows = state.chi();
-    let Some(row) = rows.get(state.results.row) else { return Selected::new(String::new(), &NAMES, &[]) };
+    let rows = rows(state);
+    let Some(row) = rows.get(state.measurements.row) else { return Selected::new(String::new(), &NAMES, &[]) };
     let (l2d, l3d) = (mm(row.l2d_m), mm(row.l3d_m));
     let what = format!("{}: L2D {l2d} mm, L3D {l3d} mm, chi {:.3}", row.name, row.chi());
     let kinds = [(row.is_controlled, "controlled"), (row.is_free_edge, "free edge"), (row.is_girth, "girth")];
@@ -165,7 +159,7 @@ pub fn explained(state: &State) -> Selected {
     Selected::new(what, &[&NAMES[..3], kinds.as_slice()].concat(), &NAMES)
 }
 
-/// Why the cache did not have the selected job, and which of its stages it had.
+/// Reason why the cache did not have the selected job, and the stages of it that it had.
 pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
     let Some(detail) = state.detail() else { return vec![] };
     let stages = |is_cached: bool| {

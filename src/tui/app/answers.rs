@@ -1,0 +1,90 @@
+//! Answers to what was asked for: what was read, saved, written in an editor, or run.
+
+use crate::app::App;
+use crate::messages::effect::{Effect, Writing};
+use crate::messages::snapshot::{Place, Snapshot};
+use crate::overlays::Overlay;
+use crate::screens::measurements;
+use wardrobe::Part;
+
+impl App {
+    /// Takes in what was read of the database.
+    pub fn receive(&mut self, snapshot: Box<Snapshot>) {
+        let state = &mut self.state;
+        let had_grid = state.grid().is_some();
+        state.focus.study = snapshot.study().map(|study| study.name.clone());
+        state.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
+        let data = state.data.insert(snapshot);
+        if let Some(grid) = data.grid() {
+            let inside = |index: usize, len: usize| index.min(len.saturating_sub(1));
+            state.place = Place {
+                size: inside(state.place.size, grid.sizes.len()),
+                simulator: inside(state.place.simulator, grid.simulators.len()),
+                subject: inside(state.place.subject, grid.subjects.len()),
+            };
+        }
+        let known = state.focus.job.filter(|id| data.job(*id).is_some());
+        let place = known.and_then(|id| data.place_of(id));
+        self.screens.receive(state);
+        measurements::clamp(state);
+        match place {
+            Some(place) => state.place = place,
+            None if !had_grid || known.is_none() => state.select_cell(state.place),
+            None => {}
+        }
+    }
+
+    /// Closes the form that is saved, or says in it why it is not.
+    pub fn saved(&mut self, outcome: Result<String, String>) {
+        let Self { state, screens } = self;
+        let awaited = state.told.awaited.take();
+        state.told.commands.extend(awaited.filter(|_| outcome.is_ok()));
+        match (outcome, &mut state.overlay) {
+            (Err(text), Some(Overlay::Form(form))) if form.sending.is_busy => form.sending.refuse(text),
+            (Err(text), Some(Overlay::Path(prompt))) if prompt.sending.is_busy => prompt.sending.refuse(text),
+            (Err(text), Some(Overlay::StyleForm(form))) if form.sending.is_busy => form.refused(text),
+            (Err(text), _) => state.complain(text),
+            (Ok(text), overlay) => {
+                match overlay {
+                    Some(Overlay::Form(form)) if form.sending.is_busy => {
+                        let chosen = match form.part {
+                            Part::Fabric => &mut screens.fabrics.chosen,
+                            _ => &mut screens.subjects.chosen,
+                        };
+                        *chosen = Some(form.name().to_owned());
+                        *overlay = None;
+                    }
+                    Some(Overlay::StyleForm(form)) if form.sending.is_busy => {
+                        screens.styles.selected = Some((form.style(), form.size()));
+                        *overlay = None;
+                    }
+                    Some(Overlay::Path(prompt)) if prompt.sending.is_busy => *overlay = None,
+                    _ => {}
+                }
+                state.say(text);
+            }
+        }
+    }
+
+    /// Takes in what was written in an editor.
+    pub fn written(&mut self, writing: Writing, text: Result<String, String>) -> Vec<Effect> {
+        let Self { state, screens } = self;
+        match (writing, text) {
+            (_, Err(error)) => state.complain(error),
+            (Writing::Query(_), Ok(text)) => screens.sql.take_query(state, &text),
+            (Writing::Seams(request, file), Ok(text)) => return screens.styles.written(state, request, file, text),
+            (Writing::File(path), Ok(_)) => state.say(format!("{}: R runs it as it is now", path.display())),
+        }
+        vec![]
+    }
+
+    /// Takes in that the run started here has ended.
+    pub fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
+        self.state.running.target = None;
+        match outcome {
+            Ok(text) => self.state.say(text),
+            Err(text) => self.state.complain(text),
+        }
+        if self.state.terminal.detached { vec![Effect::Quit] } else { vec![] }
+    }
+}

@@ -1,0 +1,26 @@
+//! The table of measurements and the numbers of a result, which Study and Results show.
+
+pub mod draw;
+pub mod state;
+
+use crate::keys::screen::Screen;
+use crate::screens::movement::Movement;
+use crate::screens::state::State;
+use store::ChiRow;
+
+/// Measurements of the selected result that pass the filter of the Results screen, in the order of the table.
+#[must_use]
+pub fn rows(state: &State) -> Vec<&ChiRow> {
+    let filter = state.filter_of(Screen::Results);
+    state.detail().map_or(vec![], |detail| state.measurements.rows(detail, &filter))
+}
+
+/// Moves in the table.
+pub fn go(state: &mut State, movement: Movement) {
+    state.measurements.row = movement.from(state.measurements.row, rows(state).len());
+}
+
+/// Keeps the selected row inside the table.
+pub fn clamp(state: &mut State) {
+    state.measurements.row = state.measurements.row.min(rows(state).len().saturating_sub(1));
+}
