@@ -101,7 +101,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
     }
 }
 
-/// The girths of the levels, mm, and whether it is said that the side picture was turned.
+/// Girths of the levels, mm, and true if a note says that the side picture was turned.
 fn read_girths(front: &[u8], side: &[u8], sex: Sex, stature_m: f64) -> ([f64; 4], bool) {
     let found = from_pictures(front, side, None, sex, stature_m).expect("a person");
     assert!(!found.notes.iter().any(|note| note.contains("do not tell")), "{:?}", found.notes);

@@ -2,6 +2,7 @@
 
 use super::figure::{ELLIPSE, Figure};
 use super::loft::{Part, Shape, Station, dome};
+use crate::measure::AxisPoint;
 use crate::people::dimension::Dimension;
 use geom::{V2, V3};
 
@@ -56,10 +57,10 @@ impl Figure<'_> {
         [V3::new(cos, 0.0, sin), V3::y(), V3::new(sin, 0.0, -cos)]
     }
 
-    /// Middle of the upper arm, and the direction of the arm.
-    pub fn upper_arm(&self) -> (V3, V3) {
+    /// Middle of the right upper arm.
+    pub fn upper_arm(&self) -> AxisPoint {
         let along = self.arm_axes()[2];
-        (self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along)
+        AxisPoint { place: self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along }
     }
 
     pub fn arm(&self) -> Part {

@@ -8,7 +8,7 @@ use crate::rows::{JobId, JobRow, StageKind};
 use crate::run::pipeline::Model;
 use crate::store::{Store, read};
 use body::Body;
-use fit::worn::{Angle, DIRECTIONS, Section, Site, sites};
+use fit::on_body::{Angle, DIRECTIONS, Section, Site, sites};
 use geom::V2;
 use geom::section::Outline;
 use geom::units::{from_mm, mm};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::run::worn::{Level, Pressing};
-use fit::worn::{Hang, Sides};
+use fit::on_body::{Hang, Sides};
 
 fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
     let eases_mm: &[(&str, f64)] = match spec.size.as_str() {

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::rows::{JobId, JobRow, StageKind};
 use crate::run::pipeline::Model;
 use crate::store::{Store, sql};
-use fit::worn::sites;
+use fit::on_body::sites;
 use geom::V3;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;
