@@ -163,7 +163,7 @@ mod tests {
         check(0.1, true);
         check(0.29, true);
         check(0.351, false);
-        // What is too tight counts double.
+        // Too tight counts double.
         check(0.021, true);
         check(0.019, false);
     }

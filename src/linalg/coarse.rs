@@ -295,8 +295,8 @@ mod tests {
 
     /// A sheet of `w` by `h` vertices, bent, 20 mm apart.
     fn sheet(w: usize, h: usize) -> Vec<V3> {
-        let at = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
-        (0..w * h).map(at).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
+        let grid = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
+        (0..w * h).map(grid).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
     }
 
     /// Pairs of a sheet's vertices that are `apart` from each other along either side.

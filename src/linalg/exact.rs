@@ -30,10 +30,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Analyses the pattern of an operator.
-    ///
-    /// # Panics
-    /// When the machine's memory is used up.
+    /// When the memory is exhausted.
     #[must_use]
     pub fn new(operator: &Operator) -> Self {
         // Other threads run other simulations, so this one takes no threads of its own. Sums then do not depend on

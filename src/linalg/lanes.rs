@@ -8,7 +8,7 @@ use super::simd::Simd;
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// Broadcasts a constant to as many lanes as `self` has.
     fn splat(self, number: f64) -> Self;
-    /// `self factor + sum`.
+    /// `self * factor + sum`.
     fn mul_add(self, factor: Self, sum: Self) -> Self;
     /// The lesser of the two, lane by lane.
     fn min(self, other: Self) -> Self;
@@ -59,7 +59,7 @@ impl<S: Simd> Lanes<S> {
         Self { four: simd.f64s(numbers), simd }
     }
 
-    /// The numbers in single precision.
+    /// Rounds the numbers to single precision.
     #[inline(always)]
     pub fn single(self) -> [f32; 4] {
         self.simd.to_f32s(self.four)

@@ -151,13 +151,13 @@ pub fn alike(n: f32) -> Block<f32x4> {
     [f32x4::from([n, 0.0, 0.0, 0.0]), f32x4::from([0.0, n, 0.0, 0.0]), f32x4::from([0.0, 0.0, n, 0.0])]
 }
 
-/// A block as a matrix.
+/// Converts a block into a matrix.
 #[must_use]
 pub fn matrix<Q: Quad>(block: &Block<Q>) -> Matrix3<f64> {
     Matrix3::from_rows(&block.map(|row| row.vector().transpose()))
 }
 
-/// A block, rounded.
+/// Converts a matrix into a block, rounded.
 #[must_use]
 pub fn block<Q: Quad>(m: &Matrix3<f64>) -> Block<Q> {
     [0, 1, 2].map(|r| Q::of([m[(r, 0)], m[(r, 1)], m[(r, 2)], 0.0]))

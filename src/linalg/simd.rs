@@ -68,7 +68,7 @@ pub use each;
 
 /// A loop that is compiled for every instruction set. It is inlined, with all functions that it calls.
 pub trait Kernel {
-    /// What the loop returns.
+    /// Return value of the loop.
     type Output;
     /// Runs the loop with the instructions of `simd`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;

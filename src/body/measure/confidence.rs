@@ -52,7 +52,7 @@ const BASE: &str = "the base of the neck is where the skin bends";
 const FLAT: &str = "a flat summit stands out alike over some height";
 
 /// Uncertainty of every key.
-pub(super) fn of(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence> {
+pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence> {
     let h = marks.stature;
     let trunk = |level: f64, off: f64| {
         let girth_at = |z: f64| tape::trunk_girth(mesh, z, sites.middle);

@@ -128,7 +128,7 @@ fn at_sites(mesh: &TriMesh, sites: &Sites, sex: Sex, mut girths: Girths) -> Meas
         knee_level_m: Some(limbs.knee - sites.floor),
         elbow_girth_m: limbs.elbow_girth,
     };
-    let confidence = confidence::of(mesh, sites, &marks);
+    let confidence = confidence::uncertainties(mesh, sites, &marks);
     let tailor = tailor::take(mesh, &marks);
     Measured { girths, lengths, tailor, confidence }
 }

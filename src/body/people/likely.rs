@@ -135,7 +135,7 @@ mod tests {
         let profile = Profile::new(&man()).expect("a person");
         for dimension in Dimension::ALL {
             let found = median.get(dimension).expect("every dimension");
-            // A thousandth of the survey's variance is nobody's but the dimension's own.
+            // A thousandth of each variance of the survey is independent.
             assert!(
                 (found / profile.at(dimension) - 1.0).abs() < 2e-3,
                 "{dimension:?} {found} {}",
@@ -161,8 +161,8 @@ mod tests {
         assert!(exact.1 < taped.1 && taped.1 < guessed.1);
     }
 
-    /// Share of planted people whose hip lies in the 80 % interval that is told from readings, whose errors are so many times what they
-    /// are taken for.
+    /// Share of random people whose hip girth lies in the 80 % interval from readings, whose errors are so many times
+    /// those that are assumed.
     fn held(read: &[Dimension], error_factor: f64) -> f64 {
         let mut noise = Noise(7);
         let mut normal = || noise.normal();
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn one_dimension_is_weighed_as_a_textbook_weighs_it() {
-        // Of stature alone: precisions add.
+        // With a reading of the stature alone, precisions add.
         let (sd, error) = (0.0390_f64, 0.02_f64);
         let likely = Likely::of(&Measurements::of(Sex::Male, 1.9), |_| error).expect("a person");
         let relative = error / 1.9;

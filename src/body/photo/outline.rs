@@ -291,7 +291,7 @@ impl Outlines {
         heights.get(last + 1).copied()
     }
 
-    /// The level of the greatest buttock protrusion.
+    /// Level of the greatest protrusion of the buttocks.
     fn hip_level(&self) -> Option<f64> {
         let heights = steps(self.crotch + 0.01 * self.stature, self.crotch + 0.10 * self.stature, 48);
         let back = |z: f64| Some((z, self.profile(z, [0.0, NEARER * 0.1 * self.stature])?[1]));
@@ -300,8 +300,8 @@ impl Outlines {
         middle_of(lows.iter().filter(|(_, y)| *y < least + 1e-3).map(|(z, _)| *z))
     }
 
-    /// The level of the nipples: half way between where the front stands out most from the chord between ribs and collar
-    /// bones, and where proportions have them.
+    /// Level of the nipples: half way between the height at which the front stands out most from the chord between ribs
+    /// and collar bones, and the expected height by proportion.
     fn chest_level(&self) -> Option<f64> {
         let (low, high) = (0.66 * self.stature, 0.80 * self.stature);
         let front = |z: f64| Some(self.profile(z, [0.0; 2])?[0]);

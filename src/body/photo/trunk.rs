@@ -44,8 +44,8 @@ const NO_BODY: f64 = 4.0;
 /// Rounds of reweighting. In the last the outlines change by less than 0.1 mm.
 const ROUNDS: usize = 15;
 
-/// Greatest excess of the depth seen at a level over that of the fitted outline, over stature, and the same at the hip,
-/// where hands are.
+/// Greatest difference between the depth seen at a level and that of the fitted outline, over stature. At the hip,
+/// where hands may stand out, the depth seen may exceed it by less.
 const CORRECTION: f64 = 0.01;
 const HAND: f64 = 0.004;
 
@@ -260,10 +260,10 @@ fn weight(i: usize, departure: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// What pictures from far away show of the mean trunk of a sex, seen at a stature.
+    /// Observations of the mean trunk of a sex from far away, seen at a stature.
     fn mean(sex: Sex, stature_m: f64) -> Seen {
         let learned = learned(sex);
-        let at = |i: usize| learned.mean[1 + i] * stature_m;
+        let value = |i: usize| learned.mean[1 + i] * stature_m;
         let section = |level, height: f64, width: f64| Section {
             level,
             height: height * stature_m,
@@ -271,14 +271,14 @@ mod tests {
             depth: depth_at(&learned.mean, height) * stature_m,
         };
         let neck = Section { level: Level::Neck, height: 0.87 * stature_m, width: 0.11, depth: 0.11 };
-        let [hip, waist, chest] = [1, 7, 11].map(at);
+        let [hip, waist, chest] = [1, 7, 11].map(value);
         Seen {
             sex,
             stature_m,
             crotch_m: learned.mean[0] * stature_m,
             profile: Profile {
-                widths: std::array::from_fn(|i| Some(at(i))),
-                sides: std::array::from_fn(|i| Some([at(WIDTHS + i), at(WIDTHS + SIDES + i)])),
+                widths: std::array::from_fn(|i| Some(value(i))),
+                sides: std::array::from_fn(|i| Some([value(WIDTHS + i), value(WIDTHS + SIDES + i)])),
             },
             sections: [
                 neck,
