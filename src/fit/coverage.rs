@@ -65,15 +65,15 @@ struct Candidate {
     turns: Turns,
 }
 
-/// Greatest number of passes over all lines.
+/// Greatest number of passes over all lines. Judgement.
 const ROUNDS: usize = 40;
-/// Shares of the people that are left out at either end for a start, %.
+/// Shares of the people that are left out at either end for a start, %. Judgement.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
-/// Number of perturbations of the best series from which the search begins again.
+/// Number of perturbations of the best series from which the search begins again. Judgement.
 const SHAKES: usize = 30;
-/// Greatest perturbation of a turn, steps.
+/// Greatest perturbation of a turn, steps. Judgement.
 const SHAKE: usize = 25;
-/// Sweeps of coordinate descent for the turns that suit one person.
+/// Sweeps of coordinate descent for the turns that suit one person. Judgement.
 const SWEEPS: usize = 60;
 
 impl Search<'_> {

@@ -2,9 +2,10 @@
 
 use super::distribution::{normal, student_quantile};
 
-/// Number of subjects up to which all assignments of signs are enumerated. Beyond it, [`DRAWS`] of them are drawn.
+/// Number of subjects up to which all assignments of signs are enumerated: about a million. Beyond it, [`DRAWS`] of
+/// them are drawn.
 const EXACT: usize = 20;
-/// Number of random draws of signs or of subjects.
+/// Number of random draws of signs or of subjects: 10,000 with the observed one.
 const DRAWS: usize = 9999;
 
 /// Pseudo-random numbers, the same for the same seed [Steele 2014: SplitMix64].

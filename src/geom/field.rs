@@ -32,11 +32,12 @@ pub struct DistanceField {
 #[error("the stored distance field is damaged: {0}")]
 pub struct FieldError(&'static str);
 
-/// Width of the exact shell outside the surface, in grid cells.
+/// Width of the exact shell outside the surface, in grid cells. Judgement.
 const SHELL_CELLS: f64 = 2.5;
 /// Marks a node whose nearest triangle is not known.
 const NONE: u32 = u32::MAX;
 /// Greatest number of nodes of a connected region whose side of the surface is computed; their majority decides.
+/// Judgement.
 const MOST_ASKED: usize = 64;
 /// Bound on the rounding of a distance to single precision, m.
 const ROUNDED_M: f64 = 1e-5;

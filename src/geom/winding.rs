@@ -8,9 +8,10 @@ use std::f64::consts::PI;
 
 use super::{TriMesh, V3};
 
-/// Most triangles of a part that is not divided further.
+/// Most triangles of a part that is not divided further. Judgement.
 const LEAF: usize = 8;
-/// Ratio of distance to radius from which on a part is approximated by its dipole.
+/// Ratio of distance to radius from which on a part is approximated by its dipole. The error of the winding number then
+/// stays below 0.02 in the tests.
 const FAR: f64 = 2.5;
 
 /// Winding number of a surface round a point: 1 inside a closed mesh with outward normals, 0 outside [van Oosterom &

@@ -8,28 +8,31 @@ use nalgebra::{Rotation2, UnitQuaternion};
 use std::borrow::Cow;
 
 /// Angle between the long axis of a body and an axis of its file below which the body stands along that axis, radians.
+/// Judgement.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// Least lean of a body that is corrected, radians: from the upright axis of its file, and where the file has none.
 /// Then the greatest lean after righting by the soles. A body beyond it does not stand on its soles (raised heels).
+/// Judgement.
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Difference of the lengths of the legs over stature from which on one of them counts as cut off.
+/// Difference of the lengths of the legs over stature from which on one of them counts as cut off. Judgement.
 const UNEVEN: f64 = 0.02;
 
-/// Height of the soles' zone above the lowest point, over stature.
+/// Height of the soles' zone above the lowest point, over stature. Judgement.
 const SOLE_ZONE: f64 = 0.025;
 
 /// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions.
+/// Judgement.
 const SLABS: usize = 24;
 const DIRECTIONS: usize = 720;
 
-/// Least turn (radians) and shift (share of stature) of a body that is corrected.
+/// Least turn (radians) and shift (share of stature) of a body that is corrected. Judgement.
 const TURNED: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const SHIFTED: f64 = 0.004;
 
-/// Greatest root mean square difference of left and right over stature in a symmetric body.
+/// Greatest root mean square difference of left and right over stature in a symmetric body. Judgement.
 const SYMMETRIC: f64 = 0.02;
 
 /// Turns the mesh so that its long axis points up and its legs are below. Returns true if it stands along an axis of

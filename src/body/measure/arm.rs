@@ -6,13 +6,14 @@ use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
 /// Step along the arm, and greatest distance of a section's middle from the line extrapolated so far, over stature.
+/// Judgement.
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
-/// Distance outside the armpit at which an arm that is spread wide is first cut, over stature.
+/// Distance outside the armpit at which an arm that is spread wide is first cut, over stature. Judgement.
 const SPREAD: f64 = 0.05;
 
-/// Range of the girths of an arm's sections, over stature.
+/// Range of the girths of an arm's sections, over stature. Judgement.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
 /// Greatest number of steps. Arms are shorter.

@@ -38,7 +38,7 @@ const SLOPE: f64 = 1.5;
 /// Standard deviation of the tape on a smooth skin, metres: facets of the mesh and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// Height above and below a level over which the change of its girth is measured, metres.
+/// Height above and below a level over which the change of its girth is measured, metres. Judgement.
 const STEP: f64 = 0.008;
 
 const SKIN: &str = "facets and noise of the skin";
@@ -109,7 +109,7 @@ pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec
 /// Error of a girth whose level is off by so much, from the girths at, below and above the level. Where an arm joins
 /// the trunk on one side, the girth jumps, and the other side is used.
 fn girth_error(at: Option<f64>, around: [Option<f64>; 2], off: f64) -> f64 {
-    /// Greatest change of a girth with height on a bent skin without such a jump.
+    /// Greatest change of a girth with height on a bent skin without such a jump. Judgement.
     const STEEPEST: f64 = 2.5;
     let change = |neighbour: Option<f64>| Some((neighbour? - at?).abs() / STEP).filter(|slope| *slope < STEEPEST);
     around.into_iter().filter_map(change).reduce(f64::max).unwrap_or(STEEPEST) * off

@@ -6,7 +6,7 @@ use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
-/// Least girth of an outline across the median plane that belongs to the trunk, metres.
+/// Least girth of an outline across the median plane that belongs to the trunk, metres. Judgement.
 const LEAST_TRUNK: f64 = 0.03;
 
 /// Height of the crotch: the lowest at which an outline crosses the median plane, by bisection.
@@ -78,7 +78,7 @@ pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64
     Some(apex)
 }
 
-/// Greatest height of an arm in a section parallel to the median plane, over stature.
+/// Greatest height of an arm in a section parallel to the median plane, over stature. Judgement.
 const SPREAD_ARM: f64 = 0.10;
 
 /// Armpit of a right arm that is spread so wide that no horizontal plane passes between it and the trunk. It is the
@@ -115,7 +115,7 @@ pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
 
 /// Foremost point of one side of the chest at height `z`. On a flat chest it is the usual place of the nipple.
 pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
-    /// Usual distance of the nipple from the median plane over stature, and the range that is searched.
+    /// Usual distance of the nipple from the median plane over stature, and the range that is searched. Judgement.
     const USUAL: f64 = 0.054;
     const RANGE: [f64; 2] = [0.040, 0.075];
     let outline = tape::trunk_outline(mesh, z, 0.0)?;

@@ -6,7 +6,7 @@ use super::slices::steps;
 use super::tape;
 use geom::{TriMesh, V3};
 
-/// Heights over stature between which the front neck point is sought.
+/// Heights over stature between which the front neck point is sought. Judgement.
 const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
 /// Front neck point: the point of the front that lies farthest behind the chord from the chest to the neck.

@@ -17,10 +17,10 @@ use geom::{TriMesh, V3};
 const SHOULDER: f64 = 0.1148;
 const CERVICALE: f64 = 0.8617;
 
-/// Slope of the line over the shoulder at which it turns into the arm.
+/// Slope of the line over the shoulder at which it turns into the arm. Judgement.
 const TURN: f64 = 0.90;
 
-/// Distance from the median plane at which the height of the trapezius is read, over stature.
+/// Distance from the median plane at which the height of the trapezius is read, over stature. Judgement.
 const TRAPEZIUS: f64 = 0.07;
 
 /// Ranges of shoulder point and back neck point over stature, to which the rules are clamped: somewhat beyond those of

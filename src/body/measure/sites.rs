@@ -89,7 +89,7 @@ pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     Ok(girths)
 }
 
-/// Distance below the crotch at which the thigh girth is read, metres.
+/// Distance below the crotch at which the thigh girth is read, by its definition here, metres.
 const THIGH_BELOW_CROTCH: f64 = 0.02;
 
 fn missing(part: &'static str, z: f64) -> BodyError {
@@ -218,7 +218,7 @@ fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
 /// over the 160 model bodies (CC0-1.0) of [`crate::shape::atlas`], with a residual of 8 mm.
 const NIPPLES: [f64; 2] = [0.5123, 0.4651];
 
-/// Heights over stature between which the most prominent level of the chest is sought.
+/// Heights over stature between which the most prominent level of the chest is sought. Judgement.
 pub(crate) const CHEST: [f64; 2] = [0.70, 0.752];
 
 /// Expected height of the nipples above the floor, by proportion alone.

@@ -127,7 +127,7 @@ fn length_of(path: &[V3]) -> f64 {
 /// Taut tape between two points of the skin: the convex hull of the section in the plane of both points and `out`, on
 /// the side of `out`.
 fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
-    /// Greatest distance of an end from the outline that the tape follows, metres.
+    /// Greatest distance of an end from the outline that the tape follows, metres. Judgement.
     const NEAR: f64 = 0.02;
     let along = (to - from).try_normalize(1e-9)?;
     let up = (out - along * out.dot(&along)).try_normalize(1e-9)?;
@@ -151,7 +151,7 @@ fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
 }
 
-/// Distance of the armscye outside the armpit, metres.
+/// Distance of the armscye outside the armpit, metres. Judgement.
 const OUTSIDE: f64 = 0.006;
 
 /// Armscye girth: the tape through the shoulder point and just outside the armpit.
@@ -207,7 +207,7 @@ pub(super) fn knee_level(marks: &Marks) -> f64 {
 
 /// Girth of the elbow and greatest girth of the forearm.
 pub(super) fn elbow_and_forearm(mesh: &TriMesh, arm: &Arm) -> [Option<f64>; 2] {
-    /// Range between elbow and wrist in which the forearm is thickest.
+    /// Range between elbow and wrist in which the forearm is thickest. Judgement.
     const THICKEST: [f64; 2] = [0.08, 0.45];
     let girth = |share: f64| {
         let plane = arm.across(share);

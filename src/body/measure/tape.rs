@@ -106,15 +106,16 @@ impl Neck {
 }
 
 /// Distance of the spine behind the middle of the neck, as a share of its depth. The height of a leaning tape is read
-/// there.
+/// there. Judgement.
 const SPINE: f64 = 0.14;
 
 /// Greatest lean of the neck that is tried, radians, and the numbers of heights and leans of the coarse grid.
+/// Judgement.
 const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const HEIGHTS: usize = 13;
 const LEANS: usize = 7;
 
-/// Number of times that the steps of the search are halved.
+/// Number of times that the steps of the search are halved. Judgement.
 const HALVINGS: usize = 3;
 
 /// Finds the narrowest girth of the neck, over heights between `low` and `high` and leans of up to 30 degrees. The best
@@ -163,7 +164,7 @@ struct Tried {
     girth: f64,
 }
 
-/// Half breadth of a drawn tape and its distance from the skin, metres.
+/// Half breadth of a drawn tape and its distance from the skin, metres. Judgement.
 const TAPE: [f64; 2] = [0.004, 0.003];
 
 /// Bands that show taut tapes round the trunk at some heights.

@@ -36,6 +36,7 @@ pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> 
 }
 
 /// Greatest distance of the under-bust level from the section of the figure that its girth adjusts, over stature.
+/// Judgement.
 const UNDERBUST_OFF: f64 = 0.012;
 
 /// Under-bust level. Where its girth is given, the level lies near the section that is fitted to it.

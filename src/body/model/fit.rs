@@ -14,15 +14,15 @@ use geom::TriMesh;
 use std::sync::LazyLock;
 
 /// Greatest number of rounds, and of corrections in each. The levels of the tape are fixed within a round and found
-/// again after it.
+/// again after it. Judgement.
 const ROUNDS: usize = 6;
 const CORRECTIONS: usize = 6;
 
-/// Error at which the corrections of a round stop, and error with new levels at which the fit stops, metres.
+/// Error at which the corrections of a round stop, and error with new levels at which the fit stops, metres. Judgement.
 const CORRECTED: f64 = 3e-4;
 const FITTED: f64 = 8e-4;
 
-/// Greatest accepted deviation of a girth, and of a length, from the request, metres.
+/// Greatest accepted deviation of a girth, and of a length, from the request, metres. Judgement.
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 

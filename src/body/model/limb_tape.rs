@@ -9,10 +9,11 @@ use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
 /// Half of the range of heights over stature in which the greatest calf girth and the least ankle girth are sought.
+/// Judgement.
 const CALF_REACH: f64 = 0.03;
 const ANKLE_REACH: f64 = 0.012;
 
-/// Height of the ankle girth over stature.
+/// Height of the ankle girth over stature. Judgement.
 const ANKLE: f64 = 0.072;
 
 /// Sites of the tape on the right arm and leg, metres.

@@ -18,22 +18,22 @@ use std::sync::LazyLock;
 /// carried to.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
-/// Grid spacing of the skin over stature: of the body, and of arms (along x) and feet (along z).
+/// Grid spacing of the skin over stature: of the body, and of arms (along x) and feet (along z). Judgement.
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
-/// Height of the ankles over stature.
+/// Height of the ankles over stature. Judgement.
 const ANKLE: f64 = 0.045;
 
-/// Difference of the distances from two parts up to which a vertex is bound to both, metres.
+/// Difference of the distances from two parts up to which a vertex is bound to both, metres. Judgement.
 const MIXING: f64 = 0.08;
 
-/// Passes of the smoothing where trunk and limbs meet, and its step.
+/// Passes of the smoothing where trunk and limbs meet, and its step. Judgement.
 const EVENING_PASSES: usize = 30;
 const EVENING_STEP: f64 = 0.6;
 
 /// Distance from the floor below which vertices belong to the sole, and from the median plane below which they lie on
-/// it, metres.
+/// it, metres. Judgement.
 const SOLE: f64 = 1.5e-3;
 const MEDIAN: f64 = 1e-3;
 

@@ -4,8 +4,8 @@ use super::dimension::{COUNT, Dimension};
 use super::survey::{Expected, Survey};
 use crate::{BodyError, Measurements, Sex};
 
-/// Deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are refused.
-/// Judgement.
+/// Judgement: deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are
+/// refused.
 const IMPOSSIBLE_GIRTH: f64 = 8.0;
 const IMPOSSIBLE_LENGTH: f64 = 5.0;
 
@@ -160,7 +160,7 @@ pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
 /// Mean density of a body with half-filled lungs, kg/l.
 const DENSITY: f64 = 1.01;
 
-/// Greatest relative difference between weight and mass from volume that is not reported.
+/// Greatest relative difference between weight and mass from volume that is not reported. Judgement.
 const UNEXPLAINED: f64 = 0.10;
 
 /// Mass that follows from a body's volume, beside its weight.

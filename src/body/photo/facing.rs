@@ -7,7 +7,7 @@ use super::trunk;
 use crate::Sex;
 
 /// Ranges of height over that of the figure in which the feet and the ankles are seen. From above, insteps reach up to
-/// 0.08.
+/// 0.08. Judgement.
 const FEET: [f64; 2] = [0.0, 0.05];
 const ANKLES: [f64; 2] = [0.10, 0.14];
 

@@ -12,10 +12,10 @@ use crate::{BodyError, Sex};
 const WAIST: [f64; 2] = [0.6212, 0.6299];
 
 /// Distance of breasts and buttocks from the median plane towards the camera, as a share of half the width. Their
-/// outline in the side view is nearer to the camera by as much.
+/// outline in the side view is nearer to the camera by as much. Judgement.
 const NEARER: f64 = 0.4;
 
-/// Range of height over stature of the narrowest section of the neck.
+/// Range of height over stature of the narrowest section of the neck. Judgement.
 const NECK: [f64; 2] = [0.83, 0.90];
 
 /// Least width or depth of a neck over stature. Those of model bodies are at least 0.045.
@@ -25,10 +25,11 @@ const LEAST_NECK: f64 = 0.03;
 const USUAL_NECK: f64 = 0.8714;
 
 /// Radius of the crown over stature. Seen from below or above, the edge of the head is not its highest point.
+/// Judgement.
 const CROWN: f64 = 0.05;
 
 /// Distance over stature by which the nearest edge of the soles lies in front of the subject's axis. It is seen below
-/// the floor under the axis.
+/// the floor under the axis. Judgement.
 const SOLES_NEARER: f64 = 0.09;
 
 /// Weight of the crown against the soles in the estimate of the camera's height, in the front and in the side view.
@@ -37,11 +38,11 @@ const SOLES_NEARER: f64 = 0.09;
 const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 
 /// Greatest relative difference between a person's height in a picture and the height that follows from stature,
-/// distance and focal length.
+/// distance and focal length. Judgement.
 const MISFIT: f64 = 0.03;
 
 /// Range of heights over stature, from thigh to waist, at which the subject's axis is found in the side view, and their
-/// number.
+/// number. Judgement.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
 const UPRIGHTS: u32 = 33;
 

@@ -11,17 +11,18 @@ use crate::{BodyError, Dimension, Measurements, Sex};
 use image::DynamicImage;
 use std::io::Cursor;
 
-/// Greatest number of pixels of a picture, and of its longer side at the working size.
+/// Greatest number of pixels of a picture, and of its longer side at the working size. Judgement.
 const MOST_PIXELS: u64 = 120_000_000;
 const WORKING: u32 = 2400;
 
-/// Least height of a person at the working size, pixels.
+/// Least height of a person at the working size, pixels. Judgement.
 const LEAST_HEIGHT: usize = 250;
 
 /// Greatest lean of the figure in the front and in the side view, degrees. In the side view posture leans it, too.
+/// Judgement.
 const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
 
-/// Greatest dark and least bright gray level of a mask.
+/// Greatest dark and least bright gray level of a mask. Judgement.
 const MASK_LEVELS: [u8; 2] = [40, 215];
 
 /// Measurements of a body from two pictures: height, width, depth and girth of its levels.

@@ -3,7 +3,7 @@
 use geom::{V2, hull};
 
 /// Heights over stature at which the outlines of the trunk are read: the lowest, their spacing, the number of widths,
-/// and the number of fronts and backs.
+/// and the number of fronts and backs. Judgement.
 pub(super) const LOWEST: f64 = 0.48;
 pub(super) const STEP: f64 = 0.02;
 pub(super) const WIDTHS: usize = 12;

@@ -8,35 +8,35 @@
 use super::silhouette::Mask;
 use nalgebra::{SMatrix, SVector};
 
-/// Number of terms of the background, a cubic polynomial in `x` and `y`.
+/// Number of terms of the background, a cubic polynomial in `x` and `y`. Judgement.
 const TERMS: usize = 10;
 
 /// Every so many pixels one is used for the fit. No usual picture width is a multiple of it.
 const STRIDE: usize = 31;
 
-/// Rounds of fitting the background and choosing its pixels.
+/// Rounds of fitting the background and choosing its pixels. Judgement.
 const ROUNDS: usize = 4;
 
-/// Share of each side that counts as border.
+/// Share of each side that counts as border. Judgement.
 const BORDER: f64 = 0.04;
 
 /// Least difference of a person's pixel from the background (log of intensity): as a multiple of the background's
-/// standard deviation, and in absolute terms.
+/// standard deviation, and in absolute terms. Judgement.
 const OFF: f64 = 5.0;
 const LEAST: f64 = 0.06;
 
 /// Least share of the light that a shadow leaves: on the wall behind the person, and near the feet, where it is
-/// darkest. Then the lowest share of the figure, which counts as feet.
+/// darkest. Then the lowest share of the figure, which counts as feet. Judgement.
 const DARKEST: [f64; 2] = [0.62, 0.45];
 const FEET_ZONE: f64 = 0.10;
 
-/// Greatest spread of the channels (log of intensity, from their mean) in a shadow.
+/// Greatest spread of the channels (log of intensity, from their mean) in a shadow. Judgement.
 const HUE: f64 = 0.08;
 
-/// Number of pixels over which an edge may be blurred.
+/// Number of pixels over which an edge may be blurred. Judgement.
 const BLUR: usize = 3;
 
-/// Standard deviation of the background from which on it is not plain.
+/// Standard deviation of the background from which on it is not plain. Judgement.
 const PLAIN: f64 = 0.25;
 
 /// Logarithms of the intensities of a picture, three channels a pixel.

@@ -80,29 +80,30 @@ impl Pose {
 const FRONTAL: [usize; 2] = [0, 2];
 const SAGITTAL: [usize; 2] = [1, 2];
 
-/// Accepted angles of arms and legs, degrees.
+/// Accepted angles of arms and legs, degrees. Judgement.
 const ARM_DEG: [f64; 2] = [5.0, 90.0];
 const LEG_DEG: [f64; 2] = [0.0, 30.0];
 const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
 const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
 /// Distances over which the arm's rotation fades from the armscye into the shoulder and into the arm, over stature.
+/// Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
 /// The leg's rotation: where it begins below the hip level, where it is complete below the crotch, and the distance
-/// from the lowest point of the crotch over which it fades between the legs, over stature.
+/// from the lowest point of the crotch over which it fades between the legs, over stature. Judgement.
 const LEG_BEGINS: f64 = 0.006;
 const LEG_COMPLETE: f64 = 0.10;
 const BETWEEN_LEGS: f64 = 0.075;
 
 /// Least distance beyond the armscye of skin that belongs to the arm, metres. Nearer skin may be the trunk's below the
-/// armpit.
+/// armpit. Judgement.
 const APART: f64 = 0.008;
 
-/// Distance over which, beyond that, the arm's skin below the armpit begins to move with the arm, metres.
+/// Distance over which, beyond that, the arm's skin below the armpit begins to move with the arm, metres. Judgement.
 const PARTING: f64 = 0.03;
 
-/// Clearance between the trunk's girth levels and the skin that moves, metres.
+/// Clearance between the trunk's girth levels and the skin that moves, metres. Judgement.
 const KEPT: f64 = 0.004;
 
 /// Puts a body into another pose. Fine mesh, control mesh, joints and landmarks are moved alike, and the feet are set

@@ -3,16 +3,16 @@
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Share of the body's area below which a piece is noise.
+/// Share of the body's area below which a piece is noise. Judgement.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Share of the body's area above which a second piece is another body.
+/// Share of the body's area above which a second piece is another body. Judgement.
 const SECOND_BODY: f64 = 0.5;
 
-/// Ratio of the least to the greatest standard deviation below which a piece is flat: floor or wall.
+/// Ratio of the least to the greatest standard deviation below which a piece is flat: floor or wall. Judgement.
 const FLAT: f64 = 0.02;
 
-/// Greatest sine of the tilt of a floor triangle, and thickness of a floor over stature.
+/// Greatest sine of the tilt of a floor triangle, and thickness of a floor over stature. Judgement.
 const FLOOR_TILT: f64 = 0.2;
 const FLOOR_THICKNESS: f64 = 0.008;
 

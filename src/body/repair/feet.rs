@@ -14,11 +14,11 @@ const END: f64 = 0.06;
 const FOOT: f64 = 0.130;
 
 /// The same where the leg is closed. A shoe or a raised heel shortens what stands on the floor, and no hole suggests
-/// that something is lost.
+/// that something is lost. Judgement.
 const CLOSED_FOOT: f64 = 0.115;
 
 /// A hole is the end of a leg if it is as low as the leg, within this over the height, and at least as long as this
-/// share of its end.
+/// share of its end. Judgement.
 const AS_LOW: f64 = 0.005;
 const WHOLE_END: f64 = 0.5;
 

@@ -9,7 +9,7 @@ use feet::Feet;
 use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of Taubin's low-pass filter, inwards and outwards, and the number of passes [Taubin 1995].
+/// Steps of Taubin's low-pass filter, inwards and outwards, and the number of passes [Taubin 1995]. Judgement.
 const SMOOTHING: [f64; 2] = [0.5, -0.53];
 const PASSES: usize = 12;
 
@@ -20,10 +20,11 @@ const ROUGH: f64 = 0.022;
 const LONGEST_HOLE: f64 = 0.9;
 
 /// Height below which a rim is that of a sole, and greatest depth of its patch below the rim, metres. Soles are flat.
+/// Judgement.
 const SOLE_HEIGHT: f64 = 0.03;
 const SOLE_DEPTH: f64 = 0.007;
 
-/// Greatest number of times that holes are sought and closed again.
+/// Greatest number of times that holes are sought and closed again. Judgement.
 const MENDED: usize = 3;
 
 /// Greatest number of vertices of a patch that is faired. Larger patches stay flat, since the solve is dense.

@@ -10,7 +10,7 @@ use crate::repair::feet::Feet;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
 use geom::{TriMesh, V3};
 
-/// Distance of the trunk from the origin to front or back beyond which it is moved over it, metres.
+/// Distance of the trunk from the origin to front or back beyond which it is moved over it, metres. Judgement.
 const OFF_AXIS: f64 = 0.04;
 
 /// A body scan in the world frame, with its girths.

@@ -3,28 +3,28 @@
 use super::loft::{Loft, Part, Sample};
 use geom::{V3, smooth_step};
 
-/// Spacing of the lofts' tables, metres.
+/// Spacing of the lofts' tables, metres. Judgement.
 const TABLE_STEP: f64 = 0.004;
 
-/// Distance beyond which a part's field is approximated by its bounding cylinder's, metres.
+/// Distance beyond which a part's field is approximated by its bounding cylinder's, metres. Judgement.
 pub(crate) const NEAR: f64 = 0.12;
 
-/// Width of the rounding of the edge between skin and floor, metres.
+/// Width of the rounding of the edge between skin and floor, metres. Judgement.
 const SOLE_EDGE: f64 = 0.006;
 
-/// Reach of the smooth unions between parts, metres.
+/// Reach of the smooth unions between parts, metres. Judgement.
 const ARM_JOINT: f64 = 0.035;
 const LEG_JOINT: f64 = 0.025;
 const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
-/// Difference of the distances from trunk and limb up to which their joint is faired, metres.
+/// Difference of the distances from trunk and limb up to which their joint is faired, metres. Judgement.
 const ARM_SEAM: f64 = 0.040;
 const LEG_SEAM: f64 = 0.045;
 
 /// Distance from the arm up to which skin counts as the hand's, and length along the hand over which its fairing sets
-/// in, metres. Then the weight of that fairing.
+/// in, metres. Then the weight of that fairing. Judgement.
 const HAND_SKIN: f64 = 0.04;
 const HAND_FAIRING: f64 = 0.04;
 

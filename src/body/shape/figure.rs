@@ -10,7 +10,7 @@ use crate::people::dimension::{COUNT, Dimension};
 use crate::people::profile::Profile;
 use geom::{V2, V3, smooth_step};
 
-/// Slope of the shoulder line, radians.
+/// Slope of the shoulder line, radians. Judgement.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Shape of an elliptic section.

@@ -8,19 +8,19 @@ use crate::measure::AxisPoint;
 use crate::people::dimension::Dimension;
 use geom::{V2, V3};
 
-/// Angle of the arms from the vertical, radians.
+/// Angle of the arms from the vertical, radians. Judgement.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 
 /// Distance of the wrist from the shoulder joint over the arm length, distance of the elbow over that, and length of
-/// the hand over stature.
+/// the hand over stature. Judgement.
 const WRIST: f64 = 0.94;
 const ELBOW: f64 = 0.534;
 const HAND: f64 = 0.107;
 
-/// Position of the upper arm girth between shoulder joint and elbow.
+/// Position of the upper arm girth between shoulder joint and elbow. Judgement.
 pub(crate) const UPPER_ARM: f64 = 0.58;
 
-/// Least height of the armpit above the chest level over stature, without its fillet.
+/// Least height of the armpit above the chest level over stature, without its fillet. Judgement.
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
 
 impl Figure<'_> {

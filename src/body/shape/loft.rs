@@ -9,13 +9,13 @@ use std::sync::LazyLock;
 /// Cosine coefficients of a section's radius, harmonics 0 to 8.
 pub(super) type Shape = [f64; 9];
 
-/// Number of directions in which a section is tabulated.
+/// Number of directions in which a section is tabulated. Judgement.
 pub(super) const DIRECTIONS: usize = 96;
 
-/// Greatest slope of the outline along the axis that the field is divided by.
+/// Greatest slope of the outline along the axis that the field is divided by. Judgement.
 const MAX_SLOPE: f64 = 4.0;
 
-/// Greatest relative change of the radius with the angle that the field is divided by.
+/// Greatest relative change of the radius with the angle that the field is divided by. Judgement.
 const MAX_TURN: f64 = 2.0;
 
 /// A tabulated direction, with the cosines of the harmonics of its angle from the front.

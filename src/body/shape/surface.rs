@@ -4,7 +4,7 @@ use super::field::Parts;
 use geom::contour::{Grid, QuadMesh, contour};
 use geom::{TriMesh, V3};
 
-/// Passes of tangential smoothing.
+/// Passes of tangential smoothing. Judgement.
 const PASSES: usize = 8;
 
 /// Passes of the fairing of the joints and of the whole skin, and its step. The step is stable up to 0.5 at vertices of
@@ -13,10 +13,10 @@ const JOINT_PASSES: usize = 170;
 const BASE_PASSES: usize = 9;
 const FAIRING_STEP: f64 = 0.25;
 
-/// Step of the tangential smoothing during the fairing.
+/// Step of the tangential smoothing during the fairing. Judgement.
 const SPREADING_STEP: f64 = 0.3;
 
-/// Weight of the fairing of the whole skin.
+/// Weight of the fairing of the whole skin. Judgement.
 const BASE_FAIRING: f64 = 0.4;
 
 /// A quadrilateral mesh of the skin, with the neighbours of its vertices.

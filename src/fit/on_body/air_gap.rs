@@ -5,12 +5,12 @@ use geom::polyline::signed_area;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Distance below the armpit or the crotch at which upper arm and thigh are cut, m. Judgement: just clear of the fold,
-/// as for their girths.
+/// Distance below the armpit or the crotch at which upper arm and thigh are cut, m. Judgement: about where their girths
+/// are measured.
 const BELOW_FOLD_M: f64 = 0.025;
-/// Number of directions in which the gap is stated.
+/// Number of directions in which the gap is stated. Judgement.
 pub const DIRECTIONS: usize = 36;
-/// Number of directions over which the area of air is integrated.
+/// Number of directions over which the area of air is integrated. Judgement.
 const FINE: usize = 720;
 
 /// A plane that cuts a body.

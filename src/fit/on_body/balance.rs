@@ -2,7 +2,7 @@
 
 use geom::V3;
 
-/// Half angle of the sector that counts as front, back or side, radians (15 degrees).
+/// Half angle of the sector that counts as front, back or side, radians (15 degrees). Judgement.
 const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 
 /// Heights of a closed edge above the floor, m. `None` where there is no cloth on that side, as at the opening of a
