@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, DVector};
 /// which logarithms reproduce.
 ///
 /// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. The survey's own dimensions
-/// are converted into those of ISO 8559-1 by constant factors for men and women: 0.997 and 0.968 from the waist at the
-/// navel, 0.92 and 0.95 from flexed upper arm and forearm to relaxed, 0.93 from lower thigh to knee. From biacromial
-/// breadth to tape over the back neck point they are 1.066 and 1.115 (means of three reference bodies of each sex). The
-/// under-bust follows from chest and waist, by least squares over 80 model bodies of each sex (MakeHuman, CC0-1.0).
+/// are converted into those of ISO 8559-1 by constant factors for men and women. From the waist at the navel they are
+/// 0.997 and 0.968, from flexed upper arm and forearm to relaxed 0.92 and 0.95, from lower thigh to knee 0.93. From
+/// biacromial breadth to tape over the back neck point they are 1.066 and 1.115 (means of three reference bodies of
+/// each sex). The under-bust follows from chest and waist, by least squares over 80 model bodies of each sex
+/// (MakeHuman, CC0-1.0).
 pub(crate) struct Survey {
     mean: [f64; COUNT],
     sd: [f64; COUNT],

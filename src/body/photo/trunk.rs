@@ -31,8 +31,8 @@ const SCALED: f64 = 0.007;
 /// Standard deviation of the crotch's height in a front view, over stature.
 const CROTCH: f64 = 0.002;
 
-/// Residuals, in standard deviations, at which the Cauchy weight is a half: of a width, of an outline that lies outside
-/// in the side view, of one that lies inside, and of a crotch, which thighs that touch lower.
+/// Residuals, in standard deviations, at which the Cauchy weight is a half. They are those of a width, of an outline
+/// that lies outside in the side view, of one that lies inside, and of a crotch. Thighs that touch lower the crotch.
 const SIDEWARD: f64 = 6.0;
 const OUTWARD: f64 = 2.0;
 const INWARD: f64 = 4.0;
