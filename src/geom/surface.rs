@@ -16,6 +16,13 @@ pub struct Surface {
     mesh: ParryMesh,
 }
 
+/// Projection of a point onto the surface.
+struct Projection {
+    is_inside: bool,
+    /// Distance from the surface but for rounding, m.
+    about_m: f64,
+}
+
 /// Error of a mesh that cannot bound a solid.
 #[derive(Debug, thiserror::Error)]
 #[error("the surface cannot be used for distances: {0}")]
@@ -41,7 +48,7 @@ impl Surface {
     /// Distance to the surface, m; negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: &V3) -> f64 {
-        let (is_inside, about_m) = self.project(point);
+        let Projection { is_inside, about_m } = self.project(point);
         let (distance_m, _) = self.nearest_within(point, about_m);
         if is_inside { -distance_m } else { distance_m }
     }
@@ -49,20 +56,21 @@ impl Surface {
     /// Depth of a point inside the surface, m. `None` for one outside, which costs less than its distance.
     #[must_use]
     pub fn depth(&self, point: &V3) -> Option<f64> {
-        let (is_inside, about_m) = self.project(point);
+        let Projection { is_inside, about_m } = self.project(point);
         is_inside.then(|| self.nearest_within(point, about_m).0)
     }
 
     /// True if a point is inside, by the pseudo-normal of the nearest feature.
     #[must_use]
     pub fn is_inside(&self, point: &V3) -> bool {
-        self.project(point).0
+        self.project(point).is_inside
     }
 
-    /// True if a point is inside, and its distance to the surface but for rounding, m.
-    fn project(&self, point: &V3) -> (bool, f64) {
+    /// Projects a point onto the surface.
+    fn project(&self, point: &V3) -> Projection {
         let projection = self.mesh.project_local_point(to_parry(point), false);
-        (projection.is_inside, f64::from((projection.point - to_parry(point)).length()))
+        let about_m = f64::from((projection.point - to_parry(point)).length());
+        Projection { is_inside: projection.is_inside, about_m }
     }
 
     /// Unsigned distance to the surface, m, and the nearest triangle, given an upper bound `most_m` on it that holds

@@ -181,21 +181,22 @@ impl Symmetry {
         if slabs.len() < SLABS / 2 {
             return None;
         }
-        let tried: Vec<(f64, f64)> = (0..DIRECTIONS / 2).map(|front| asymmetry(&slabs, front)).collect();
+        let tried: Vec<Asymmetry> = (0..DIRECTIONS / 2).map(|front| asymmetry(&slabs, front)).collect();
         let wide = |i: usize| {
             let side = (i + DIRECTIONS / 4) % DIRECTIONS;
             slabs.iter().map(|slab| slab[side] + slab[(side + DIRECTIONS / 2) % DIRECTIONS]).sum::<f64>()
         };
         // A body is also nearly symmetric from front to back. Of the two planes, the body is wide across the one
         // sought.
-        let least = (0..tried.len()).min_by(|&i, &j| (tried[i].0 / wide(i)).total_cmp(&(tried[j].0 / wide(j))))?;
-        let squared = |i: usize| tried[i % tried.len()].0.powi(2);
+        let least = (0..tried.len())
+            .min_by(|&i, &j| (tried[i].difference / wide(i)).total_cmp(&(tried[j].difference / wide(j))))?;
+        let squared = |i: usize| tried[i % tried.len()].difference.powi(2);
         let (before, here, after) = (squared(least + tried.len() - 1), squared(least), squared(least + 1));
         let bend = before - 2.0 * here + after;
         let offset = if bend > 0.0 { ((before - after) / (2.0 * bend)).clamp(-0.5, 0.5) } else { 0.0 };
         let front = (least as f64 + offset) / DIRECTIONS as f64 * std::f64::consts::TAU;
         let side = V2::new(front.sin(), -front.cos());
-        Some(Self { front, point: centre + side * tried[least].1, difference: tried[least].0 })
+        Some(Self { front, point: centre + side * tried[least].offset, difference: tried[least].difference })
     }
 }
 
@@ -212,9 +213,16 @@ fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> 
     (hull.len() >= 3).then(|| (0..DIRECTIONS).map(tangent).collect())
 }
 
-/// Root mean square difference of all slabs from their mirror images about a plane in the direction `front`, and the
-/// offset of that plane to the right of `front`.
-fn asymmetry(slabs: &[Vec<f64>], front: usize) -> (f64, f64) {
+/// Asymmetry of a body about a plane.
+struct Asymmetry {
+    /// Root mean square difference of all slabs from their mirror images.
+    difference: f64,
+    /// Offset of the plane to the right of its direction.
+    offset: f64,
+}
+
+/// Asymmetry of the slabs about the plane in the direction `front`, at the offset of the least difference.
+fn asymmetry(slabs: &[Vec<f64>], front: usize) -> Asymmetry {
     const STEP: usize = 8;
     let turns = (STEP..DIRECTIONS / 2).step_by(STEP);
     let odd = |slab: &[f64], turn: usize| {
@@ -226,7 +234,7 @@ fn asymmetry(slabs: &[Vec<f64>], front: usize) -> (f64, f64) {
     let both = || slabs.iter().flat_map(|slab| turns.clone().map(move |turn| (odd(slab, turn), sine(turn))));
     let offset = both().map(|(odd, sine)| odd * sine).sum::<f64>() / both().map(|(_, sine)| sine * sine).sum::<f64>();
     let squares = both().map(|(odd, sine)| (odd - offset * sine).powi(2));
-    ((squares.sum::<f64>() / both().count() as f64).sqrt(), offset)
+    Asymmetry { difference: (squares.sum::<f64>() / both().count() as f64).sqrt(), offset }
 }
 
 /// True if the feet point backwards: their middle lies behind that of the ankles.
