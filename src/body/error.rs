@@ -1,16 +1,16 @@
-//! What goes wrong.
+//! Errors of making and measuring bodies.
 
 use geom::units::mm;
 
-/// Why no body could be made or measured.
+/// Reason for which no body could be made or measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyError {
-    /// A measurement that no adult has.
+    /// A measurement outside the range of adults.
     #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
     OutOfRange {
         /// Key of the measurement.
         name: &'static str,
-        /// What was given.
+        /// Given value.
         value: f64,
         /// Least accepted value.
         least: f64,
@@ -19,23 +19,23 @@ pub enum BodyError {
         /// Unit of the numbers.
         unit: &'static str,
     },
-    /// The mesh has no section where the body part should be.
+    /// The mesh has no section at the height of a body part.
     #[error(
         "no {part} found at a height of {:.0} mm: is this a standing person, z up, with the feet on z = 0?",
         mm(*height_m)
     )]
     MissingPart {
-        /// Part that was looked for, in words, such as `chest`.
+        /// Body part, in words, such as `chest`.
         part: &'static str,
         /// Height of the search, m.
         height_m: f64,
     },
-    /// Two measurements that no adult has together.
+    /// Two measurements that do not occur together in an adult.
     #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]
     Contradiction {
-        /// The measurement with its value.
+        /// One measurement, with its value.
         found: String,
-        /// The other one, with its value.
+        /// The other measurement, with its value.
         with: String,
         /// Least accepted value.
         least: f64,
@@ -44,18 +44,18 @@ pub enum BodyError {
         /// Unit of the numbers.
         unit: &'static str,
     },
-    /// Measurements that are possible each, but not of one body.
+    /// Measurements that are possible by themselves but not together in one body.
     #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
     Inconsistent {
-        /// What cannot be formed, or which measurement is not reached.
+        /// The part that cannot be formed, or the measurement that is not reached.
         reason: String,
     },
     /// A file of measurements that cannot be used.
     #[error("found {found}; accepted: {accepted}")]
     Measurements {
-        /// What was found.
+        /// Content that was found.
         found: String,
-        /// What would be accepted.
+        /// Content that would be accepted.
         accepted: String,
     },
     /// A mesh file that cannot be read.
@@ -63,9 +63,9 @@ pub enum BodyError {
     File {
         /// Format of the file.
         format: &'static str,
-        /// Line, vertex or face.
+        /// Line, vertex or face of the error.
         place: String,
-        /// What is wrong there.
+        /// Problem at that place.
         problem: String,
     },
     /// A picture that no body can be read from.
@@ -73,35 +73,35 @@ pub enum BodyError {
         "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
     )]
     Picture {
-        /// Front or side.
+        /// View: front or side.
         view: &'static str,
-        /// What is wrong.
+        /// Problem of the picture.
         problem: String,
     },
-    /// Limbs that cannot be brought where they were asked.
+    /// A pose that the limbs cannot take.
     #[error("no such pose: {problem}")]
     Pose {
-        /// What cannot be done, and what can.
+        /// The refused angle or contact, and what is accepted.
         problem: String,
     },
     /// A surface that cannot bound a solid body.
     #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
     Open {
-        /// What is open.
+        /// Description of the opening.
         problem: String,
     },
-    /// A scan that does not stand on its feet.
+    /// A scan without both feet.
     #[error(
         "a foot is missing, and a body that wears garments stands on both; accepted: a scan with its feet, or the girths that are read on \
          this one, given as measurements with the stature (--stature-mm)"
     )]
     Feet,
-    /// More than one body.
+    /// A mesh with more than one body.
     #[error(
         "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
     )]
     Several,
-    /// A mesh that is no adult in the unit given.
+    /// A mesh whose height in the given unit is not that of an adult.
     #[error("the body is {} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?", short(.extent))]
     WrongUnit {
         /// Height in the unit given.
@@ -109,7 +109,7 @@ pub enum BodyError {
         /// Unit given, as its symbol.
         unit: &'static str,
     },
-    /// A mesh whose size fits a standing adult in no unit.
+    /// A mesh whose height is that of an adult in none of the units.
     #[error(
         "the body is {} high, which is no adult in mm, cm, dm, m or inches; accepted: 1.2 to 2.4 m, or say the unit",
         short(.extent)
@@ -120,7 +120,7 @@ pub enum BodyError {
     },
 }
 
-/// A length of an unknown unit in few digits: five, and four decimals at most.
+/// Formats a length of unknown unit with five significant digits, and four decimals at most.
 fn short(length: &f64) -> String {
     let decimals = 4.0 - length.abs().max(1.0).log10().floor();
     format!("{length:.*}", decimals.clamp(0.0, 4.0) as usize)

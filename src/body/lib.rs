@@ -1,16 +1,16 @@
-//! The human model (HMM, thesis 3.2): from measurements to a measured, featured, closed mannequin.
+//! Human model [T 3.2]: from measurements to a measured, closed mannequin with joints and landmarks.
 //!
-//! Rooms, from the ground up; each uses only those before it:
+//! Rooms, from the ground up. Each uses only those before it:
 //!
 //! | room | holds |
 //! |---|---|
-//! | `people` | dimensions, the survey of adults, the person behind some measurements |
-//! | `repair` | surfaces made whole: strays, floor, holes, branches |
-//! | `measure` | the tape: features, levels, girths, lengths |
-//! | `shape` | sections, limbs and trunk lofted through them, the skin over all |
+//! | `people` | dimensions, the survey of adults, estimates of what was not measured |
+//! | `repair` | repair of surfaces: stray pieces, floor, holes, branching edges |
+//! | `measure` | the tape: landmarks, levels, girths, lengths |
+//! | `shape` | cross-sections, limbs and trunk lofted through them, the skin over all |
 //! | `model` | the mannequin: built, fitted to the tape, its control mesh |
 //! | `files`, `photo` | bodies from files, and from pictures |
-//! | `scan`, `pose` | a scan that wears garments; another pose |
+//! | `scan`, `pose` | a body from a scan; another pose |
 
 mod error;
 mod files;
@@ -40,7 +40,8 @@ pub use people::draw::{person, scores};
 pub use people::foreign::read_foreign;
 pub use people::likely::Likely;
 pub use people::profile::{Doubt, Mass, percentile, plausibility};
-pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
+pub use photo::camera::Camera;
+pub use photo::pictures::{Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose, way};
 pub use scan::{Scan, from_scan};
 
@@ -59,7 +60,7 @@ pub enum Sex {
     Female,
 }
 
-/// The 17 joints (thesis 3.1, figure 3-11).
+/// The 17 joints [T 3.1, figure 3-11].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs)]
 pub enum Joint {
@@ -82,10 +83,10 @@ pub enum Joint {
     AnkleLeft,
 }
 
-/// Joint positions in world space, metres, indexed by [`Joint`].
+/// Joint positions in the world frame, metres, indexed by [`Joint`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Skeleton {
-    /// One position a joint, in the order of [`Joint`].
+    /// Positions in the order of [`Joint`].
     pub joints: [V3; 17],
 }
 
@@ -97,10 +98,10 @@ impl Skeleton {
     }
 }
 
-/// Feature points on the fine mesh, metres. Pairs are `[right, left]`.
+/// Landmarks on the fine mesh, metres. Pairs are `[right, left]`.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Landmarks {
-    /// Side neck points: where the shoulder line meets the base of the neck.
+    /// Side neck points: intersections of the shoulder lines with the base of the neck.
     pub side_neck: [V3; 2],
     /// Shoulder points: outer ends of the shoulder lines (acromion).
     pub shoulder: [V3; 2],
@@ -112,11 +113,11 @@ pub struct Landmarks {
     pub armpit: [V3; 2],
     /// Most prominent points of the chest or bust.
     pub bust: [V3; 2],
-    /// Crotch point: where the legs meet, in the median plane.
+    /// Crotch point: lowest point of the trunk in the median plane, between the legs.
     pub crotch: V3,
 }
 
-/// Heights above the floor of the girth levels, metres.
+/// Heights of the girth levels above the floor, metres.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Levels {
     /// Chest or bust.
@@ -125,42 +126,42 @@ pub struct Levels {
     pub underbust_m: f64,
     /// Waist (ISO 8559-1).
     pub waist_m: f64,
-    /// Hip: where the buttocks protrude most.
+    /// Hip: height of the greatest protrusion of the buttocks (ISO 8559-1).
     pub hip_m: f64,
     /// Crotch: upper end of the inside leg.
     pub crotch_m: f64,
-    /// Where the girth round the neck is least, read at the spine.
+    /// Height of the least girth of the neck, read at the spine.
     pub neck_m: f64,
 }
 
-/// A dressed-ready human model.
+/// A human model that can be dressed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
-    /// Sex by which its shape and its waist level are found.
+    /// Sex, which decides its mean shape and its waist level.
     pub sex: Sex,
     /// Closed fine mesh, metres.
     pub mesh: TriMesh,
-    /// Joint positions, metres: what a pose turns the limbs about.
+    /// Joint positions, metres. A pose turns the limbs about them.
     pub skeleton: Skeleton,
     /// Feature points that patterns and measurements refer to.
     pub landmarks: Landmarks,
     /// Heights of the girth levels.
     pub levels: Levels,
-    /// Layered coarse mesh on the skin.
+    /// Coarse control mesh of rings on the skin [T 3.2.2].
     pub control: ControlMesh,
-    /// What the tape reads on the fine mesh.
+    /// Girths that a tape reads on the fine mesh.
     pub girths: Girths,
 }
 
 impl Body {
-    /// What a tape reads round the trunk at a height above the floor, m; `None` where there is no trunk.
+    /// Girth of the trunk at a height above the floor, m, as a taut tape reads it. `None` where there is no trunk.
     #[must_use]
     pub fn trunk_girth_at(&self, height_m: f64) -> Option<f64> {
         measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
     }
 
-    /// The same body with something on, which `mesh` encloses. What a tape reads round the trunk is read over `on_trunk`, the cloth that is
-    /// worn there.
+    /// Returns the same body inside a garment, which `mesh` encloses. Its girths of the trunk are read over `on_trunk`,
+    /// the cloth that is worn there.
     #[must_use]
     pub fn enclosed(&self, mesh: TriMesh, on_trunk: &TriMesh) -> Self {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
@@ -183,20 +184,20 @@ impl Body {
         Self { mesh, girths, ..self.clone() }
     }
 
-    /// What a tailor takes on the body beside its girths.
+    /// Tailor's measurements beside the girths.
     #[must_use]
     pub fn tailor(&self) -> Vec<Taken> {
         measure::tailor::of_body(self)
     }
 
-    /// The tapes round chest, underbust, waist and hip, as bands on the skin to be drawn; metres.
+    /// Bands on the skin that show the tape round chest, under-bust, waist and hip; metres.
     #[must_use]
     pub fn tapes(&self) -> TriMesh {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
         measure::tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
     }
 
-    /// The lines along which a tailor measures, as bands to be drawn; metres.
+    /// Bands on the skin that show the lines of the tailor's measurements; metres.
     #[must_use]
     pub fn lines(&self) -> TriMesh {
         let mut bands = TriMesh::default();

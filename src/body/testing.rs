@@ -1,15 +1,15 @@
-//! What tests do to bodies: spoil them as scanners do, write them in every format, take their silhouettes.
+//! Helpers of tests: bodies degraded as by scanners, written in every format, and their silhouettes.
 
 use crate::Girths;
 use geom::{TriMesh, V3};
 use std::fmt::Write as _;
 
-/// What is written of girths under a key.
+/// Written value of a key.
 pub fn in_mm(girths: &Girths, key: &str) -> f64 {
     girths.written(key).unwrap_or_else(|| panic!("{key} is not read"))
 }
 
-/// Repeatable numbers, evenly spread over -0.5 to 0.5.
+/// Pseudo-random numbers, uniform between -0.5 and 0.5.
 pub struct Noise(pub u64);
 
 impl Noise {
@@ -18,27 +18,27 @@ impl Noise {
         (self.0 >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
     }
 
-    /// A number of a normal distribution with unit deviation (twelve even ones).
+    /// Standard normal number (sum of twelve uniform ones).
     pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.next()).sum()
     }
 }
 
-/// Moves every vertex by noise of a standard deviation, metres.
+/// Adds noise with a standard deviation, metres, to every vertex.
 pub fn roughen(mesh: &mut TriMesh, sigma: f64, noise: &mut Noise) {
     for p in &mut mesh.positions {
         *p += V3::new(noise.normal(), noise.normal(), noise.normal()) * (sigma / 3.0_f64.sqrt());
     }
 }
 
-/// Cuts round holes of a radius about given places, metres.
+/// Cuts round holes of a radius about some places, metres.
 pub fn pierce(mesh: &mut TriMesh, places: &[V3], radius: f64) {
     let near = |i: usize| places.iter().any(|place| (mesh.positions[i] - place).norm() < radius);
     let kept = mesh.triangles.iter().copied().filter(|triangle| !triangle.iter().any(|&i| near(i))).collect();
     mesh.triangles = kept;
 }
 
-/// The mesh with every vertex moved by a rule.
+/// Maps every vertex of a mesh.
 pub fn placed(mesh: &TriMesh, rule: impl Fn(V3) -> V3) -> TriMesh {
     TriMesh { positions: mesh.positions.iter().map(|p| rule(*p)).collect(), triangles: mesh.triangles.clone() }
 }
@@ -100,16 +100,16 @@ pub fn binary_stl(mesh: &TriMesh) -> Vec<u8> {
     bytes
 }
 
-/// A camera for silhouettes: focal length in pixels and distance in metres, 0.9 m high; or orthographic at a scale.
+/// Camera of a silhouette, 0.9 m above the floor, or orthographic.
 #[derive(Clone, Copy, Debug)]
 pub enum Taken {
-    /// Pixels a metre.
+    /// Pixels per metre.
     Orthographic(f64),
     /// Focal length in pixels, distance in metres.
     Perspective(f64, f64),
 }
 
-/// The silhouette of a body in the world frame from the front, or from its right.
+/// Silhouette of a body in the world frame from the front, or from its right.
 pub fn silhouette(mesh: &TriMesh, side: bool, taken: Taken, [width, height]: [u32; 2]) -> image::GrayImage {
     let (middle, half) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
     let project = |p: &V3| {
@@ -131,12 +131,15 @@ pub fn silhouette(mesh: &TriMesh, side: bool, taken: Taken, [width, height]: [u3
     picture
 }
 
-/// Whitens the pixels whose middle lies in a triangle.
+/// Whitens the pixels whose centre lies in a triangle.
 fn fill(picture: &mut image::GrayImage, corners: [[f64; 2]; 3]) {
     let turned = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     let range = |axis: usize, size: u32| {
-        let of = corners.map(|corner| corner[axis]);
-        let (low, high) = (of.iter().copied().fold(f64::MAX, f64::min), of.iter().copied().fold(f64::MIN, f64::max));
+        let coordinates = corners.map(|corner| corner[axis]);
+        let (low, high) = (
+            coordinates.iter().copied().fold(f64::MAX, f64::min),
+            coordinates.iter().copied().fold(f64::MIN, f64::max),
+        );
         (low - 0.5).ceil().max(0.0) as u32..((high - 0.5).floor() + 1.0).clamp(0.0, f64::from(size)) as u32
     };
     for y in range(1, picture.height()) {
@@ -150,14 +153,14 @@ fn fill(picture: &mut image::GrayImage, corners: [[f64; 2]; 3]) {
     }
 }
 
-/// A picture as PNG bytes.
+/// Encodes a picture as PNG.
 pub fn png(picture: &image::GrayImage) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture in memory");
     bytes.into_inner()
 }
 
-/// The reference bodies beside the project, where they are.
+/// Folder of the reference bodies beside the project, if it is there.
 pub fn reference_bodies() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())

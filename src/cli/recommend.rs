@@ -91,12 +91,10 @@ fn explained(store: &Store, study: &str, answers: &[&Answer]) -> Result<String, 
         line(&mut text, "settles it", &answer.would_settle);
     }
     let is_asked = |garment: &str| answers.iter().any(|answer| answer.garment == garment);
-    for (garment, analysis, p_holm) in
-        evidence::evidence(store, study)?.garments.iter().filter(|(name, ..)| is_asked(name))
-    {
-        let _ = write!(text, "\n{garment}, all fits\n");
-        analysed(&mut text, analysis, *p_holm);
-        line(&mut text, "crossover", &evidence::crossover_words(store, study, Some(garment))?);
+    for all_fits in evidence::evidence(store, study)?.garments.iter().filter(|all_fits| is_asked(&all_fits.garment)) {
+        let _ = write!(text, "\n{}, all fits\n", all_fits.garment);
+        analysed(&mut text, &all_fits.analysis, all_fits.p_holm);
+        line(&mut text, "crossover", &evidence::crossover_words(store, study, Some(&all_fits.garment))?);
     }
     let (score, pairs) = evidence::rule_score(store, study)?;
     if pairs > 0 {

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use body::Body;
 use fit::Simulator;
+use fit::on_body::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
 use fit::reach::{self, Drawn};
-use fit::worn::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
 use geom::units::mm;
 use geom::{Surface, V3, hull};
 use pattern::style::PathPart;
@@ -98,12 +98,12 @@ impl WornOn {
         let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let gap_m: Vec<f64> = sewn.mesh.positions.iter().map(|p| surface.signed_distance(p)).collect();
         let tension_n_m = sewn.welded(&sewn.tensions_n_m());
-        let worn = worn::Worn { cloth: &sewn.mesh, gap_m: &gap_m, tension_n_m: &tension_n_m };
+        let worn = on_body::Worn { cloth: &sewn.mesh, gap_m: &gap_m, tension_n_m: &tension_n_m };
         let pressed = match simulator {
-            Simulator::Fem => worn::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa()),
+            Simulator::Fem => on_body::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa()),
             Simulator::Hybrid => Vec::new(),
         };
-        let pressing = |one: worn::Pressed| Pressing {
+        let pressing = |one: on_body::Pressed| Pressing {
             region: one.region.as_str().to_owned(),
             area_m2: one.area_m2,
             mean_kpa: one.mean_kpa,
@@ -111,9 +111,9 @@ impl WornOn {
         };
         let drawn = drape.kept.iter().flat_map(|kept| reach::drawn(garment, kept, &drape.positions));
         Ok(Self {
-            levels: worn::sites(body).into_iter().filter_map(cut).map(|section| Level::of(&section)).collect(),
+            levels: on_body::sites(body).into_iter().filter_map(cut).map(|section| Level::of(&section)).collect(),
             hang: hang(style, garment, &drape.positions),
-            folds: worn::folds(&worn),
+            folds: on_body::folds(&worn),
             pressing: pressed.into_iter().map(pressing).collect(),
             drawn: drawn.collect(),
         })
@@ -129,7 +129,7 @@ pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let laid = style.laid(garment, &paths).into_iter();
     let mut placed = laid.map(|runs| runs.iter().flatten().map(place).collect::<Vec<_>>());
     let (hem, waist) = (placed.next().unwrap_or_default(), placed.next().unwrap_or_default());
-    worn::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
+    on_body::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
 }
 
 /// Writes how a drape sits.

@@ -6,7 +6,7 @@ use crate::carry::carry;
 use crate::faults::drape_faults;
 use crate::layers::Garb;
 use body::{Body, Pose};
-use fit::{reach, worn};
+use fit::{on_body, reach};
 use geom::units::mm;
 use pattern::Garment;
 use sim::sewn::Sewn;
@@ -106,7 +106,7 @@ fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> 
         sorted.sort_by(f64::total_cmp);
         sorted.get(((sorted.len() as f64) * (1.0 - LEFT_OUT)) as usize).copied().unwrap_or(0.0)
     };
-    let pressed = worn::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa());
+    let pressed = on_body::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa());
     let pieces = garment.pieces.iter();
     Ok(Loads {
         tension_n_m: pieces.map(|piece| (piece.id.clone(), greatest(&tensions[piece.vertices.clone()]))).collect(),

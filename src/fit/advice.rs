@@ -1,20 +1,20 @@
-//! Which picture a customer is shown.
+//! The picture that a customer is shown.
 
 use super::class::Simulator;
 
-/// Which drape to show a customer [T 6.4.2].
+/// Drape that a customer is shown [T 6.4.2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
-    /// FEM-GS: the garment is large enough, and cloth that hangs is what the customer would see.
+    /// FEM-GS: the garment is large enough, and hanging cloth is what the customer would see.
     FemDrape,
     /// Hybrid-GS: it keeps the pattern's size.
     HybridDrape,
-    /// Hybrid-GS with its gap map: the garment does not reach round the body, and where is what the customer must see.
+    /// Hybrid-GS with its gap map: the garment does not reach round the body, and the customer must see where.
     HybridGap,
 }
 
 impl Shown {
-    /// Its words in tables and reports, such as `FEM-GS drape`.
+    /// Its name in tables and reports, such as `FEM-GS drape`.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -25,7 +25,7 @@ impl Shown {
     }
 }
 
-/// The picture for a customer: of a garment smaller than the body where it does not close, else the drape of the
+/// Chooses the picture for a customer: the gap map of a garment smaller than the body, otherwise the drape of the
 /// simulator that is recommended for the fit.
 #[must_use]
 pub fn shown(recommended: Simulator, is_undersized: bool) -> Shown {

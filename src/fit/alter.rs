@@ -1,15 +1,16 @@
-//! The least change of a pattern that brings its levels into their bands.
+//! Least change of a pattern that brings its levels into their bands: a quadratic programme.
 
-/// A quantity of a garment that is to lie in a band.
+/// A quantity of a garment that should lie in a band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// What it is now.
+    /// Its present value.
     pub value: f64,
-    /// How it changes with each handle.
+    /// Its derivative by each handle.
     pub sensitivity: Vec<f64>,
-    /// Least and greatest value that is wanted.
+    /// Least and greatest wanted value.
     pub band: [f64; 2],
-    /// Squared miss for which a unit of change is made, as of what scatters; `None` where the band is met at whatever change.
+    /// Compliance of the band: missing it by `m` costs `m^2 / gives` beside the squares of the scaled changes. It is
+    /// for quantities that scatter. `None` where the band is to be met by whatever change.
     pub gives: Option<f64>,
 }
 
@@ -18,22 +19,23 @@ pub struct Goal {
 pub struct Change {
     /// Amount of each handle, in its unit.
     pub amounts: Vec<f64>,
-    /// What each goal's value becomes.
+    /// Value of each goal after the change.
     pub values: Vec<f64>,
 }
 
-/// Weight of a goal against the change that it takes: a goal that the limits allow is missed by a ten-thousandth of what is asked.
+/// Weight of a goal against the change that it takes. A goal that the limits allow is then missed by a ten-thousandth
+/// of what is asked.
 const FIRMNESS: f64 = 1e4;
-/// Sweeps over all constraints; each takes a constant share of what is left.
+/// Greatest number of sweeps over all constraints. Each sweep reduces the error by a constant factor.
 const SWEEPS: usize = 20_000;
-/// Change of a multiplier below which nothing moves any more.
+/// Change of a multiplier, times the root of its stiffness, below which the iteration has converged.
 const STILL: f64 = 1e-12;
 
-/// The change with the least sum of squares, in units of `scale`, that brings goals into their bands within limits of each handle.
-/// Where limits forbid that, the goals are missed by as little as they allow.
+/// Finds the change with the least sum of squares, in units of `scale`, that brings goals into their bands within the
+/// limits of each handle. Where limits forbid that, the goals are missed by as little as they allow.
 ///
-/// The constraints are met one by one, again and again (Hildreth's method): each takes the multiplier that meets it exactly, never below
-/// 0. Goals give way by their firmness, or as they say, limits do not.
+/// Solves the dual quadratic programme by coordinate ascent (Hildreth's method): each constraint in turn takes the
+/// multiplier that meets it exactly, at least 0. Goals have a compliance, limits have none.
 #[must_use]
 pub fn least_change(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
     let rows = constraints(goals, limits, scale);
@@ -66,14 +68,14 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A constraint on scaled handles: `normal . h <= most`, which gives way by a share of its multiplier.
+/// A constraint on scaled handles, `normal . h <= most + give * multiplier`.
 struct Constraint {
     normal: Vec<f64>,
     most: f64,
     give: f64,
 }
 
-/// Both sides of every band, and of every limit.
+/// Constraints of both ends of every band and of every limit.
 fn constraints(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Vec<Constraint> {
     let mut rows = Vec::new();
     for goal in goals {

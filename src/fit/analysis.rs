@@ -1,4 +1,4 @@
-//! The statistics of a set of pairs.
+//! Statistics of a set of pairs.
 
 use std::collections::BTreeMap;
 
@@ -7,34 +7,36 @@ use super::resample::{interval, sign_flip};
 use super::statistics::{effect_size, equivalence, mean, sd};
 use super::{ALPHA, MARGIN};
 
-/// What pairs of both simulators say, subject by subject. Differences are EI of FEM-GS less EI of Hybrid-GS.
+/// Statistics of pairs of both simulators, subject by subject. A difference is the EI of FEM-GS less the EI of
+/// Hybrid-GS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Cases: sizes times subjects.
+    /// Number of cases: sizes times subjects.
     pub cases: usize,
-    /// Cases in which FEM-GS and Hybrid-GS have the lower EI.
+    /// Number of cases in which FEM-GS and in which Hybrid-GS has the lower EI.
     pub wins: [usize; 2],
     /// Mean difference of each subject.
     pub subjects: Vec<f64>,
-    /// The estimate from them, where there is a subject.
+    /// Estimate from these means. `None` without subjects.
     pub estimate: Option<Estimate>,
-    /// The same without each measurement in turn.
+    /// Means without each measurement in turn.
     pub without: Vec<Without>,
-    /// The same without free edges, and without the measurements that a simulator restores by construction.
+    /// Means without the free edges, and without the measurements that a simulator restores by construction.
     pub told_apart: Vec<Without>,
-    /// How many measurements a simulator restores by construction; where that is all of them, nothing is left without.
+    /// Number of measurements that a simulator restores by construction. If it restores all, [`Analysis::told_apart`]
+    /// has no mean without them.
     pub controlled: usize,
 }
 
-/// What is left out where [`Analysis::told_apart`] leaves out what a simulator restores by construction.
+/// Value of [`Without::what`] where the measurements that a simulator restores by construction are left out.
 pub(super) const CONTROLLED: &str = "controlled measurements";
 
-/// A mean difference over subjects and how sure it is.
+/// Mean difference over subjects, with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Mean over subjects.
     pub mean: f64,
-    /// Its bootstrap interval at 95 %, of two subjects or more.
+    /// Its bootstrap interval at 95 %. `None` of fewer than two subjects.
     pub interval: Option<(f64, f64)>,
     /// Paired effect size.
     pub size: Option<f64>,
@@ -42,18 +44,18 @@ pub struct Estimate {
     pub sd: Option<f64>,
     /// Two-sided p of the sign-flip test.
     pub p: f64,
-    /// p of the two one-sided tests that the difference is within the margin.
+    /// p of the two one-sided tests that the difference lies within the margin.
     pub p_equivalence: Option<f64>,
 }
 
-/// A mean difference without some of the measurements.
+/// Mean difference without some of the measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Without {
-    /// What was left out (`#6 Neck Opening`, `free edges`).
+    /// Name of what is left out (`#6 Neck Opening`, `free edges`).
     pub what: String,
-    /// Mean difference over subjects of the rest.
+    /// Mean difference over subjects from the other measurements.
     pub mean: f64,
-    /// Cases in which FEM-GS and Hybrid-GS have the lower EI then.
+    /// Number of cases in which FEM-GS and in which Hybrid-GS then has the lower EI.
     pub wins: [usize; 2],
 }
 
@@ -67,7 +69,7 @@ impl Analysis {
             names.entry(errors.no).or_insert((&errors.name, errors.controlled));
         }
         let each = names.iter().filter_map(|(no, (name, _))| without(pairs, format!("#{no} {name}"), |e| e.no != *no));
-        let any = |of: fn(&Errors) -> bool| pairs.iter().flat_map(|pair| &pair.errors).any(of);
+        let any = |is_kind: fn(&Errors) -> bool| pairs.iter().flat_map(|pair| &pair.errors).any(is_kind);
         let mut told_apart = Vec::new();
         if any(|e| e.free_edge) {
             told_apart.extend(without(pairs, "free edges".into(), |e| !e.free_edge));
@@ -86,13 +88,13 @@ impl Analysis {
         }
     }
 
-    /// Whether a simulator sets every measurement by construction: scoring them is circular.
+    /// True if a simulator restores every measurement by construction, which makes their comparison circular.
     #[must_use]
     pub fn is_circular(&self) -> bool {
         self.controlled > 0 && !self.told_apart.iter().any(|rest| rest.what == CONTROLLED)
     }
 
-    /// The first measurement without which the mean difference changes its sign; `None` where none does.
+    /// First measurement whose omission changes the sign of the mean difference. `None` where none does.
     #[must_use]
     pub fn turned_by(&self) -> Option<&Without> {
         let mean = self.estimate?.mean;

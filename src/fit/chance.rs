@@ -1,16 +1,16 @@
-//! How probable it is that sizes fit, from draws of what is not known: shares with their intervals.
+//! Probability that sizes fit, estimated from draws of uncertain measurements, with confidence intervals.
 
 use super::resample::quantile;
 use super::target::{off_m, weight_m};
 
-/// Probability that an interval covers.
+/// Confidence level of every interval here.
 pub const TOLD: f64 = 0.8;
-/// Standard normal quantile of its upper end.
+/// Standard normal quantile of its upper end, at (1 + [`TOLD`]) / 2 = 0.9.
 const Z: f64 = 1.281_551_565_544_6;
-/// Least departure from a band that counts, m: a smaller one rounds to none in millimetres.
+/// Least departure from a band that counts, m: a smaller one rounds to zero in millimetres.
 const DEPARTURE_M: f64 = 0.5e-3;
 
-/// How a size sits.
+/// Fit of a size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sitting {
@@ -22,7 +22,7 @@ pub enum Sitting {
     Loose,
 }
 
-/// How an ease sits beside its band, m.
+/// Compares an ease with its band, m.
 #[must_use]
 pub fn sitting(ease_m: f64, band_m: [f64; 2]) -> Sitting {
     match off_m(ease_m, band_m) {
@@ -32,18 +32,19 @@ pub fn sitting(ease_m: f64, band_m: [f64; 2]) -> Sitting {
     }
 }
 
-/// A size in one draw.
+/// Fit of a size in one draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// How it sits.
+    /// Its fit.
     pub sitting: Sitting,
-    /// Level that lies farthest from its band, what is too tight counting double; `None` for a size that fits.
+    /// Index of the level that lies farthest outside its band, tight departures counting double. `None` for a size that
+    /// fits.
     pub decides: Option<usize>,
-    /// What that level counts, m.
+    /// Weighted departure of that level, m ([`weight_m`]).
     pub weight_m: f64,
 }
 
-/// Judges a size by the eases at its levels, m; a level without a band does not count.
+/// Judges a size by the eases at its levels, m. A level without a band does not count.
 #[must_use]
 pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
     let mut worst = Verdict { sitting: Sitting::Fits, decides: None, weight_m: 0.0 };
@@ -58,16 +59,14 @@ pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
     worst
 }
 
-/// The size to wear among those judged: the one whose worst level counts least, and the first of equals.
-///
-/// `None` where no size was judged.
+/// The size to wear: that with the least weighted departure of its worst level, the first of equal ones.
 #[must_use]
 pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
-    // The first of equal ones.
+    // `min_by` returns the first of equal ones.
     (0..sizes.len()).min_by(|&a, &b| sizes[a].weight_m.total_cmp(&sizes[b].weight_m))
 }
 
-/// A share of draws, and the 80 % interval of the probability that it estimates [Wilson 1927].
+/// Share of draws, with the 80 % Wilson interval of the probability that it estimates [Wilson 1927].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Share {
     /// Share of the draws, 0 to 1.
@@ -77,7 +76,7 @@ pub struct Share {
 }
 
 impl Share {
-    /// The share of `count` in `draws`; without draws the share is NaN and the interval all of 0 to 1.
+    /// Share of `count` in `draws`. Without draws the share is NaN and the interval all of 0 to 1.
     #[must_use]
     pub fn of(count: usize, draws: usize) -> Self {
         if draws == 0 {
@@ -90,7 +89,7 @@ impl Share {
     }
 }
 
-/// Lower end, middle and upper end of the 80 % interval of some values; NaN without values.
+/// Lower end, median and upper end of the central 80 % of some values. NaN without values.
 #[must_use]
 pub fn interval(values: &[f64]) -> [f64; 3] {
     if values.is_empty() {

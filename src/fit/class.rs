@@ -1,6 +1,6 @@
-//! Names of what is chosen and of what it is chosen for: simulators and fit classes.
+//! Simulators and fit classes.
 
-/// A garment simulator, by name: what a rule or the evidence can recommend.
+/// A garment simulator, as a rule or the evidence can recommend it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Simulator {
@@ -47,7 +47,8 @@ impl FitClass {
         }
     }
 
-    /// The simulator the thesis's rule names for this class [T 6.4.2, 6.5]: FEM for loose, Hybrid otherwise.
+    /// Simulator that the thesis's rule names for this class [T 6.4.2, 6.5]: FEM-GS for loose fits, Hybrid-GS
+    /// otherwise.
     #[must_use]
     pub fn rule_says(self) -> Simulator {
         match self {

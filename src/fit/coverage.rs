@@ -1,105 +1,115 @@
-//! The sizes that fit the most people.
+//! Search for the sizes that fit the most people.
 //!
-//! A size is a place among knobs: how many steps each of them is turned. Somebody is fitted by a size where all that they ask of it
-//! lies within its band, and by a series where one of its sizes fits. What is asked is linear in the knobs. So the turns of some knobs
-//! along a line that fit somebody are a few stretches, and the best place on a line is found exactly. The search goes along many lines, from
-//! many starts (iterated local search [Lourenco 2003]).
+//! A pattern is graded by some of its parameters, here called knobs. The turn of a knob is the number of its steps from
+//! the pattern as it is, and a size is given by the turns of all knobs. A size fits a person if every length that the
+//! person asks of it lies in its band. A series covers a person if one of its sizes fits.
+//!
+//! Lengths are linear in the turns. Along a line in the space of turns, those that fit a person are therefore a few
+//! intervals, and the best point of the line is found exactly. The search optimises along many lines in turn, from many
+//! starts, and from perturbations of the best series (iterated local search [Lourenco 2003]).
 
 use crate::Draw;
 
-/// A length of a size that somebody asks to lie in a band.
+/// A length of a size that a person needs to lie in a band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// How it changes with one step of each knob.
+    /// Its change with one step of each knob.
     pub per_step: Vec<f64>,
-    /// Least and greatest value that it may have where no knob is turned, less what it has there.
+    /// Least and greatest admissible change from the length with no knob turned.
     pub band: [f64; 2],
 }
 
 impl Asked {
-    /// How much it changes from where no knob is turned.
+    /// Its change at some turns.
     #[must_use]
     pub fn change(&self, turns: &[i32]) -> f64 {
         self.per_step.iter().zip(turns).map(|(a, turn)| a * f64::from(*turn)).sum()
     }
 }
 
-/// All that somebody asks of a size.
+/// All lengths that a person needs of a size.
 pub type Asks = Vec<Asked>;
 
-/// How the sizes of a series follow each other.
+/// Rule by which the sizes of a series follow each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Series {
-    /// By steps that may differ; no knob turns back.
+    /// Steps may differ, and no knob turns back from one size to the next.
     #[default]
     Rising,
-    /// By the same step between all of them.
+    /// The step between all sizes is the same.
     Even,
 }
 
-/// What is sought.
+/// A problem of the search.
 #[derive(Clone, Debug)]
 pub struct Search<'a> {
-    /// What each person asks of each size, by size and person.
+    /// Lengths that each person needs of each size, by size and person.
     pub asks: &'a [Vec<Asks>],
-    /// Least and greatest turn of each knob, steps.
+    /// Least and greatest turn of each knob.
     pub limits: &'a [[i32; 2]],
-    /// How far each knob turns with a step of the first where nobody asks for more, steps.
+    /// Default grade: steps of each knob to one step of the first.
     pub habits: &'a [f64],
-    /// How many more people a size must fit for each step that a knob is turned away from its habit.
+    /// People that a size must fit in addition for each step by which a knob departs from its default grade.
     pub price: f64,
-    /// How the sizes follow each other.
+    /// Rule by which the sizes follow each other.
     pub series: Series,
 }
 
-/// Turns of the knobs of every size, the smallest first, steps.
+/// Turns of the knobs of every size, the smallest size first.
 pub type Turns = Vec<Vec<i32>>;
 
-/// Greatest number of rounds over all lines.
+/// A series with its value of the objective.
+#[derive(Clone)]
+struct Candidate {
+    worth: f64,
+    turns: Turns,
+}
+
+/// Greatest number of passes over all lines. Judgement.
 const ROUNDS: usize = 40;
-/// Shares of the people that are left out at both ends of a start, %.
+/// Shares of the people that are left out at either end for a start, %. Judgement.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
-/// How often the best series is shaken and the search begins again.
+/// Number of perturbations of the best series from which the search begins again. Judgement.
 const SHAKES: usize = 30;
-/// Greatest shake, steps.
+/// Greatest perturbation of a turn, steps. Judgement.
 const SHAKE: usize = 25;
-/// Sweeps of the search for what a person asks for.
+/// Sweeps of coordinate descent for the turns that suit one person. Judgement.
 const SWEEPS: usize = 60;
 
 impl Search<'_> {
-    /// How many people some size of a series fits.
+    /// Number of people that at least one size of a series fits.
     #[must_use]
     pub fn covered(&self, turns: &Turns) -> usize {
         (0..self.people()).filter(|&person| (0..turns.len()).any(|size| self.fits(size, person, &turns[size]))).count()
     }
 
-    /// People that a series fits, less the price of its departures from habit.
+    /// Objective: the people that a series covers, less the price of its departures from the default grade.
     fn worth(&self, turns: &Turns) -> f64 {
         self.covered(turns) as f64 - self.price * turns.iter().map(|size| self.departure(size)).sum::<f64>()
     }
 
-    /// How far the knobs of a size are turned away from their habits, steps.
+    /// Sum of the departures of a size's knobs from the default grade, steps.
     fn departure(&self, size: &[i32]) -> f64 {
         let first = size.first().map_or(0.0, |turn| f64::from(*turn));
         size.iter().zip(self.habits).skip(1).map(|(turn, habit)| (f64::from(*turn) - habit * first).abs()).sum()
     }
 
-    /// The best series that is found, of as many sizes as there are asks for.
+    /// Best series found, with as many sizes as there are in [`Search::asks`].
     #[must_use]
     pub fn best(&self, seed: u64) -> Turns {
         let mut random = Draw::new(seed);
         let mut best = self.starts().into_iter().map(|start| self.improved(start)).fold(None, better);
         for _ in 0..SHAKES {
-            let Some((_, turns)) = &best else { break };
+            let Some(Candidate { turns, .. }) = &best else { break };
             best = better(best.clone(), self.improved(self.shaken(turns, &mut random)));
         }
-        best.map_or_else(Vec::new, |(_, turns)| turns)
+        best.map_or_else(Vec::new, |best| best.turns)
     }
 
-    /// The best near a series.
+    /// Local optimum reached from a series.
     #[must_use]
     pub fn near(&self, turns: &Turns) -> Turns {
-        self.improved(turns.clone()).1
+        self.improved(turns.clone()).turns
     }
 
     fn people(&self) -> usize {
@@ -110,7 +120,8 @@ impl Search<'_> {
         is_met(&self.asks[size][person], turns)
     }
 
-    /// The turns that come nearest to all that a person asks for: least squares in units of the bands.
+    /// Turns that bring a person's lengths nearest to the middles of their bands, by least squares in units of the
+    /// bands' widths, within the limits.
     fn ideal(&self, person: usize) -> Vec<f64> {
         let mut turns = vec![0.0; self.limits.len()];
         for _ in 0..SWEEPS {
@@ -130,7 +141,8 @@ impl Search<'_> {
         turns
     }
 
-    /// Series to begin with: the people in as many groups along the first knob as there are sizes, without those at both ends.
+    /// Initial series: the people, sorted by their ideal turn of the first knob, in as many groups as there are sizes,
+    /// without a share of them at either end.
     fn starts(&self) -> Vec<Turns> {
         let count = self.asks.len();
         let mut ideals: Vec<Vec<f64>> = (0..self.people()).map(|person| self.ideal(person)).collect();
@@ -148,7 +160,7 @@ impl Search<'_> {
         TAILS.into_iter().map(|tail| self.ordered(start(tail))).collect()
     }
 
-    /// A series in its order, as near as whole steps allow.
+    /// Sorts a series, and makes its steps even if asked, as nearly as whole steps allow.
     fn ordered(&self, mut turns: Turns) -> Turns {
         let count = turns.len();
         for knob in 0..self.limits.len() {
@@ -164,7 +176,7 @@ impl Search<'_> {
         turns
     }
 
-    /// A series with every turn moved at random.
+    /// Perturbs every turn of a series at random.
     fn shaken(&self, turns: &Turns, random: &mut Draw) -> Turns {
         let by = |turn: i32, knob: usize, random: &mut Draw| {
             let [least, most] = self.limits[knob];
@@ -174,8 +186,8 @@ impl Search<'_> {
         self.ordered(shaken.collect())
     }
 
-    /// Goes along all lines as long as that is worth more.
-    fn improved(&self, mut turns: Turns) -> (f64, Turns) {
+    /// Optimises along all lines until a pass brings no gain.
+    fn improved(&self, mut turns: Turns) -> Candidate {
         let lines = self.lines(turns.len());
         let mut worth = self.worth(&turns);
         for _ in 0..ROUNDS {
@@ -192,12 +204,12 @@ impl Search<'_> {
                 break;
             }
         }
-        // Counted anew: at the very end of a stretch a place may fit by rounding only.
-        (self.worth(&turns), turns)
+        // Evaluated again: at the very end of an interval a person may be fitted by rounding only.
+        Candidate { worth: self.worth(&turns), turns }
     }
 
-    /// The ways to go: one knob or two of one size, or a knob of all sizes from one on; of an even series all of them, or all
-    /// about one of them.
+    /// Search directions. In a rising series: one knob or two of one size, and one knob of all sizes from one on. In an
+    /// even series: one knob of all sizes, and the step of one knob about each of the sizes.
     fn lines(&self, count: usize) -> Vec<Turns> {
         let knobs = self.limits.len();
         let still = vec![vec![0; knobs]; count];
@@ -227,32 +239,33 @@ impl Search<'_> {
         lines
     }
 
-    /// What is to be had along a line, and how far to go for it: of all best places the middle of the longest stretch.
+    /// Greatest objective along a line, and the number of steps along it. Among equal points it takes the middle of the
+    /// longest interval.
     fn along(&self, turns: &Turns, line: &Turns) -> (f64, i32) {
         let [least, most] = self.reach(turns, line);
         let mut steps = vec![0; (most - least + 2) as usize];
         let moves: Vec<bool> = line.iter().map(|way| way.iter().any(|by| *by != 0)).collect();
         let mut always = 0;
-        let mut stretches: Vec<[i32; 2]> = Vec::with_capacity(turns.len());
+        let mut intervals: Vec<[i32; 2]> = Vec::with_capacity(turns.len());
         for person in 0..self.people() {
             if (0..turns.len()).any(|size| !moves[size] && self.fits(size, person, &turns[size])) {
                 always += 1;
                 continue;
             }
-            stretches.clear();
+            intervals.clear();
             for size in (0..turns.len()).filter(|size| moves[*size]) {
-                let mut stretch = [least, most];
+                let mut interval = [least, most];
                 for asked in &self.asks[size][person] {
-                    narrow(&mut stretch, asked, &turns[size], &line[size]);
+                    narrow(&mut interval, asked, &turns[size], &line[size]);
                 }
-                if stretch[0] <= stretch[1] {
-                    stretches.push(stretch);
+                if interval[0] <= interval[1] {
+                    intervals.push(interval);
                 }
             }
-            // Each person counts once, whatever of their stretches overlap.
-            stretches.sort_unstable();
+            // Each person counts once, however their intervals overlap.
+            intervals.sort_unstable();
             let mut end = least - 1;
-            for &[from, to] in &stretches {
+            for &[from, to] in &intervals {
                 let from = from.max(end + 1);
                 if from <= to {
                     steps[(from - least) as usize] += 1;
@@ -264,21 +277,22 @@ impl Search<'_> {
         let mut people = always;
         let worths = (least..=most).zip(&steps).map(|(by, step)| {
             people += step;
-            let at = |(turns, way): (&Vec<i32>, &Vec<i32>)| -> Vec<i32> {
+            let moved = |(turns, way): (&Vec<i32>, &Vec<i32>)| -> Vec<i32> {
                 turns.iter().zip(way).map(|(turn, way)| turn + by * way).collect()
             };
-            let departure: f64 = turns.iter().zip(line).map(at).map(|size| self.departure(&size)).sum();
+            let departure: f64 = turns.iter().zip(line).map(moved).map(|size| self.departure(&size)).sum();
             f64::from(people) - self.price * departure
         });
         let (worth, by) = longest_best(worths);
         (worth, least + by)
     }
 
-    /// How far one may go along a line either way: within the limits, and while no knob turns back from size to size.
+    /// Least and greatest number of steps along a line, within the limits and such that no knob turns back from size to
+    /// size.
     fn reach(&self, turns: &Turns, line: &Turns) -> [i32; 2] {
         let mut reach = [i32::MIN, i32::MAX];
         let mut keep = |room: i32, way: i32| match way.signum() {
-            // `room + t way` stays at least 0.
+            // `room + t way` must stay at least 0.
             1 => reach[0] = reach[0].max(-(room.max(0) / way)),
             -1 => reach[1] = reach[1].min(room.max(0) / -way),
             _ => {}
@@ -297,33 +311,33 @@ impl Search<'_> {
     }
 }
 
-/// Whether a size is all that somebody asks of it.
+/// True if a size has every length in its band.
 #[must_use]
 pub fn is_met(asks: &Asks, turns: &[i32]) -> bool {
     asks.iter().all(|asked| (asked.band[0]..=asked.band[1]).contains(&asked.change(turns)))
 }
 
-/// The better of two, the first of equals.
-fn better(one: Option<(f64, Turns)>, other: (f64, Turns)) -> Option<(f64, Turns)> {
-    one.filter(|one| one.0 >= other.0).or(Some(other))
+/// The better of two candidates, the first of equal ones.
+fn better(best: Option<Candidate>, next: Candidate) -> Option<Candidate> {
+    best.filter(|best| best.worth >= next.worth).or(Some(next))
 }
 
-/// Keeps of a stretch along a line what leaves a length in its band.
-fn narrow(stretch: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
+/// Intersects an interval along a line with the steps that leave a length in its band.
+fn narrow(interval: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
     let (value, by) = (asked.change(turns), asked.change(way));
     let [least, most] = asked.band.map(|bound| bound - value);
     if by == 0.0 {
         if least > 0.0 || most < 0.0 {
-            *stretch = [1, 0];
+            *interval = [1, 0];
         }
         return;
     }
     let [from, to] = if by > 0.0 { [least / by, most / by] } else { [most / by, least / by] };
-    // Casts saturate, and the stretch has its own ends.
-    *stretch = [stretch[0].max(from.ceil() as i32), stretch[1].min(to.floor() as i32)];
+    // Casts saturate, and the interval is bounded already.
+    *interval = [interval[0].max(from.ceil() as i32), interval[1].min(to.floor() as i32)];
 }
 
-/// The greatest of some values, and the middle of the longest run that has it.
+/// Greatest of some values, and the index in the middle of the longest run of it.
 fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
     let (mut best, mut run, mut length) = (f64::NEG_INFINITY, 0, 0);
     let mut open: Option<usize> = None;
@@ -346,7 +360,7 @@ fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
 mod tests {
     use super::*;
 
-    /// People who ask of one length each that it lies between two places.
+    /// People who each need one length between two places.
     fn on_a_line(bands: &[[f64; 2]]) -> Vec<Asks> {
         bands.iter().map(|band| vec![Asked { per_step: vec![1.0], band: *band }]).collect()
     }
@@ -392,7 +406,7 @@ mod tests {
         }
     }
 
-    /// People in groups, each about its own place among two knobs that both change both lengths.
+    /// People in groups, each about its own turns of two knobs, which both change both lengths.
     fn groups(middles: &[[f64; 2]], half: f64) -> Vec<Asks> {
         let mut random = Draw::new(3);
         let mut person = |middle: &[f64; 2]| -> Asks {
@@ -459,7 +473,7 @@ mod tests {
         let asks = vec![vec![impossible, possible]];
         let search = Search { asks: &asks, limits: &[[0, 8]], habits: &[1.0], price: 0.0, series: Series::Rising };
         let found = search.best(1);
-        // The middle of the stretch that the limit leaves.
+        // The middle of the interval that the limit leaves.
         assert_eq!((search.covered(&found), found), (1, vec![vec![6]]));
     }
 }

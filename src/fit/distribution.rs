@@ -1,4 +1,4 @@
-//! The normal and Student's t distribution.
+//! Normal and Student's t distribution.
 
 /// Standard normal distribution function: a series near 0 [Marsaglia 2004], a continued fraction in the tails.
 pub(super) fn normal(x: f64) -> f64 {
@@ -32,7 +32,7 @@ pub(super) fn student(t: f64, dof: usize) -> f64 {
     0.5 + 0.5 * between
 }
 
-/// Quantile of Student's t: the value that a share `p` of the distribution lies below, by bisection.
+/// Quantile of Student's t, the value below which lies a share `p` of the distribution, by bisection.
 pub(super) fn student_quantile(p: f64, dof: usize) -> f64 {
     let (mut low, mut high) = (-1.0, 1.0);
     while student(low, dof) > p && low > -1e12 {

@@ -1,13 +1,13 @@
-//! Ease at the levels of a body, and the fit class that the least of it means [T 6.2.3].
+//! Ease at the levels of a body, and the fit class that it means [T 6.2.3].
 
 use super::class::FitClass;
 
-/// Where the fit classes meet, and the bands around the cuts in which the thesis's own ranges overlap; metres of ease.
+/// Limits between the fit classes, m of ease.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Cuts {
-    /// Below it a fit is tight.
+    /// Ease below which a fit is tight.
     pub tight_below_m: f64,
-    /// Above it a fit is loose.
+    /// Ease above which a fit is loose.
     pub loose_above_m: f64,
 }
 
@@ -30,7 +30,8 @@ impl Cuts {
         }
     }
 
-    /// Whether an ease lies where the thesis's printed ranges overlap: up to 1 cm under the lower cut, up to 2 cm over the upper.
+    /// True if an ease lies where the ranges printed in the thesis overlap: up to 1 cm below the lower limit, up to 2
+    /// cm above the upper one.
     #[must_use]
     pub fn is_borderline(&self, ease_m: f64) -> bool {
         (self.tight_below_m - 0.01..self.tight_below_m).contains(&ease_m)
@@ -49,7 +50,7 @@ pub struct Ease {
     pub body_girth_m: f64,
     /// Fit class of that ease.
     pub class: FitClass,
-    /// Whether the ease lies in an overlap of the thesis's ranges.
+    /// True if the ease lies in an overlap of the thesis's ranges.
     pub borderline: bool,
 }
 
@@ -60,30 +61,15 @@ impl Ease {
         self.pattern_girth_m - self.body_girth_m
     }
 
-    /// Whether the pattern is smaller than the body.
+    /// True if the pattern is smaller than the body.
     #[must_use]
     pub fn is_undersized(&self) -> bool {
         self.ease_m() < 0.0
     }
 }
 
-/// Ease at each of a garment's fit levels, given by name and pattern girth, m; levels whose body girth is unknown are
+/// Ease at each of a garment's fit levels, given by name and pattern girth, m. Levels whose body girth is unknown are
 /// left out.
-///
-/// # Examples
-/// ```
-/// use fit::{Cuts, FitClass, ease};
-///
-/// let pattern = [("chest", 1.034), ("hip", 1.034), ("knee", 0.5)];
-/// let body = |level: &str| match level {
-///     "chest" => Some(0.956),
-///     "hip" => Some(1.024),
-///     _ => None,
-/// };
-/// let found = ease(pattern, body, &Cuts::default());
-/// assert_eq!([found[0].class, found[1].class], [FitClass::Just, FitClass::Tight]);
-/// assert!(found.len() == 2 && !found[1].is_undersized());
-/// ```
 #[must_use]
 pub fn ease<'l>(
     levels: impl IntoIterator<Item = (&'l str, f64)>,

@@ -1,4 +1,4 @@
-//! Measures (thesis 3.5, 6.2.5): how true a drape stays to its pattern.
+//! Fidelity of a drape to its pattern [T 3.5, 6.2.5].
 
 use geom::V3;
 use pattern::{Garment, Measurement};
@@ -6,7 +6,7 @@ use pattern::{Garment, Measurement};
 /// One measurement of one drape.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Chi {
-    /// Number in the style.
+    /// Number of the measurement in the style.
     pub no: u32,
     /// Pattern length L2D, m.
     pub l2d_m: f64,
@@ -22,7 +22,7 @@ impl Chi {
     }
 }
 
-/// Summary over the measurements of one drape.
+/// Summary statistics over the measurements of one drape.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
     /// Number of measurements.
@@ -57,11 +57,11 @@ pub struct Metrics {
 /// ```
 #[must_use]
 pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
-    let of = |m: &Measurement| Chi { no: m.no, l2d_m: m.l2d_m, l3d_m: m.length_m(&garment.rest, positions) };
-    garment.measurements.iter().map(of).collect()
+    let chi = |m: &Measurement| Chi { no: m.no, l2d_m: m.l2d_m, l3d_m: m.length_m(&garment.rest, positions) };
+    garment.measurements.iter().map(chi).collect()
 }
 
-/// E, SD, EI and the greatest error of a set of measurements; `None` when there are none.
+/// E, SD, EI and the greatest error of a set of measurements. `None` when there are none.
 #[must_use]
 pub fn metrics(chis: &[Chi]) -> Option<Metrics> {
     if chis.is_empty() {

@@ -1,11 +1,11 @@
-//! What a movement does to the openings of a garment: a hem rises, a cuff is drawn up the arm.
+//! Displacement of a garment's openings by a movement: a hem rises, a cuff is drawn up the arm.
 
 use geom::V3;
 use nalgebra::Matrix3;
 use pattern::{Garment, Measurement, MeasurementKind};
 
-/// How far an opening was drawn along the body, into the garment: a hem upwards, a cuff towards the shoulder, a neckline downwards. What went
-/// the other way is below 0.
+/// Displacement of an opening along the body, positive into the garment: of a hem upwards, of a cuff towards the
+/// shoulder, of a neckline downwards.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Drawn {
     /// Name of the measurement along the opening.
@@ -16,7 +16,8 @@ pub struct Drawn {
     pub most_m: f64,
 }
 
-/// How far each closed free edge was drawn. The garment's vertices lie at `after`; at `kept` they would have kept their places on the body.
+/// Displacement of each closed free edge. The garment's vertices lie at `after`. They would lie at `kept` had they kept
+/// their places on the body.
 #[must_use]
 pub fn drawn(garment: &Garment, kept: &[V3], after: &[V3]) -> Vec<Drawn> {
     let is_opening = |m: &&Measurement| m.is_free_edge && m.kind == MeasurementKind::ClosedGirth;
@@ -42,7 +43,7 @@ fn mean(points: impl Iterator<Item = V3> + Clone) -> V3 {
     points.sum::<V3>() / count
 }
 
-/// Normal of the plane nearest to some points, towards `middle`.
+/// Normal of the least-squares plane of some points, on the side of `middle`.
 fn axis(points: &[V3], middle: V3) -> V3 {
     let centre = mean(points.iter().copied());
     let spread: Matrix3<f64> = points.iter().map(|p| (p - centre) * (p - centre).transpose()).sum();
@@ -61,11 +62,11 @@ mod tests {
         // A ring of eight vertices about an axis, and the rest of the garment beyond it.
         let ring = |along: V3, across: V3| -> Vec<V3> {
             let third = along.cross(&across);
-            let at = |k: u32| {
+            let point = |k: u32| {
                 let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
                 across * (0.1 * cos) + third * (0.1 * sin)
             };
-            (0..8).map(at).chain([along * 0.3]).collect()
+            (0..8).map(point).chain([along * 0.3]).collect()
         };
         let points = (0..8).map(|v| MaterialPoint { vertices: [v; 3], weights: [1.0, 0.0, 0.0] }).collect();
         let opening = Measurement {

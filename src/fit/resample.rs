@@ -1,24 +1,25 @@
-//! Tests and intervals that assume no distribution: signs flipped, subjects drawn again.
+//! Distribution-free tests and intervals: the sign-flip test and the bootstrap over subjects.
 
 use super::distribution::{normal, student_quantile};
 
-/// Subjects up to which every assignment of signs is looked at; of more, [`DRAWS`] are drawn.
+/// Number of subjects up to which all assignments of signs are enumerated: about a million. Beyond it, [`DRAWS`] of
+/// them are drawn.
 const EXACT: usize = 20;
-/// Random draws of signs or of subjects.
+/// Number of random draws of signs or of subjects: 10,000 with the observed one.
 const DRAWS: usize = 9999;
 
-/// Numbers that look random and are the same every time [Steele 2014: SplitMix64].
+/// Pseudo-random numbers, the same for the same seed [Steele 2014: SplitMix64].
 #[derive(Clone, Debug)]
 pub struct Draw(u64);
 
 impl Draw {
-    /// A sequence of its own for every seed.
+    /// Sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next 64 bits of the sequence, all values equally likely.
+    /// Next 64 bits of the sequence, uniformly distributed.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -27,17 +28,17 @@ impl Draw {
         z ^ (z >> 31)
     }
 
-    /// A whole number below `n`.
+    /// Uniform whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
-    /// 0 to 1, neither of them.
+    /// Uniform number between 0 and 1, both excluded.
     pub fn share(&mut self) -> f64 {
         ((self.bits() >> 11) as f64 + 0.5) / (1u64 << 53) as f64
     }
 
-    /// Normally distributed, mean 0 and standard deviation 1 [Box and Muller 1958].
+    /// Standard normal number [Box and Muller 1958].
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * self.share().ln()).sqrt();
         radius * (std::f64::consts::TAU * self.share()).cos()
@@ -46,8 +47,9 @@ impl Draw {
 
 /// Two-sided p of the sign-flip test [Fisher 1935, section 21].
 ///
-/// It is the share of all assignments of signs to the differences whose sum is at least as far from 0 as theirs. It is
-/// exact for up to 20 differences and estimated by seeded draws beyond; without differences it is 1.
+/// It is the share of all assignments of signs to the differences whose absolute sum is at least that of the
+/// differences themselves. It is exact for up to 20 differences, and estimated by seeded draws beyond. Without
+/// differences it is 1.
 #[must_use]
 pub fn sign_flip(differences: &[f64]) -> f64 {
     let n = differences.len();
@@ -65,7 +67,7 @@ pub fn sign_flip(differences: &[f64]) -> f64 {
     let assignments = 1_u64 << n;
     let mut turned = sum;
     let mut extreme = u64::from(turned.abs() >= reached);
-    // A Gray code: each assignment differs from the one before in one sign.
+    // In a Gray code each assignment differs from the one before in one sign.
     for step in 1..assignments {
         let place = step.trailing_zeros() as usize;
         let now_negative = (step ^ (step >> 1)) >> place & 1 == 1;
@@ -75,9 +77,9 @@ pub fn sign_flip(differences: &[f64]) -> f64 {
     extreme as f64 / assignments as f64
 }
 
-/// Bootstrap interval of the mean of subjects' values that covers a share `1 - alpha`: percentiles of the means of
-/// subjects drawn with replacement, taken as far out as the smallness of the sample asks for [Hesterberg 2015, expanded
-/// percentiles]. Seeded, so that the same values give the same interval. `None` of fewer than two values.
+/// Bootstrap interval of the mean of subjects' values with coverage `1 - alpha`: expanded percentiles of the means of
+/// subjects drawn with replacement [Hesterberg 2015]. It is seeded, so that the same values give the same interval.
+/// `None` of fewer than two values.
 #[must_use]
 pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
     let share = share(values.len(), alpha)?;
@@ -86,14 +88,15 @@ pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
     Some((quantile(&means, share), quantile(&means, 1.0 - share)))
 }
 
-/// The percentile that stands for `alpha / 2` in a sample of `n`: as far out as Student's t and the divisor n - 1.
+/// Expanded percentile that replaces `alpha / 2` in a sample of `n`. It corrects for Student's t and for the divisor n
+/// - 1.
 pub(super) fn share(n: usize, alpha: f64) -> Option<f64> {
     let dof = n.checked_sub(1).filter(|&dof| dof > 0)?;
     let expand = (n as f64 / dof as f64).sqrt();
     Some(normal(expand * student_quantile(alpha / 2.0, dof)))
 }
 
-/// A statistic of `n` subjects drawn with replacement, again and again; the drawn subjects are given by their index.
+/// Values of a statistic over [`DRAWS`] samples of `n` subjects with replacement, given by their indices.
 pub(super) fn bootstrap(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) -> Vec<f64> {
     let mut draw = Draw::new(0xb007);
     let mut drawn = vec![0; n];
@@ -104,7 +107,7 @@ pub(super) fn bootstrap(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) ->
     (0..DRAWS).map(once).collect()
 }
 
-/// Quantile of sorted values, linear between them.
+/// Quantile of sorted values by linear interpolation.
 pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share.clamp(0.0, 1.0) * (sorted.len().saturating_sub(1)) as f64;
     let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
@@ -116,7 +119,7 @@ mod tests {
     use super::super::statistics::{mean, sd};
     use super::*;
 
-    /// Darwin's maize: eighths of an inch by which the crossed plant of each pair is the taller [Fisher 1935].
+    /// Darwin's maize: excess height of the crossed plant of each pair, eighths of an inch [Fisher 1935].
     const MAIZE: [f64; 15] = [49.0, -67.0, 8.0, 16.0, 6.0, 23.0, 28.0, 41.0, 14.0, 29.0, 56.0, 24.0, 75.0, 60.0, -48.0];
 
     #[test]
@@ -125,7 +128,7 @@ mod tests {
         // Ernst 2004, Permutation methods, Statistical Science 19(4)].
         assert_eq!(sign_flip(&MAIZE) * 32_768.0, 2.0 * 863.0);
         assert!((100.0 * sign_flip(&MAIZE) - 5.267).abs() < 5e-4);
-        // Twice as many plants, drawn: as rare as the normal approximation says.
+        // Twice as many plants, so that signs are drawn. The p is that of the normal approximation.
         let twice: Vec<f64> = MAIZE.iter().chain(&MAIZE).copied().collect();
         let spread = (2.0 * MAIZE.iter().map(|d| d * d).sum::<f64>()).sqrt();
         let near = 2.0 * normal(-twice.iter().sum::<f64>() / spread);

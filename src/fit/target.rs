@@ -1,8 +1,8 @@
-//! The ease that an intended fit asks for at each level.
+//! Target ease of an intended fit at each level.
 
 use std::collections::BTreeMap;
 
-/// How a garment is meant to sit.
+/// Intended fit of a garment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Intended {
@@ -18,7 +18,7 @@ pub enum Intended {
 }
 
 impl Intended {
-    /// All, the closest first.
+    /// All intended fits, the closest first.
     pub const ALL: [Self; 4] = [Self::Compression, Self::Slim, Self::Regular, Self::Loose];
 
     /// Name in study files and SQL.
@@ -39,12 +39,12 @@ impl Intended {
     }
 }
 
-/// A level of the body at which a garment may have a target.
+/// Target ease at a level of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TargetLevel {
     /// Name of the level.
     pub level: &'static str,
-    /// Whether the row is for garments that cover the chest; `None`: for all.
+    /// `Some(true)` if it applies to garments that cover the chest only, `Some(false)` to others only, `None` to all.
     pub of_top: Option<bool>,
     /// Least and greatest ease of each intended fit, mm.
     eases_mm: [[i32; 2]; 4],
@@ -58,66 +58,66 @@ impl TargetLevel {
     }
 }
 
-/// Least and greatest ease by level and fit. Chest and hip begin and end where the fit classes do [T 6.2.3]; the others have the
-/// share of a girth that those have, and what a limb needs to bend (docs/fit.md).
+/// Target eases by level and fit. Chest and hip begin and end where the fit classes do [T 6.2.3]. The others are the
+/// same share of the girth, and on limbs allow for bending (docs/fit.md).
 pub const TARGETS: [TargetLevel; 12] = [
-    of("across_shoulder", None, [[-20, 5], [-10, 20], [0, 50], [20, 140]]),
-    of("chest", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
-    of("underbust", None, [[-150, -20], [20, 110], [50, 200], [100, 380]]),
-    of("waist", Some(true), [[-150, -20], [20, 130], [50, 230], [100, 420]]),
-    of("waist", Some(false), [[-80, -10], [0, 20], [0, 40], [20, 80]]),
-    of("hip", None, [[-150, -30], [10, 60], [40, 120], [100, 320]]),
-    of("thigh", None, [[-90, -15], [15, 60], [40, 120], [100, 280]]),
-    of("knee", None, [[-60, -10], [20, 80], [50, 160], [120, 340]]),
-    of("upper_arm", None, [[-60, -10], [20, 80], [40, 180], [140, 340]]),
-    of("forearm", None, [[-50, -10], [20, 80], [40, 160], [110, 320]]),
-    of("wrist", None, [[-25, 0], [10, 50], [20, 100], [40, 200]]),
-    of("bust", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
+    row("across_shoulder", None, [[-20, 5], [-10, 20], [0, 50], [20, 140]]),
+    row("chest", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
+    row("underbust", None, [[-150, -20], [20, 110], [50, 200], [100, 380]]),
+    row("waist", Some(true), [[-150, -20], [20, 130], [50, 230], [100, 420]]),
+    row("waist", Some(false), [[-80, -10], [0, 20], [0, 40], [20, 80]]),
+    row("hip", None, [[-150, -30], [10, 60], [40, 120], [100, 320]]),
+    row("thigh", None, [[-90, -15], [15, 60], [40, 120], [100, 280]]),
+    row("knee", None, [[-60, -10], [20, 80], [50, 160], [120, 340]]),
+    row("upper_arm", None, [[-60, -10], [20, 80], [40, 180], [140, 340]]),
+    row("forearm", None, [[-50, -10], [20, 80], [40, 160], [110, 320]]),
+    row("wrist", None, [[-25, 0], [10, 50], [20, 100], [40, 200]]),
+    row("bust", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
 ];
 
-const fn of(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4]) -> TargetLevel {
+const fn row(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4]) -> TargetLevel {
     TargetLevel { level, of_top, eases_mm }
 }
 
-/// What ease a garment is to have.
+/// Target ease of a garment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Fit that the maker intends, which gives the ease of levels without their own.
+    /// Fit that the maker intends. It gives the ease of levels that are not in `own_m`.
     pub intended: Intended,
-    /// Least and greatest ease of levels at which the garment has others, m.
+    /// Least and greatest ease of levels for which the garment has its own, m.
     pub own_m: BTreeMap<String, [f64; 2]>,
 }
 
 impl Target {
-    /// Least and greatest ease at a level, m; `None` where none is meant, as at the neckline of a garment without a collar.
-    /// `is_top` tells whether the garment covers the chest.
+    /// Least and greatest ease at a level, m. `None` where there is no target, as at the neckline of a garment without
+    /// a collar. `is_top` tells whether the garment covers the chest.
     #[must_use]
     pub fn band_m(&self, level: &str, is_top: bool) -> Option<[f64; 2]> {
-        let is_it = |row: &&TargetLevel| row.level == level && row.of_top.is_none_or(|of_top| of_top == is_top);
+        let is_asked = |row: &&TargetLevel| row.level == level && row.of_top.is_none_or(|of_top| of_top == is_top);
         let table = || {
-            TARGETS.iter().find(is_it).map(|row| row.eases_mm[self.intended as usize].map(|mm| 1e-3 * f64::from(mm)))
+            TARGETS.iter().find(is_asked).map(|row| row.eases_mm[self.intended as usize].map(|mm| 1e-3 * f64::from(mm)))
         };
         self.own_m.get(level).copied().or_else(table)
     }
 }
 
-/// How far outside its band an ease lies, m: negative where too tight.
+/// Departure of an ease from its band, m. It is negative where the garment is too tight.
 #[must_use]
 pub fn off_m(ease_m: f64, [least, most]: [f64; 2]) -> f64 {
     (ease_m - least).min(0.0) + (ease_m - most).max(0.0)
 }
 
-/// What that counts, m: what is too tight double, since it cannot be worn (`v_fit.weight_mm`).
+/// Weighted departure, m. Too tight counts double, since it cannot be worn (`v_fit.weight_mm`).
 #[must_use]
 pub fn weight_m(off_m: f64) -> f64 {
     if off_m < 0.0 { -2.0 * off_m } else { off_m }
 }
 
-/// A grade step, m of girth: that of the drafted styles from S to M and from M to L, as letter sizes are graded.
+/// Grade step, m of girth: the step of the drafted letter sizes from S to M and from M to L.
 pub const GRADE_STEP_M: f64 = 0.06;
 
-/// Whether a size may be worn whose worst level counts so much, m: within a grade step. Farther out the next size of the same grade
-/// would lie nearer, and there is none: the sizes do not reach this body.
+/// True if a size whose worst level has this weighted departure, m, may be worn. Beyond a grade step the next size of
+/// the same grade would lie nearer. As there is none, the sizes do not reach this body.
 #[must_use]
 pub fn is_within_reach(weight_m: f64) -> bool {
     weight_m <= GRADE_STEP_M
@@ -163,7 +163,7 @@ mod tests {
         check(0.1, true);
         check(0.29, true);
         check(0.351, false);
-        // What is too tight counts double.
+        // Too tight counts double.
         check(0.021, true);
         check(0.019, false);
     }

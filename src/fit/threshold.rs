@@ -1,4 +1,4 @@
-//! The ease at which the simulators change places, learned from the cases.
+//! Ease above which FEM-GS is the truer simulator, by linear regression over the cases.
 
 use std::collections::BTreeMap;
 
@@ -6,18 +6,29 @@ use super::ALPHA;
 use super::pair::Pair;
 use super::resample::{bootstrap, quantile, share};
 
-/// A straight line through EI difference against ease, and where it meets 0.
+/// Ease at which the EI difference is 0, with its interval at 95 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrossoverEase {
+    /// Estimate, m.
+    pub at_m: f64,
+    /// Lower end of the interval, m.
+    pub low_m: f64,
+    /// Upper end of the interval, m.
+    pub high_m: f64,
+}
+
+/// Regression line of the EI difference on ease, and its zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossover {
-    /// EI difference at no ease.
+    /// EI difference at an ease of 0.
     pub at_zero: f64,
-    /// Change of the EI difference with ease, 1/m; below 0 where FEM-GS gains with ease.
+    /// Change of the EI difference with ease, 1/m. It is below 0 where FEM-GS gains with ease.
     pub slope_per_m: f64,
-    /// Its interval at 95 %, subjects drawn again.
+    /// Bootstrap interval of the slope over subjects at 95 %.
     pub slope_interval: (f64, f64),
-    /// Ease above which FEM-GS is the truer, m, and its interval at 95 %; `None` where the slope is not surely below 0, so
-    /// that no ease can be told.
-    pub ease: Option<(f64, f64, f64)>,
+    /// Ease above which FEM-GS is truer. `None` where the interval of the slope reaches 0, since the zero is then
+    /// undetermined.
+    pub ease: Option<CrossoverEase>,
     /// Least and greatest ease of the cases, m.
     pub range_m: (f64, f64),
 }
@@ -27,7 +38,7 @@ impl std::fmt::Display for Crossover {
         let (low, high) = self.slope_interval;
         let mm = |metres: f64| 1e3 * metres;
         match self.ease {
-            Some((at, from, to)) => {
+            Some(CrossoverEase { at_m: at, low_m: from, high_m: to }) => {
                 write!(f, "FEM-GS is the truer above {:+.0} mm of ease ({:+.0} to {:+.0})", mm(at), mm(from), mm(to))?;
                 if !(self.range_m.0..=self.range_m.1).contains(&at) {
                     let (least, most) = (mm(self.range_m.0), mm(self.range_m.1));
@@ -48,8 +59,8 @@ impl std::fmt::Display for Crossover {
     }
 }
 
-/// Fits the line by least squares over the cases, each subject's drawn together. `None` of fewer than three subjects or
-/// where all eases are the same.
+/// Fits the line by least squares over the cases, and its intervals by a bootstrap over subjects. `None` of fewer than
+/// three subjects or where all eases are the same.
 #[must_use]
 pub fn crossover(pairs: &[&Pair]) -> Option<Crossover> {
     let mut cases: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
@@ -78,7 +89,11 @@ pub fn crossover(pairs: &[&Pair]) -> Option<Crossover> {
         at_zero,
         slope_per_m,
         slope_interval,
-        ease: (slope_interval.1 < 0.0).then_some((-at_zero / slope_per_m, low, high)),
+        ease: (slope_interval.1 < 0.0).then_some(CrossoverEase {
+            at_m: -at_zero / slope_per_m,
+            low_m: low,
+            high_m: high,
+        }),
         range_m: (eases().fold(f64::INFINITY, f64::min), eases().fold(f64::NEG_INFINITY, f64::max)),
     })
 }
@@ -121,7 +136,7 @@ mod tests {
         let ease = |k: usize| 0.02 * k as f64;
         let pairs: Vec<Pair> = (0..10).map(|k| pair(k, ease(k), 0.02 - 0.25 * ease(k) + wobble(k))).collect();
         let found = crossover(&pairs.iter().collect::<Vec<_>>()).expect("ten subjects");
-        let (at, low, high) = found.ease.expect("a sure slope");
+        let CrossoverEase { at_m: at, low_m: low, high_m: high } = found.ease.expect("a sure slope");
         assert!((at - 0.08).abs() < 0.01 && low < at && at < high && high - low < 0.04, "{found:?}");
         assert!(found.slope_interval.0 < -0.25 && -0.25 < found.slope_interval.1, "{found:?}");
         assert_eq!(found.range_m, (0.0, 0.18));

@@ -1,32 +1,40 @@
-//! Weighs one answer: which condition of a verdict holds, which does not, and what that leaves to say.
+//! Decides one answer: the conditions of a verdict in turn, and the words for the one that decides.
 
 use super::analysis::{Analysis, CONTROLLED, Estimate};
 use super::class::{FitClass, Simulator};
 use super::distribution::student_quantile;
-use super::judge::Finding;
+use super::finding::Finding;
 use super::{ALPHA, MARGIN};
 
-/// Fewest subjects of which the sign-flip test can reach [`ALPHA`]: 2^(1 - 6) = 0.031.
+/// Fewest subjects with which the two-sided sign-flip test can reach [`ALPHA`]: its least p is 2^(1 - 6) = 0.031.
 pub(super) const LEAST: usize = 6;
-/// Fewest subjects of which a one-sided sign-flip test can: 2^-5 = 0.031. Equivalence is two of those.
+/// Fewest subjects with which a one-sided sign-flip test can: its least p is 2^-5 = 0.031. The test of equivalence
+/// consists of two of those.
 const LEAST_EQUAL: usize = 5;
-/// Subjects beyond which nobody asks how many more it would take.
+/// Judgement: number of subjects beyond which the exact number that is missing is not of interest.
 const MOST: usize = 200;
 
-/// All that decides one answer.
+/// A finding with its reason and the further data that would settle or reverse it.
+pub(super) struct Verdict {
+    pub finding: Finding,
+    pub reason: String,
+    pub would_settle: String,
+}
+
+/// Statistics that decide one answer.
 pub(super) struct Weighed<'a> {
     pub analysis: &'a Analysis,
-    /// p after Holm, where there are subjects enough.
+    /// Holm-adjusted p. `None` with too few subjects.
     pub p_holm: Option<f64>,
-    /// Held-out regret of the own choice and of one simulator for the whole study.
+    /// Held-out regret of the answer's own choice, and of one simulator for the whole study.
     pub regret: Option<[f64; 2]>,
-    /// Answers tested together.
+    /// Number of answers tested together.
     pub family: usize,
 }
 
 impl Weighed<'_> {
-    /// The finding, why, and what would settle or flip it.
-    pub fn decide(&self, class: FitClass) -> (Finding, String, String) {
+    /// Decides on the finding, with its reason and what would settle or reverse it.
+    pub fn decide(&self, class: FitClass) -> Verdict {
         let n = self.analysis.subjects.len();
         let Some(estimate) = self.analysis.estimate.filter(|estimate| n >= least(estimate)) else {
             return self.too_few();
@@ -43,11 +51,11 @@ impl Weighed<'_> {
         self.beyond(&estimate, class)
     }
 
-    fn abstain(&self, reason: String) -> (Finding, String, String) {
-        (Finding::InsufficientEvidence, reason, self.more_subjects())
+    fn abstain(&self, reason: String) -> Verdict {
+        Verdict { finding: Finding::InsufficientEvidence, reason, would_settle: self.more_subjects() }
     }
 
-    fn too_few(&self) -> (Finding, String, String) {
+    fn too_few(&self) -> Verdict {
         let n = self.analysis.subjects.len();
         let reason = match (n, self.analysis.estimate) {
             (0, _) | (_, None) => "No subject has a converged result of both simulators with this fit".to_owned(),
@@ -59,7 +67,7 @@ impl Weighed<'_> {
     }
 
     /// The interval lies within the margin.
-    fn within(&self, estimate: &Estimate, class: FitClass) -> (Finding, String, String) {
+    fn within(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if estimate.p_equivalence.is_none_or(|p| p > ALPHA) {
             return self
@@ -71,23 +79,25 @@ impl Weighed<'_> {
                 rest.what,
                 ei(rest.mean)
             );
-            return (Finding::InsufficientEvidence, reason, format!("Agreement on whether {} counts.", rest.what));
+            let would_settle = format!("Agreement on whether {} counts.", rest.what);
+            return Verdict { finding: Finding::InsufficientEvidence, reason, would_settle };
         }
         let rule = simulator_name(class.rule_says());
         let reason = format!(
             "{said}, all of it within {MARGIN} (equivalence p {}): no practical difference. {rule} by the rule.",
             p_words(estimate.p_equivalence)
         );
-        (Finding::NoDifference, reason, format!("A margin below {:.4} would turn it.", self.reach(estimate)))
+        let would_settle = format!("A margin below {:.4} would turn it.", self.reach(estimate));
+        Verdict { finding: Finding::NoDifference, reason, would_settle }
     }
 
-    /// The greatest difference that the interval holds.
+    /// Greatest absolute difference in the interval.
     fn reach(&self, estimate: &Estimate) -> f64 {
         estimate.interval.map_or(estimate.mean.abs(), |(low, high)| low.abs().max(high.abs()))
     }
 
     /// The interval lies beyond the margin.
-    fn beyond(&self, estimate: &Estimate, class: FitClass) -> (Finding, String, String) {
+    fn beyond(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if self.p_holm.is_none_or(|p| p > ALPHA) {
             let p = p_words(self.p_holm);
@@ -99,20 +109,17 @@ impl Weighed<'_> {
                 rest.what,
                 ei(rest.mean)
             );
-            return (
-                Finding::InsufficientEvidence,
-                reason,
-                format!("Agreement on whether {} counts; more subjects would not.", rest.what),
-            );
+            let would_settle = format!("Agreement on whether {} counts; more subjects would not.", rest.what);
+            return Verdict { finding: Finding::InsufficientEvidence, reason, would_settle };
         }
         if estimate.mean > 0.0
             && let Some(reason) = self.circular()
         {
-            return (
-                Finding::InsufficientEvidence,
-                format!("{said}, but {reason}"),
-                "Measurements that no simulator sets.".into(),
-            );
+            return Verdict {
+                finding: Finding::InsufficientEvidence,
+                reason: format!("{said}, but {reason}"),
+                would_settle: "Measurements that no simulator sets.".into(),
+            };
         }
         if let Some([own, constant]) = self.regret.filter(|[own, constant]| *own > constant + 1e-12) {
             let reason =
@@ -129,10 +136,11 @@ impl Weighed<'_> {
             simulator_name(truer),
             told(estimate)
         );
-        (finding, reason, self.nearest_to_turning())
+        Verdict { finding, reason, would_settle: self.nearest_to_turning() }
     }
 
-    /// Why a verdict for Hybrid-GS would be circular: it rests on measurements that Hybrid-GS restores by construction.
+    /// Reason for which a verdict for Hybrid-GS would be circular, if it would: it rests on measurements that Hybrid-GS
+    /// restores by construction.
     fn circular(&self) -> Option<String> {
         let controlled = self.analysis.controlled;
         let rest = self.analysis.told_apart.iter().find(|rest| rest.what == CONTROLLED);
@@ -149,7 +157,7 @@ impl Weighed<'_> {
         }
     }
 
-    /// What comes nearest to flipping a verdict.
+    /// The omission that comes nearest to reversing a verdict, in words.
     fn nearest_to_turning(&self) -> String {
         let nearest = self.analysis.without.iter().min_by(|a, b| a.mean.abs().total_cmp(&b.mean.abs()));
         nearest.map_or_else(String::new, |rest| {
@@ -157,7 +165,7 @@ impl Weighed<'_> {
         })
     }
 
-    /// How many subjects more it would take, if the difference stays as it is.
+    /// Number of further subjects that a verdict needs if the mean and the deviation stay as they are, in words.
     fn more_subjects(&self) -> String {
         let have = self.analysis.subjects.len();
         let enough = |n: &usize| {
@@ -181,13 +189,13 @@ impl Weighed<'_> {
     }
 }
 
-/// Ends of an interval; none is as wide as can be.
+/// Ends of the interval. Where there is none, it is unbounded.
 fn ends(estimate: &Estimate) -> (f64, f64) {
     estimate.interval.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
 }
 
-/// Fewest subjects of which the test that an interval asks for can give a verdict: of equivalence where it lies within the
-/// margin, of a difference elsewhere.
+/// Fewest subjects with which the relevant test can give a verdict: the test of equivalence where the interval lies
+/// within the margin, of a difference elsewhere.
 fn least(estimate: &Estimate) -> usize {
     let (low, high) = ends(estimate);
     if low > -MARGIN && high < MARGIN { LEAST_EQUAL } else { LEAST }

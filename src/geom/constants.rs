@@ -1,9 +1,10 @@
-//! Constants that decide results: kept by name and value, so that what is stored knows which it was made with.
+//! Constants that decide results. Each is kept by name and value, so that a stored result knows the values it was made
+//! with.
 
 /// A constant that decides results.
 #[derive(Clone, Copy, Debug)]
 pub struct Constant {
-    /// Its room and its name, such as `contact.ccd.KEPT_SHARE`.
+    /// Its room (the path of its file when it was introduced) and its name, such as `contact.ccd.KEPT_SHARE`.
     pub name: &'static str,
     /// Its value as text.
     pub value: fn() -> String,

@@ -1,11 +1,11 @@
-//! Polygonising an implicit surface: dual marching cubes on a rectilinear grid.
+//! Polygonisation of an implicit surface by dual marching cubes on a rectilinear grid.
 //!
-//! Every sheet of the surface inside a cell gets its own vertex, so that close sheets (thighs, armpits) stay apart and
-//! the result is a closed manifold [Nielson 2004, Dual Marching Cubes].
+//! Each sheet of the surface inside a cell gets a vertex of its own. Close sheets (thighs, armpits) therefore stay
+//! apart, and the result is a closed manifold [Nielson 2004, Dual Marching Cubes].
 
 use super::V3;
 
-/// A rectilinear grid: node coordinates along each axis, increasing, metres; at least two each.
+/// A rectilinear grid. Each axis has at least two node coordinates, increasing, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Coordinates of the nodes along x, y, z.
@@ -13,7 +13,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Nodes along each axis.
+    /// Number of nodes along each axis.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         [self.axes[0].len(), self.axes[1].len(), self.axes[2].len()]
@@ -25,7 +25,7 @@ impl Grid {
         V3::new(self.axes[0][at[0]], self.axes[1][at[1]], self.axes[2][at[2]])
     }
 
-    /// Place of a node's value in an array that runs through x first.
+    /// Index of a node's value in an array that runs through x first, then y, then z.
     #[must_use]
     pub fn index(&self, at: [usize; 3]) -> usize {
         (at[2] * self.axes[1].len() + at[1]) * self.axes[0].len() + at[0]
@@ -41,20 +41,20 @@ pub struct QuadMesh {
     pub quads: Vec<[usize; 4]>,
 }
 
-/// Corners of the twelve edges of a cell; corner bit 0 is +x, bit 1 is +y, bit 2 is +z. Edges 0-3 run along x, 4-7
-/// along y, 8-11 along z.
+/// Corners of the twelve edges of a cell. Bit 0 of a corner's number is +x, bit 1 is +y, bit 2 is +z. Edges 0-3 run
+/// along x, 4-7 along y, 8-11 along z.
 const EDGES: [(usize, usize); 12] =
     [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)];
 
-/// Corners of the six faces, in order round the face.
+/// Corners of the six faces of a cell, in order round each face.
 const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
-/// No vertex at this edge of this cell.
+/// Marks an edge of a cell that has no vertex, and a cell that has none.
 const NONE: usize = usize::MAX;
 
-/// The surface where `values` (negative inside, in the order of [`Grid::index`]) change sign.
+/// Polygonises the zero level set of `values` (negative inside, in the order of [`Grid::index`]).
 ///
-/// Values on the border of the grid should be positive, or the mesh is left open there.
+/// Values on the border of the grid should be positive. Otherwise the mesh is left open there.
 #[must_use]
 pub fn contour(grid: &Grid, values: &[f64]) -> QuadMesh {
     let mut mesh = QuadMesh::default();
@@ -84,7 +84,7 @@ fn cell_corners(grid: &Grid, values: &[f64], cell: [usize; 3]) -> [f64; 8] {
     std::array::from_fn(|c| values[grid.index([cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)])])
 }
 
-/// Adds one vertex for every sheet in a cell; returns the vertex that each edge of the cell belongs to.
+/// Adds one vertex for every sheet in a cell. Returns the vertex of each edge of the cell, or [`NONE`].
 fn place_vertices(grid: &Grid, cell: [usize; 3], corners: &[f64; 8], positions: &mut Vec<V3>) -> [usize; 12] {
     let sheet = sheets(corners);
     let mut vertices = [NONE; 12];
@@ -103,15 +103,16 @@ fn place_vertices(grid: &Grid, cell: [usize; 3], corners: &[f64; 8], positions: 
     vertices
 }
 
-/// Where the sign changes along an edge, in units of the cell.
+/// Zero of the linear interpolant along an edge, in units of the cell.
 fn crossing((a, b): (usize, usize), corners: &[f64; 8]) -> V3 {
     let corner = |c: usize| V3::new((c & 1) as f64, (c >> 1 & 1) as f64, (c >> 2) as f64);
     corner(a) + (corner(b) - corner(a)) * (corners[a] / (corners[a] - corners[b]))
 }
 
-/// The sheet (least edge index of it) that each edge with a sign change belongs to; [`NONE`] for other edges.
+/// The sheet of each edge with a sign change, named by its least edge. Other edges have [`NONE`].
 ///
-/// Edges that change sign on a common face are joined; on a face with four changes, the two edges at each inner corner.
+/// Edges that change sign on a common face belong together. On a face with four changes, the two edges at each inner
+/// corner do.
 fn sheets(corners: &[f64; 8]) -> [usize; 12] {
     let inside = |corner: usize| corners[corner] < 0.0;
     let changes = |edge: usize| inside(EDGES[edge].0) != inside(EDGES[edge].1);
@@ -136,7 +137,7 @@ fn edge_between(a: usize, b: usize) -> usize {
     EDGES.iter().position(|&edge| edge == pair).expect("neighbours round a face share an edge")
 }
 
-/// Gives two edges the same sheet.
+/// Merges the sheets of two edges.
 fn join(sheet: &mut [usize; 12], a: usize, b: usize) {
     let (keep, drop) = (sheet[a].min(sheet[b]), sheet[a].max(sheet[b]));
     for label in sheet.iter_mut().filter(|label| **label == drop) {
@@ -180,7 +181,7 @@ fn emit_quads(
     }
 }
 
-/// Number of the cell edge along `axis` on the upper sides of the next two axes, where asked.
+/// Number of the cell edge along `axis`, on the upper or lower side of each of the next two axes.
 fn cell_edge(axis: usize, upper_p: bool, upper_q: bool) -> usize {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     let corner = usize::from(upper_p) << p | usize::from(upper_q) << q;

@@ -1,11 +1,11 @@
-//! Where a surface crosses itself.
+//! Self-intersections of a triangle mesh.
 
 use super::{TriMesh, V3};
 
-/// Pairs of triangles that cross each other without sharing an edge, lesser index first, sorted. Triangles that only touch
-/// do not cross.
+/// Pairs of triangles that intersect each other without sharing an edge, the lesser index first, sorted. Triangles that
+/// only touch do not count.
 ///
-/// Sweeps through the heights of the triangles, so that each is compared with its neighbours only.
+/// A sweep over the heights of the triangles compares each only with those whose heights overlap its own.
 #[must_use]
 pub fn self_crossings(mesh: &TriMesh) -> Vec<[usize; 2]> {
     let boxes: Vec<(V3, V3)> = mesh.triangles.iter().map(|triangle| bounds(mesh, triangle)).collect();
@@ -26,10 +26,10 @@ fn bounds(mesh: &TriMesh, triangle: &[usize; 3]) -> (V3, V3) {
     (a.inf(&b).inf(&c), a.sup(&b).sup(&c))
 }
 
-/// Whether an edge of one triangle pierces the other; edges that end in a corner of the other are left out.
+/// True if an edge of one triangle pierces the other. Edges that end in a corner of the other are left out.
 fn cross(mesh: &TriMesh, a: usize, b: usize) -> bool {
-    let (one, other) = (mesh.triangles[a], mesh.triangles[b]);
-    if one.iter().filter(|vertex| other.contains(vertex)).count() > 1 {
+    let (first, second) = (mesh.triangles[a], mesh.triangles[b]);
+    if first.iter().filter(|vertex| second.contains(vertex)).count() > 1 {
         return false;
     }
     let pierces = |edges: [usize; 3], face: [usize; 3]| {
@@ -38,10 +38,10 @@ fn cross(mesh: &TriMesh, a: usize, b: usize) -> bool {
             apart && segment_hits(edge.map(|v| mesh.positions[v]), face.map(|v| mesh.positions[v]))
         })
     };
-    pierces(one, other) || pierces(other, one)
+    pierces(first, second) || pierces(second, first)
 }
 
-/// Whether a segment passes through the inside of a triangle, by the signs of the volumes they span.
+/// True if a segment passes through the interior of a triangle, by the signs of the tetrahedron volumes that they span.
 fn segment_hits([p, q]: [V3; 2], [a, b, c]: [V3; 3]) -> bool {
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     if volume(a, b, c, p) * volume(a, b, c, q) >= 0.0 {

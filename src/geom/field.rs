@@ -1,12 +1,13 @@
-//! A signed distance field on a regular grid: the body as the contact solver sees it.
+//! A signed distance field on a regular grid, with which the contact solver represents the body.
 //!
 //! Values are exact at every node inside the surface and in a thin shell outside it, and constant beyond. Between nodes
-//! the field is a quadratic B-spline, so that value and gradient are continuous: a vertex that rests in a crease (an
-//! armpit) does not jump between two contact planes. The spline blurs the field by a quarter of the spacing squared,
-//! which lifts a surface of mean curvature `H` by about `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
+//! the field is a quadratic B-spline, so that value and gradient are continuous. A vertex that rests in a crease (an
+//! armpit) therefore does not jump between two contact planes. The spline adds `spacing^2 / 8` times the Laplacian of
+//! the distance, which is `2 H` at a surface of mean curvature `H`. That moves the surface inwards where it bulges and
+//! outwards where it is hollow, by `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
 //!
-//! The grid has a node at the middle of the surface's box and as many on either side, and sums along x run from both ends
-//! inwards: a body mirrored left to right has the mirrored field, to the bit.
+//! The grid has a node at the middle of the surface's bounding box and as many on either side. Sums along x run from
+//! both ends inwards. A body mirrored left to right therefore has the mirrored field, to the bit.
 
 use nalgebra::Matrix3;
 use wide::f64x2;
@@ -18,26 +19,27 @@ use super::{TriMesh, V3};
 /// Signed distance on a grid, m; negative inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
-    /// Place of the middle node.
+    /// Position of the middle node, m.
     middle: V3,
     spacing_m: f64,
-    /// Nodes along each axis; odd.
+    /// Number of nodes along each axis, odd.
     size: [usize; 3],
     values: Vec<f32>,
 }
 
-/// A field could not be read back.
+/// Error of a field that could not be read back.
 #[derive(Debug, thiserror::Error)]
 #[error("the stored distance field is damaged: {0}")]
 pub struct FieldError(&'static str);
 
-/// Width of the exact shell outside the surface, in grid cells.
+/// Width of the exact shell outside the surface, in grid cells. Judgement.
 const SHELL_CELLS: f64 = 2.5;
-/// Stands at a node whose nearest triangle is not known.
+/// Marks a node whose nearest triangle is not known.
 const NONE: u32 = u32::MAX;
-/// Greatest number of nodes of a region whose side is looked up.
+/// Greatest number of nodes of a connected region whose side of the surface is computed; their majority decides.
+/// Judgement.
 const MOST_ASKED: usize = 64;
-/// What rounding to single precision may make of a distance, m.
+/// Bound on the rounding of a distance to single precision, m.
 const ROUNDED_M: f64 = 1e-5;
 const HEADER_BYTES: usize = 7 * 8;
 
@@ -61,7 +63,8 @@ impl DistanceField {
         Ok(field)
     }
 
-    /// Exact values, all positive as yet, at the nodes that are near a triangle; returns the nearest one of each.
+    /// Computes the unsigned distance at the nodes that are near a triangle. Returns the nearest triangle of each node,
+    /// or [`NONE`].
     fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) -> Vec<u32> {
         let reach = V3::repeat(SHELL_CELLS * self.spacing_m);
         let mut nearest = vec![NONE; self.values.len()];
@@ -76,7 +79,8 @@ impl DistanceField {
                 for j in along_y.clone() {
                     for i in along_x.clone() {
                         let (node, p) = (self.node(i, j, k), self.position(i, j, k));
-                        // Its plane and its box are no farther than the triangle, but for rounding.
+                        // The distances to its plane and to its box bound the distance to it from below, but for
+                        // rounding.
                         let known_m = f64::from(self.values[node]) + ROUNDED_M;
                         let to_box = (lowest - p).sup(&(p - highest)).sup(&V3::zeros());
                         if normal.dot(&(p - a)).abs() > known_m || to_box.norm_squared() > known_m * known_m {
@@ -93,11 +97,12 @@ impl DistanceField {
         nearest
     }
 
-    /// Gives the nodes of the shell their signs. Where two neighbours are together farther from the surface than from each other, it
-    /// cannot lie between them: all nodes that are joined so are on one side. Some of them are asked, and most of those are right: on a
-    /// crumpled mesh the nearest feature's normal can point the wrong way.
+    /// Gives the nodes of the shell their signs. Two neighbours whose distances to the surface exceed together the
+    /// distance between them have no surface between them. Nodes that are joined so are on one side. The side of some
+    /// of them is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest
+    /// feature can point the wrong way.
     fn tell_sides(&mut self, surface: &Surface, nearest: &[u32]) {
-        // A flat surface across the axis is as far from both as they from each other, but for rounding.
+        // Across a flat surface normal to the axis the two distances sum to the spacing, but for rounding.
         let apart = 1.05 * self.spacing_m as f32;
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         let mut seen: Vec<bool> = nearest.iter().map(|triangle| *triangle == NONE).collect();
@@ -110,7 +115,7 @@ impl DistanceField {
             let mut next = 0;
             while let Some(&node) = side.get(next) {
                 next += 1;
-                // The shell keeps clear of the grid's ends, so that a neighbour's number is one of a neighbour.
+                // The shell ends before the grid does, so that an index plus or minus a stride is that of a neighbour.
                 for stride in strides {
                     for other in [node.wrapping_sub(stride), node + stride] {
                         if seen.get(other) == Some(&false) && self.values[node] + self.values[other] > apart {
@@ -129,8 +134,7 @@ impl DistanceField {
         }
     }
 
-    /// Exact values at the nodes deeper inside than the shell: they follow along x a negative node that is farther from
-    /// the surface than from them.
+    /// Computes the distance at the nodes deeper inside than the shell. Such a node follows along x on a node inside.
     fn fill_inside(&mut self, surface: &Surface, nearest: &mut [u32]) {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
         for k in 0..self.size[2] {
@@ -138,7 +142,7 @@ impl DistanceField {
                 for i in 1..self.size[0] {
                     let node = self.node(i, j, k);
                     if self.values[node] == far && self.values[node - 1] < 0.0 {
-                        // What is nearest to the node before is not much farther than what is nearest here.
+                        // The triangle nearest to the node before bounds the distance here from above.
                         let p = self.position(i, j, k);
                         let most_m = surface.distance_to(nearest[node - 1], &p).map_or(f64::MAX, f64::from);
                         let (distance_m, triangle) = surface.nearest_within(&p, most_m);
@@ -150,7 +154,7 @@ impl DistanceField {
         }
     }
 
-    /// Place of a node by its number.
+    /// Position of a node by its index, m.
     fn position_of(&self, node: usize) -> V3 {
         let [x, y, _] = self.size;
         self.position(node % x, node / x % y, node / (x * y))
@@ -166,25 +170,25 @@ impl DistanceField {
         self.middle + V3::new(from_middle(i, x), from_middle(j, y), from_middle(k, z)) * self.spacing_m
     }
 
-    /// Place of a point from the middle node, in spacings.
+    /// Position of a point relative to the middle node, in spacings.
     fn local(&self, p: &V3) -> V3 {
         (p - self.middle) / self.spacing_m
     }
 
-    /// Number along an axis of the node a whole number of spacings from the middle one; the last one for places beyond.
+    /// Index along an axis of the node at a whole number of spacings from the middle one, clamped to the grid.
     fn index(&self, axis: usize, from_middle: f64) -> usize {
         ((from_middle + (self.size[axis] / 2) as f64).max(0.0) as usize).min(self.size[axis] - 1)
     }
 
-    /// Number along an axis of the first of the three nodes about a place, and the place from the middle one of them, in
-    /// spacings; `None` at the grid's ends.
+    /// Index along an axis of the first of the three nodes that support the spline at a coordinate, and the coordinate
+    /// relative to the middle one of them, in spacings. `None` at the grid's ends.
     fn about(&self, axis: usize, local: f64) -> Option<(usize, f64)> {
         let centre = local.round();
         let is_within = centre.abs() < (self.size[axis] / 2) as f64;
         is_within.then(|| (self.index(axis, centre) - 1, local - centre))
     }
 
-    /// The nodes within a box: number, place and value, m.
+    /// The nodes within a box: index, position and value, m.
     pub fn nodes_within(&self, low: V3, high: V3) -> impl Iterator<Item = (usize, V3, f64)> {
         let [low, high] = [self.local(&low).map(f64::ceil), self.local(&high).map(f64::floor)];
         let [along_x, along_y, along_z] = [0, 1, 2].map(|k| self.index(k, low[k])..=self.index(k, high[k]));
@@ -195,7 +199,7 @@ impl DistanceField {
         })
     }
 
-    /// The field with other values, m, at some nodes, by their numbers.
+    /// Returns the field with other values, m, at some nodes, by their indices.
     #[must_use]
     pub fn with(&self, changes: impl Iterator<Item = (usize, f64)>) -> Self {
         let mut field = self.clone();
@@ -214,7 +218,7 @@ impl DistanceField {
         self.spacing_m
     }
 
-    /// The field on a grid with the same nodes and as many more as hold a box and the shell about it.
+    /// Returns the field on a larger grid, which has the same nodes and contains a box and the shell about it.
     #[must_use]
     pub fn widened(&self, low: V3, high: V3) -> Self {
         let far = SHELL_CELLS * self.spacing_m;
@@ -231,7 +235,7 @@ impl DistanceField {
         wide
     }
 
-    /// The surface where the field changes sign between nodes.
+    /// Zero level set of the nodal values, as a mesh.
     #[must_use]
     pub fn surface(&self) -> TriMesh {
         let [x, y, z] = self.size;
@@ -247,7 +251,8 @@ impl DistanceField {
         TriMesh { positions, triangles: quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect() }
     }
 
-    /// Signed distance (m) and its gradient at a point; beyond the exact shell a positive constant and zero.
+    /// Signed distance (m) and its gradient at a point. Beyond the exact shell these are the width of the shell and
+    /// zero.
     #[must_use]
     pub fn value_and_gradient(&self, p: &V3) -> (f64, V3) {
         let local = self.local(p);
@@ -263,7 +268,7 @@ impl DistanceField {
             slope[k] = [t - 0.5, -2.0 * t, t + 0.5];
         }
         let ([wx, wy, wz], [sx, sy, sz]) = (weight, slope);
-        // The value beside its slope along x, and those along y and z beside each other.
+        // One register sums the value and its derivative along x, the other the derivatives along y and z.
         let pair = |a: f64, b: f64| f64x2::from([a, b]);
         let along_x = [0, 1, 2].map(|k| pair(wx[k], sx[k]));
         let (mut value_gx, mut gy_gz) = (f64x2::ZERO, f64x2::ZERO);
@@ -282,12 +287,12 @@ impl DistanceField {
         (value, gradient / self.spacing_m)
     }
 
-    /// Second derivatives of the distance at a point, 1/m; zero beyond the exact shell.
+    /// Second derivatives of the distance at a point, 1/m. Zero beyond the exact shell.
     #[must_use]
     pub fn hessian(&self, p: &V3) -> Matrix3<f64> {
         let local = self.local(p);
         let mut first = [0_usize; 3];
-        // Weights of the value, of the slope and of the curvature along each axis.
+        // Weights of the value, of the first and of the second derivative along each axis.
         let mut weight = [[[0.0; 3]; 3]; 3];
         for k in 0..3 {
             let Some((from, t)) = self.about(k, local[k]) else {
@@ -302,10 +307,10 @@ impl DistanceField {
         }
         let sum = |orders: [usize; 3]| -> f64 {
             let [x, y, z] = [0, 1, 2].map(|k| weight[k][orders[k]]);
-            let at = |a: usize, b: usize, c: usize| {
+            let term = |a: usize, b: usize, c: usize| {
                 f64::from(self.values[self.node(first[0] + a, first[1] + b, first[2] + c)]) * x[a] * y[b] * z[c]
             };
-            let row = |b: usize, c: usize| (at(0, b, c) + at(2, b, c)) + at(1, b, c);
+            let row = |b: usize, c: usize| (term(0, b, c) + term(2, b, c)) + term(1, b, c);
             (0..9).map(|i| row(i % 3, i / 3)).sum()
         };
         let [xx, yy, zz] = [sum([2, 0, 0]), sum([0, 2, 0]), sum([0, 0, 2])];
@@ -313,7 +318,7 @@ impl DistanceField {
         Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz) / (self.spacing_m * self.spacing_m)
     }
 
-    /// The field as bytes, for a cache.
+    /// Serialises the field, for a cache.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 * self.values.len());
@@ -380,8 +385,8 @@ mod tests {
         // Away from where the spline changes its piece.
         let (p, step) = (V3::new(0.0511, 0.0607, 0.0489), 1e-6);
         for k in 0..3 {
-            let at = |d: f64| field.value_and_gradient(&(p + V3::ith(k, d))).1;
-            let slope = (at(step) - at(-step)) / (2.0 * step);
+            let gradient_at = |d: f64| field.value_and_gradient(&(p + V3::ith(k, d))).1;
+            let slope = (gradient_at(step) - gradient_at(-step)) / (2.0 * step);
             assert!((field.hessian(&p).column(k) - slope).norm() < 1e-5, "{slope} along axis {k}");
         }
         let (value, gradient) = field.value_and_gradient(&V3::new(3.0, 0.0, 0.0));
@@ -412,13 +417,13 @@ mod tests {
             positions: mesh.positions.iter().map(flipped).collect(),
             triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
         };
-        let [one, other] = [&mesh, &mirrored].map(|mesh| DistanceField::build(mesh, 0.006).expect("closed"));
+        let [field, mirror] = [&mesh, &mirrored].map(|mesh| DistanceField::build(mesh, 0.006).expect("closed"));
         let signs = Matrix3::from_diagonal(&V3::new(-1.0, 1.0, 1.0));
         for p in &mesh.positions {
             for q in [p * 0.9, p + V3::new(1e-3, -2e-3, 3e-3), p * 1.05] {
-                let (value, gradient) = one.value_and_gradient(&q);
-                assert_eq!((value, flipped(&gradient)), other.value_and_gradient(&flipped(&q)), "{q}");
-                assert_eq!(signs * one.hessian(&q) * signs, other.hessian(&flipped(&q)), "{q}");
+                let (value, gradient) = field.value_and_gradient(&q);
+                assert_eq!((value, flipped(&gradient)), mirror.value_and_gradient(&flipped(&q)), "{q}");
+                assert_eq!(signs * field.hessian(&q) * signs, mirror.hessian(&flipped(&q)), "{q}");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Convex hulls of plane point sets: the path of a taut tape measure.
+//! Convex hulls of plane point sets. A taut tape measure follows one.
 
 use super::V2;
 

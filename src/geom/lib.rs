@@ -1,4 +1,4 @@
-//! Geometry that every stage shares: vectors, triangle meshes, polylines, plane sections, distance fields.
+//! Geometry shared by all stages: vectors, triangle meshes, polylines, plane sections, distance fields.
 //!
 //! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
 
@@ -20,12 +20,12 @@ pub use field::DistanceField;
 pub use mesh::TriMesh;
 pub use surface::Surface;
 
-/// A point or vector of the plane (pattern pieces), metres.
+/// A point or vector of the plane, metres.
 pub type V2 = nalgebra::Vector2<f64>;
 /// A point or vector of space, metres.
 pub type V3 = nalgebra::Vector3<f64>;
 
-/// A smooth step from 0 to 1 while `t` goes from 0 to 1, level at both ends.
+/// Cubic smooth step `3 t^2 - 2 t^3` from 0 to 1, with zero slope at both ends; `t` is clamped to 0..1.
 #[must_use]
 pub fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);

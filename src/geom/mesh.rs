@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::V3;
 
-/// Sides of triangles that belong to one of them only, lesser vertex first, sorted: where a surface ends.
+/// Boundary edges of a mesh, which belong to one triangle only: the lesser vertex first, sorted.
 #[must_use]
 pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
@@ -27,14 +27,14 @@ pub struct TriMesh {
 }
 
 impl TriMesh {
-    /// Twice-area-weighted normals of the triangles (not normalised).
+    /// Normals of the triangles, with twice their areas as lengths, m2.
     #[must_use]
     pub fn triangle_normals(&self) -> Vec<V3> {
         let corner = |i: usize| self.positions[i];
         self.triangles.iter().map(|&[a, b, c]| (corner(b) - corner(a)).cross(&(corner(c) - corner(a)))).collect()
     }
 
-    /// Unit vertex normals, weighted by triangle area; zero where no triangle touches a vertex.
+    /// Unit vertex normals, averaged over the adjacent triangles by area. Zero where there are none.
     #[must_use]
     pub fn vertex_normals(&self) -> Vec<V3> {
         let mut normals = vec![V3::zeros(); self.positions.len()];
@@ -46,28 +46,28 @@ impl TriMesh {
         normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
     }
 
-    /// Componentwise least and greatest corner of the bounding box; `None` for an empty mesh.
+    /// Least and greatest corner of the axis-aligned bounding box. `None` for an empty mesh.
     #[must_use]
     pub fn bounds(&self) -> Option<(V3, V3)> {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p))))
     }
 
-    /// Enclosed volume, cubic metres (divergence theorem; meaningful for closed meshes).
+    /// Enclosed volume of a closed mesh by the divergence theorem, m3.
     #[must_use]
     pub fn volume(&self) -> f64 {
         let corner = |i: usize| self.positions[i];
         self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c)))).sum::<f64>() / 6.0
     }
 
-    /// Surface area, square metres.
+    /// Surface area, m2.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.triangle_normals().iter().map(V3::norm).sum::<f64>() / 2.0
     }
 
-    /// The triangles with a vertex where `keep` holds, as a mesh of their own; vertices and triangles stay in order, so that a plane
-    /// which meets no other triangle gives the same section.
+    /// The triangles with at least one vertex for which `keep` holds, as a mesh of their own. Vertices and triangles
+    /// keep their order, so that a plane that meets no other triangle gives the same section.
     #[must_use]
     pub fn part(&self, keep: impl Fn(V3) -> bool) -> Self {
         let kept: Vec<bool> = self.positions.iter().map(|&p| keep(p)).collect();
@@ -89,7 +89,7 @@ impl TriMesh {
         Self { positions, triangles }
     }
 
-    /// Every undirected edge once, as `[lesser, greater]` vertex index, sorted.
+    /// All undirected edges, each once as `[lesser, greater]` vertex index, sorted.
     #[must_use]
     pub fn edges(&self) -> Vec<[usize; 2]> {
         let mut edges: Vec<[usize; 2]> = self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -98,8 +98,8 @@ impl TriMesh {
         edges
     }
 
-    /// Whether the surface is closed, consistently turned and without branching edges: every directed edge occurs once
-    /// and so does its reverse.
+    /// True if the surface is closed, consistently oriented and without branching edges: every directed edge occurs
+    /// once, and so does its reverse.
     #[must_use]
     pub fn is_closed_manifold(&self) -> bool {
         let mut directed = self.directed_edges();

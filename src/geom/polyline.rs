@@ -1,8 +1,8 @@
-//! Polylines and polygons of the plane.
+//! Polylines and polygons of the plane. Lengths are in the unit of their points.
 
 use super::V2;
 
-/// An open polyline that knows its arc length.
+/// An open polyline with its cumulative arc length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
     points: Vec<V2>,
@@ -27,10 +27,10 @@ impl Polyline {
         Some(Self { points, arcs })
     }
 
-    /// The same line with each point moved.
+    /// Returns the polyline with every point mapped.
     #[must_use]
-    pub fn mapped(&self, at: impl Fn(V2) -> V2) -> Self {
-        let points: Vec<V2> = self.points.iter().map(|&p| at(p)).collect();
+    pub fn mapped(&self, map: impl Fn(V2) -> V2) -> Self {
+        let points: Vec<V2> = self.points.iter().map(|&p| map(p)).collect();
         Self::new(points).unwrap_or_else(|| self.clone())
     }
 
@@ -52,7 +52,7 @@ impl Polyline {
         self.arcs[self.arcs.len() - 1]
     }
 
-    /// The point at arc length `arc` from the start, clamped to the ends.
+    /// Point at arc length `arc` from the start, clamped to the ends.
     #[must_use]
     pub fn at(&self, arc: f64) -> V2 {
         let last = self.points.len() - 1;
@@ -63,7 +63,7 @@ impl Polyline {
     }
 }
 
-/// Sides of a closed polygon, the last one back to the first point.
+/// Sides of a closed polygon. The last one returns to the first point.
 fn sides(polygon: &[V2]) -> impl Iterator<Item = (V2, V2)> + '_ {
     polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
 }
@@ -74,13 +74,13 @@ pub fn signed_area(polygon: &[V2]) -> f64 {
     0.5 * sides(polygon).map(|(a, b)| a.perp(&b)).sum::<f64>()
 }
 
-/// Length of a closed polygon.
+/// Perimeter of a closed polygon.
 #[must_use]
 pub fn perimeter(polygon: &[V2]) -> f64 {
     sides(polygon).map(|(a, b)| (b - a).norm()).sum()
 }
 
-/// Whether `point` is inside a closed polygon (even-odd rule).
+/// True if `point` is inside a closed polygon (even-odd rule).
 #[must_use]
 pub fn contains(polygon: &[V2], point: &V2) -> bool {
     let crossings = sides(polygon)
@@ -104,7 +104,7 @@ pub fn boundary_distance(polygon: &[V2], point: &V2) -> f64 {
     sides(polygon).map(|(a, b)| segment_distance(&a, &b, point)).fold(f64::INFINITY, f64::min)
 }
 
-/// Parameters along both segments where they meet; `None` when they do not or are parallel.
+/// Parameters 0..1 along both segments of their intersection. `None` when they do not meet or are parallel.
 #[must_use]
 pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     let (da, db, offset) = (a.1 - a.0, b.1 - b.0, b.0 - a.0);
@@ -116,16 +116,16 @@ pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// The first place where two sides of a closed polygon that are not neighbours meet.
+/// First intersection of two sides of a closed polygon that are not neighbours.
 #[must_use]
 pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
     crossing_sides(polygon).map(|(_, place)| place)
 }
 
-/// Two sides of a closed polygon, not neighbours, that meet, by the index of their first vertex in rising order, and
-/// where; the first such pair.
+/// First pair of sides of a closed polygon that intersect without being neighbours, and their intersection. A side is
+/// named by its first vertex; the lesser comes first.
 ///
-/// The sides are swept by their least `x`, so that a polygon of many sides costs little more than sorting them.
+/// A sweep over the least `x` of the sides makes a polygon of many sides cost little more than sorting them.
 #[must_use]
 pub fn crossing_sides(polygon: &[V2]) -> Option<([usize; 2], V2)> {
     let all: Vec<(V2, V2)> = sides(polygon).collect();

@@ -2,7 +2,7 @@
 
 use super::{TriMesh, V2, V3};
 
-/// A plane with a frame: points of the plane are `origin + u * x + v * y`.
+/// A plane with a frame. Its points are `origin + p.x u + p.y v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// A point of the plane, metres.
@@ -40,7 +40,7 @@ impl Plane {
         (point - self.origin).dot(&self.normal())
     }
 
-    /// Coordinates of a point's foot in the plane.
+    /// Plane coordinates of a point's orthogonal projection.
     #[must_use]
     pub fn project(&self, point: V3) -> V2 {
         let offset = point - self.origin;
@@ -54,12 +54,12 @@ impl Plane {
     }
 }
 
-/// One chained outline of a section.
+/// One connected outline of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// Points in plane coordinates, metres; the first is not repeated.
     pub points: Vec<V2>,
-    /// Whether the outline closes; an open one crosses a hole of the mesh.
+    /// True if the outline is closed. An open one ends at a hole of the mesh.
     pub closed: bool,
 }
 
@@ -71,7 +71,7 @@ impl Outline {
         self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
     }
 
-    /// Whether `point` lies inside (even-odd rule; an open outline is closed by a chord).
+    /// True if `point` lies inside (even-odd rule; an open outline is closed by a chord).
     #[must_use]
     pub fn contains(&self, point: V2) -> bool {
         let next = self.points.iter().cycle().skip(1);
@@ -82,13 +82,13 @@ impl Outline {
     }
 }
 
-/// Where the plane cuts an edge: the sorted vertex pair.
+/// An edge that the plane cuts, as its sorted vertex pair.
 type CutEdge = (usize, usize);
 
-/// Outlines in which `plane` cuts `mesh`.
+/// Section of `mesh` by `plane`.
 ///
-/// A vertex exactly in the plane counts as above it, so every triangle gives one segment or none and the outlines of
-/// a closed manifold mesh all close.
+/// A vertex exactly in the plane counts as above it. Every triangle therefore gives one segment or none, and the
+/// outlines of a closed manifold all close.
 #[must_use]
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
@@ -96,14 +96,14 @@ pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     cut(&mesh.positions, &mesh.triangles, plane, |vertex| heights[vertex])
 }
 
-/// Outlines in which `plane` cuts some `triangles` over `positions`.
+/// Section of some `triangles` over `positions` by `plane`.
 #[must_use]
 pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
     cut(positions, triangles, plane, |vertex| (positions[vertex] - plane.origin).dot(&normal))
 }
 
-/// The outlines, where a vertex lies at a `height` above the plane.
+/// Section by `plane`, with the signed `height` of each vertex above it.
 fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl Fn(usize) -> f64) -> Vec<Outline> {
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
     for &[a, b, c] in triangles {
@@ -133,7 +133,8 @@ fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl F
         .collect()
 }
 
-/// Chains cut edges along their links (from each edge to the next): open chains first, then loops.
+/// Connects cut edges along their links, each from one edge to the next. Returns the chains with true for closed ones,
+/// open chains first.
 fn chain(mut links: Vec<(CutEdge, CutEdge)>) -> Vec<(Vec<CutEdge>, bool)> {
     links.sort_unstable();
     // Where sheets meet, an edge is cut twice: the last link counts.

@@ -1,4 +1,4 @@
-//! Analytic shapes as meshes: yardsticks for tests and benchmarks.
+//! Meshes of analytic shapes, as references for tests and benchmarks.
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,8 +16,8 @@ pub fn sphere(radius_m: f64, rings: usize) -> TriMesh {
     revolve(&profile, 2 * rings)
 }
 
-/// A closed surface of revolution about z. `profile` lists (radius, height) from the bottom pole to the top pole; the
-/// radii of the first and last entry are taken as zero.
+/// A closed surface of revolution about z. `profile` lists (radius, height) from the bottom pole to the top pole. The
+/// first and the last radius count as zero.
 #[must_use]
 pub fn revolve(profile: &[(f64, f64)], sectors: usize) -> TriMesh {
     let last = profile.len() - 1;

@@ -1,8 +1,9 @@
 //! Exact signed distance to a closed triangle mesh, by parry's bounding volume hierarchy and pseudo-normals.
 //!
-//! Parry tells the side, and the distance but for rounding: which of two triangles with a common edge answers, and so the
-//! last bits, depends on how the mesh is stored. Here the distance is the least of all triangles near that, each asked with
-//! its corners in one order, so that a mirrored mesh has exactly the same distances.
+//! Parry decides the side, and gives the distance but for rounding: which of two triangles with a common edge it
+//! returns, and so the last bits, depends on how the mesh is stored. The distance here is the least over all triangles
+//! within that distance. Each is computed with its corners in one order, so that a mirrored mesh has exactly the same
+//! distances.
 
 use parry3d::partitioning::BvhNode;
 use parry3d::query::PointQuery;
@@ -15,7 +16,14 @@ pub struct Surface {
     mesh: ParryMesh,
 }
 
-/// The mesh cannot bound a solid.
+/// Projection of a point onto the surface.
+struct Projection {
+    is_inside: bool,
+    /// Distance from the surface but for rounding, m.
+    about_m: f64,
+}
+
+/// Error of a mesh that cannot bound a solid.
 #[derive(Debug, thiserror::Error)]
 #[error("the surface cannot be used for distances: {0}")]
 pub struct SurfaceError(String);
@@ -40,45 +48,47 @@ impl Surface {
     /// Distance to the surface, m; negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: &V3) -> f64 {
-        let (is_inside, about_m) = self.project(point);
+        let Projection { is_inside, about_m } = self.project(point);
         let (distance_m, _) = self.nearest_within(point, about_m);
         if is_inside { -distance_m } else { distance_m }
     }
 
-    /// Distance of a point inside to the surface, m; `None` for one outside, which is quicker to know.
+    /// Depth of a point inside the surface, m. `None` for one outside, which costs less than its distance.
     #[must_use]
     pub fn depth(&self, point: &V3) -> Option<f64> {
-        let (is_inside, about_m) = self.project(point);
+        let Projection { is_inside, about_m } = self.project(point);
         is_inside.then(|| self.nearest_within(point, about_m).0)
     }
 
-    /// Whether a point is inside, as the normal of the nearest feature tells.
+    /// True if a point is inside, by the pseudo-normal of the nearest feature.
     #[must_use]
     pub fn is_inside(&self, point: &V3) -> bool {
-        self.project(point).0
+        self.project(point).is_inside
     }
 
-    /// Whether a point is inside, and its distance to the surface but for rounding, m.
-    fn project(&self, point: &V3) -> (bool, f64) {
+    /// Projects a point onto the surface.
+    fn project(&self, point: &V3) -> Projection {
         let projection = self.mesh.project_local_point(to_parry(point), false);
-        (projection.is_inside, f64::from((projection.point - to_parry(point)).length()))
+        let about_m = f64::from((projection.point - to_parry(point)).length());
+        Projection { is_inside: projection.is_inside, about_m }
     }
 
-    /// Distance to the surface, m, whichever side the point is on, and the triangle that is so near, when the distance is known to be at
-    /// most `most_m`, but for rounding: the nearer that is, the less is looked at. The bits of the distance do not depend on it.
+    /// Unsigned distance to the surface, m, and the nearest triangle, given an upper bound `most_m` on it that holds
+    /// but for rounding. The tighter the bound, the fewer triangles are looked at. The bits of the distance do not
+    /// depend on it.
     #[must_use]
     pub fn nearest_within(&self, point: &V3, most_m: f64) -> (f64, Option<u32>) {
         let p = to_parry(point);
         #[allow(clippy::cast_possible_truncation)]
         let within = most_m as f32 * (1.0 + ROUNDED) + ROUNDED;
         let box_distance = |node: &BvhNode, _: f32| node.aabb().distance_to_local_point(p, true) * (1.0 - ROUNDED);
-        let at = from_parry(p);
-        let triangle_distance = |index: u32, _: f32| Some((self.distance_of(index, &at)?, ()));
+        let rounded = from_parry(p);
+        let triangle_distance = |index: u32, _: f32| Some((self.distance_of(index, &rounded)?, ()));
         let found = self.mesh.bvh().find_best(within, box_distance, triangle_distance);
         found.map_or((most_m, None), |(index, (distance, ()))| (f64::from(distance), Some(index)))
     }
 
-    /// Distance of a triangle, by its number in the mesh, from a point, m; `None` when there is no such triangle.
+    /// Distance of a point from a triangle, by its index in the mesh, m. `None` when there is no such triangle.
     #[must_use]
     pub fn distance_to(&self, triangle: u32, point: &V3) -> Option<f32> {
         self.distance_of(triangle, &from_parry(to_parry(point)))
@@ -94,7 +104,7 @@ impl Surface {
     }
 }
 
-/// Relative error, and error in m, that is granted to single precision.
+/// Bound on the error of single precision, both relative and in m.
 const ROUNDED: f32 = 1e-5;
 
 #[allow(clippy::cast_possible_truncation)]
@@ -121,11 +131,11 @@ mod tests {
             positions: mesh.positions.iter().map(flipped).collect(),
             triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
         };
-        let [one, other] = [&mesh, &mirrored].map(|mesh| Surface::new(mesh).expect("closed"));
+        let [surface, mirror] = [&mesh, &mirrored].map(|mesh| Surface::new(mesh).expect("closed"));
         for p in &mesh.positions {
             // On the surface, just off it, and well inside and outside.
             for q in [*p, p * 1.003, p * 0.5, p * 1.4, p + V3::new(1e-3, -2e-3, 3e-3)] {
-                assert_eq!(one.signed_distance(&q).abs(), other.signed_distance(&flipped(&q)).abs(), "{q}");
+                assert_eq!(surface.signed_distance(&q).abs(), mirror.signed_distance(&flipped(&q)).abs(), "{q}");
             }
         }
     }

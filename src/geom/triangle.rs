@@ -1,48 +1,48 @@
-//! Triangles: their corners in one order, and the point of one that is nearest to a point of space.
+//! Corners of a triangle in one order, and its point nearest to a point of space.
 
 use super::V3;
 
-/// Corners in one order, whichever way the triangle goes round: what is mirrored is then rounded alike.
+/// Sorted corners, whichever way the triangle is oriented, so that mirrored triangles are rounded alike.
 #[must_use]
 pub fn sorted<T: Ord>(mut corners: [T; 3]) -> [T; 3] {
     corners.sort_unstable();
     corners
 }
 
-/// Weights of the corners for the point of a triangle nearest to `p` [Ericson 2005, 5.1.5].
+/// Barycentric coordinates of the point of a triangle nearest to `p` [Ericson 2005, 5.1.5].
 #[must_use]
 pub fn nearest(p: &V3, [a, b, c]: &[V3; 3]) -> [f64; 3] {
-    let on = |wb: f64, wc: f64| [1.0 - (wb + wc), wb, wc];
+    let weights = |wb: f64, wc: f64| [1.0 - (wb + wc), wb, wc];
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
     if d1 <= 0.0 && d2 <= 0.0 {
-        return on(0.0, 0.0);
+        return weights(0.0, 0.0);
     }
     let bp = p - b;
     let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
     if d3 >= 0.0 && d4 <= d3 {
-        return on(1.0, 0.0);
+        return weights(1.0, 0.0);
     }
     let vc = d1 * d4 - d3 * d2;
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return on(d1 / (d1 - d3), 0.0);
+        return weights(d1 / (d1 - d3), 0.0);
     }
     let cp = p - c;
     let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
     if d6 >= 0.0 && d5 <= d6 {
-        return on(0.0, 1.0);
+        return weights(0.0, 1.0);
     }
     let vb = d5 * d2 - d1 * d6;
     if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return on(0.0, d2 / (d2 - d6));
+        return weights(0.0, d2 / (d2 - d6));
     }
     let va = d3 * d6 - d5 * d4;
     if va <= 0.0 && d4 >= d3 && d5 >= d6 {
         let share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return on(1.0 - share, share);
+        return weights(1.0 - share, share);
     }
     let sum = va + vb + vc;
-    on(vb / sum, vc / sum)
+    weights(vb / sum, vc / sum)
 }
 
 #[cfg(test)]

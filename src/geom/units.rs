@@ -1,5 +1,5 @@
-//! Conversions at the edges: SI inside, millimetres, degrees and milliseconds in what users read and write; and what
-//! all weigh things by.
+//! Conversions at the edges of the program, and standard gravity. Inside, all is in SI units; users read and write
+//! millimetres, degrees and milliseconds.
 
 /// Standard gravity, m/s2.
 pub const GRAVITY: f64 = 9.80665;
@@ -16,7 +16,8 @@ pub fn from_mm(millimetres: f64) -> f64 {
     millimetres * 1e-3
 }
 
-/// A number with at most so many significant digits and no trailing zeros; very small and very large ones with an exponent.
+/// Formats a number with at most so many significant digits and no trailing zeros. Very small and very large ones get
+/// an exponent.
 #[must_use]
 pub fn significant(number: f64, digits: i32) -> String {
     if number == 0.0 || !number.is_finite() {
@@ -31,10 +32,10 @@ pub fn significant(number: f64, digits: i32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// A number with its sign, in tenths; what rounds to 0 is `+0.0`.
+/// Formats a number with its sign and one decimal. Numbers that round to 0 are `+0.0`.
 #[must_use]
 pub fn signed_tenths(number: f64) -> String {
-    // -0 and 0 make 0.
+    // Adding 0 turns -0 into 0.
     format!("{:+.1}", (number * 10.0).round() / 10.0 + 0.0)
 }
 

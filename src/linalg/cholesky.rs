@@ -1,50 +1,64 @@
-//! Cholesky factor of a sparse matrix of 6x6 blocks: the stiffness between patches.
+//! Cholesky factor of a sparse matrix of 6x6 blocks: the stiffness between the patches of the coarse space.
 //!
-//! It is made in double precision and kept in single. The rounding of the factor is harmless where that of the matrix would
-//! not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square *root* of the
-//! condition number. It is written `L D L^T` with identity on the diagonal of `L`, so that a solve, where each column waits for others, has
-//! nothing to wait for between them; `D` is met in between, all at once. A solve is one run through memory each way, over blocks
-//! that fill vector registers (`packed`).
+//! It is computed in double precision and kept in single. Rounding the factor is harmless where rounding the matrix
+//! would not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square
+//! *root* of the condition number.
+//!
+//! The factor is `L D L^T` with identity blocks on the diagonal of `L`. In a substitution each column waits for those
+//! before it. It does not wait for a product with a diagonal block, too: `D` is applied in between, to all rows at
+//! once. A solve is one pass through memory each way, over blocks that fill vector registers (`packed`).
+
+mod packed;
 
 use std::collections::BTreeSet;
 
 use wide::f64x4;
 
-use super::packed::{Blockwise, Packed};
 use super::quad::Quad;
 use super::simd::{self, Kernel, Simd, each};
+use packed::{Blockwise, Packed};
 
-/// Degrees of freedom of a block.
+/// Degrees of freedom of a patch, and so rows of a block.
 pub const SIZE: usize = 6;
 
-/// A block by columns.
+/// A 6x6 block by columns.
 pub type Dense = [[f64; SIZE]; SIZE];
-/// Forces on a block row, or its motion.
+/// Forces and moments on a patch, or its translation and rotation.
 pub type Row = [f32; SIZE];
 
-/// The order of elimination and the pattern of the factor, which last as long as the pattern of the matrix.
+/// Symbolic factor: the order of elimination and the pattern. It serves as long as the pattern of the matrix does.
 pub struct Symbolic {
-    /// Place of each row in the order of elimination.
+    /// Position of each row in the order of elimination.
     place: Vec<usize>,
-    /// Where the blocks below the diagonal of each column begin; one longer than there are columns.
+    /// First block below the diagonal of each column, and one entry more.
     starts: Vec<usize>,
-    /// Their rows, ascending.
+    /// Rows of these blocks, ascending in each column.
     rows: Vec<usize>,
-    /// Where each pair of the matrix stands: its column, its block below the diagonal or `None` on it, and whether its first row is the
-    /// one eliminated later, so that it stands there as it is and not transposed.
-    entries: Vec<(usize, Option<usize>, bool)>,
+    /// The block of the factor that each pair of the matrix is added to.
+    entries: Vec<Entry>,
 }
 
-/// The numbers of a factor.
+/// The block of the factor that a pair of the matrix is added to.
+#[derive(Clone, Copy)]
+struct Entry {
+    column: usize,
+    /// Index of the block below the diagonal, or `None` on the diagonal.
+    below: Option<usize>,
+    /// True if the pair's first row is eliminated later. Its block then stands as it is, and otherwise transposed.
+    is_upright: bool,
+}
+
+/// Numeric factor.
 pub struct Numeric {
-    /// Inverses of the pivots `D`.
+    /// Inverses of the pivots, which are the blocks of `D`.
     pivots: Vec<Packed>,
     /// The blocks of `L` below its diagonal.
     below: Vec<Packed>,
 }
 
 impl Symbolic {
-    /// Of a symmetric matrix of `count` block rows with blocks at `pairs`, the smaller row first, the diagonal among them.
+    /// Analyses a symmetric matrix of `count` block rows with blocks at `pairs`, the smaller row first, the diagonal
+    /// among them.
     #[must_use]
     pub fn new(count: usize, pairs: &[[usize; 2]]) -> Self {
         let (place, columns) = eliminate(count, pairs);
@@ -61,31 +75,31 @@ impl Symbolic {
         symbolic
     }
 
-    fn entry(&self, [a, b]: [usize; 2]) -> (usize, Option<usize>, bool) {
+    fn entry(&self, [a, b]: [usize; 2]) -> Entry {
         let [p, q] = [self.place[a], self.place[b]];
         let column = p.min(q);
-        (column, (p != q).then(|| self.below(column, p.max(q))), p > q)
+        Entry { column, below: (p != q).then(|| self.below(column, p.max(q))), is_upright: p > q }
     }
 
-    /// The blocks below the diagonal of each column, column by column.
+    /// Each column with the range of its blocks below the diagonal.
     fn columns(&self) -> impl DoubleEndedIterator<Item = (usize, std::ops::Range<usize>)> + ExactSizeIterator {
         self.starts.windows(2).map(|ends| ends[0]..ends[1]).enumerate()
     }
 
-    /// Number of a block below the diagonal.
+    /// Index of the block below the diagonal at `row` of `column`.
     fn below(&self, column: usize, row: usize) -> usize {
         let rows = &self.rows[self.starts[column]..self.starts[column + 1]];
         self.starts[column] + rows.binary_search(&row).expect("elimination has filled it in")
     }
 
-    /// Factorises the matrix with `blocks` at the pairs, that of `[a, b]` in the rows of `a`; `None` when it is
-    /// not positive definite.
+    /// Factorises the matrix with `blocks` at the pairs; the block of `[a, b]` is in the rows of `a`. `None` when the
+    /// matrix is not positive definite.
     #[must_use]
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
         simd::dispatch(Factorisation { symbolic: self, blocks })
     }
 
-    /// Solves in place, `x` by block rows of the matrix.
+    /// Solves in place; `x` is in the matrix's order of rows.
     #[inline(always)]
     pub fn solve<S: Simd>(&self, simd: S, numeric: &Numeric, x: &mut [Row]) {
         let blockwise = Blockwise(simd);
@@ -132,13 +146,14 @@ impl Kernel for Factorisation<'_> {
         let symbolic = self.symbolic;
         let mut diagonal = vec![Padded::default(); symbolic.place.len()];
         let mut below = vec![Padded::default(); symbolic.rows.len()];
-        for (&(column, slot, is_below), block) in symbolic.entries.iter().zip(self.blocks) {
+        for (&Entry { column, below: slot, is_upright }, block) in symbolic.entries.iter().zip(self.blocks) {
             match slot {
                 None => diagonal[column] = Padded::new(block),
-                Some(slot) => below[slot] = Padded::new(&if is_below { *block } else { transposed(block) }),
+                Some(slot) => below[slot] = Padded::new(&if is_upright { *block } else { transposed(block) }),
             }
         }
-        // `L` with its pivots' roots in it, whose inverses take the place of the diagonal.
+        // Right-looking elimination with `A = L L^T`. The inverses of the diagonal blocks of `L` take the place of the
+        // diagonal.
         for (column, own) in symbolic.columns() {
             let root = Padded::new(&inverse_root(&diagonal[column].dense())?);
             diagonal[column] = root;
@@ -170,7 +185,7 @@ impl Kernel for Factorisation<'_> {
     }
 }
 
-/// A block by columns, each filled up with zeros to what registers hold.
+/// A 6x6 block by columns, each padded with zeros to two registers of four.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 struct Padded([[f64; 8]; SIZE]);
@@ -192,7 +207,7 @@ impl Padded {
         [f64x4::from([a, b, c, d]), f64x4::from([e, f, g, h])]
     }
 
-    /// Takes `a b^T` away.
+    /// Subtracts `a b^T`.
     #[inline(always)]
     fn subtract_product<S: Simd>(&mut self, simd: S, a: &Self, b: &Self) {
         let columns = each!(k of 6 => a.column(k));
@@ -226,7 +241,8 @@ fn product<S: Simd>(simd: S, a: &Padded, b: &Padded) -> Padded {
     negative
 }
 
-/// Eliminates rows in order of least degree: the place of each, and for each place the rows that its elimination couples.
+/// Eliminates rows in minimum degree order. Returns the position of each row, and for each position the rows that its
+/// elimination couples.
 fn eliminate(count: usize, pairs: &[[usize; 2]]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut neighbours = vec![BTreeSet::new(); count];
     for &[a, b] in pairs.iter().filter(|[a, b]| a != b) {
@@ -254,7 +270,7 @@ fn transposed(block: &Dense) -> Dense {
     std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]))
 }
 
-/// `L^-1` of `A = L L^T`.
+/// Inverse `L^-1` of the Cholesky factor of `A = L L^T`. `None` when `A` is not positive definite.
 fn inverse_root(a: &Dense) -> Option<Dense> {
     let mut l = [[0.0; SIZE]; SIZE];
     for c in 0..SIZE {
@@ -282,7 +298,7 @@ mod tests {
     use super::*;
     use crate::simd::Plain;
 
-    /// A positive definite matrix over pairs.
+    /// A positive definite matrix with blocks at `pairs`.
     fn matrix(pairs: &[[usize; 2]]) -> Vec<Dense> {
         let draw: Vec<f64> = (0..pairs.len() * 36).map(|k| (37.0 * k as f64).sin()).collect();
         let degree = |a: usize| pairs.iter().filter(|p| p.contains(&a)).count() as f64;

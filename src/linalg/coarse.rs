@@ -1,10 +1,11 @@
-//! A coarse space for the linear solves: the cloth in patches that move as rigid bodies.
+//! Coarse space of the linear solves: patches of the cloth that move as rigid bodies.
 //!
-//! What block-Jacobi is slow at are motions of many vertices together: a sleeve that swings, a fold that travels. Cloth
-//! resists those hardly at all where each patch of it moves rigidly. So rigid motions of patches, six degrees of
-//! freedom each, span them well: smoothed aggregation's near null space [Vanek 1996], without smoothing. What remains
-//! at the borders of patches is local, and block-Jacobi's. The stiffness between patches is small enough to be
-//! factorised ([`super::cholesky`]), and a factor serves for several steps.
+//! Block-Jacobi is slow at motions of many vertices together, such as a sleeve that swings or a fold that travels.
+//! Cloth hardly resists them where each of its patches moves rigidly. Rigid motions of patches, with six degrees of
+//! freedom each, therefore span them well: they are the near null space of smoothed aggregation [Vanek 1996], here
+//! without smoothing. The remaining error, at the borders of patches, is local, and block-Jacobi reduces it. The
+//! stiffness between patches is small enough to be factorised ([`super::cholesky`]), and one factor serves for several
+//! steps.
 
 use std::cmp::Ordering;
 
@@ -12,36 +13,47 @@ use nalgebra::{Matrix3, Matrix6, Vector6};
 use wide::f32x4;
 
 use super::cholesky::{Dense, Numeric, Row, Symbolic};
-use super::operator::{Operator, PairList};
+use super::operator::Operator;
+use super::pairs::PairList;
 use super::quad;
 use super::simd::Simd;
 use geom::V3;
 
 geom::constants! {
     "linalg.coarse",
-    /// Least distance, in edges, between the middles of patches.
+    /// Least distance, in edges, between the centres of patches. A patch then has about twenty vertices.
     const APART: usize = 4;
-    /// The same in large cloth, where the factor between patches would outgrow the rest.
+    /// The same in large cloth, where the factor between patches would outgrow the other costs.
     const APART_IN_LARGE: usize = 5;
-    /// Vertices of large cloth: from there on solves between patches of four edges cost more than the iterations that they save.
+    /// Vertices from which on cloth is large: solves between patches of four edges then cost more than the iterations
+    /// that they save.
     const LARGE: usize = 12_000;
-    /// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
-    /// squared: the vertices of a patch may lie on a line.
+    /// Share of the stiffness of a patch, summed over the axes of translation and of rotation each, that is added to
+    /// each axis. The vertices of a patch may lie on a line, and a rotation about it moves none of them.
     const REGULARISATION: f64 = 1e-6;
 }
 
-/// The patches of a cloth and how they couple.
+/// A preconditioned residual `P r` in its two parts.
+#[derive(Clone, Copy)]
+pub struct Correction<'a> {
+    /// Rigid motion of each patch.
+    pub motions: &'a [Row],
+    /// Displacement of each vertex in addition.
+    pub z: &'a [f32x4],
+}
+
+/// The patches of a cloth and their couplings.
 pub struct CoarseSpace {
     /// Patch of each vertex.
-    of: Vec<usize>,
+    patch_of: Vec<usize>,
     count: usize,
     /// Vertices, patch by patch.
     members: Vec<u32>,
-    /// Where those of each patch end, and the first begins.
+    /// End of each patch in `members`, preceded by the beginning of the first.
     ends: Vec<usize>,
-    /// Pairs of patches, the smaller first, a patch with itself too.
+    /// Pairs of patches that are coupled, the smaller first; each patch is coupled with itself, too.
     pairs: PairList,
-    /// Pair of patches of each membrane pair, bending pair and spring.
+    /// Pair of patches of each membrane pair, each bending pair and each spring.
     slots: [Vec<usize>; 3],
     symbolic: Symbolic,
 }
@@ -54,8 +66,8 @@ impl CoarseSpace {
         let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
         let vertices = operator.diagonal.len();
         let apart = if vertices < LARGE { APART } else { APART_IN_LARGE };
-        let (of, count) = operator.membrane_pairs.divide(vertices, apart);
-        let coupled = |pair: &[usize; 2]| pair.map(|v| of[v]);
+        let (patch_of, count) = operator.membrane_pairs.divide(vertices, apart);
+        let coupled = |pair: &[usize; 2]| pair.map(|v| patch_of[v]);
         let own = (0..count).map(|a| [a, a]);
         let pairs = PairList::new(own.chain(lists.iter().flat_map(|list| list.iter().map(coupled))));
         let slot = |pair: &[usize; 2]| {
@@ -65,21 +77,23 @@ impl CoarseSpace {
         let slots = lists.map(|list| list.iter().map(slot).collect());
         let symbolic = Symbolic::new(count, pairs.pairs());
         let mut members: Vec<u32> = (0..vertices as u32).collect();
-        members.sort_by_key(|v| of[*v as usize]);
-        let ends = (0..=count).map(|a| members.partition_point(|v| of[*v as usize] < a)).collect();
-        Self { of, count, members, ends, pairs, slots, symbolic }
+        members.sort_by_key(|v| patch_of[*v as usize]);
+        let ends = (0..=count).map(|a| members.partition_point(|v| patch_of[*v as usize] < a)).collect();
+        Self { patch_of, count, members, ends, pairs, slots, symbolic }
     }
 
-    /// The stiffness between the patches, factorised, with the cloth at `x`; `diagonal` are the diagonal blocks of the operator.
+    /// Assembles and factorises the stiffness between the patches, with the cloth at `x`. `diagonal` are the diagonal
+    /// blocks of the operator.
     #[must_use]
     pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> CoarseFactor {
         let arms = self.arms(x);
         let mut blocks = vec![Matrix6::zeros(); self.pairs.pairs().len()];
-        let mut add = |slot: usize, [i, j]: [usize; 2], block: Matrix6<f64>| match self.of[i].cmp(&self.of[j]) {
-            Ordering::Less => blocks[slot] += block,
-            Ordering::Greater => blocks[slot] += block.transpose(),
-            Ordering::Equal => blocks[slot] += block + block.transpose(),
-        };
+        let mut add =
+            |slot: usize, [i, j]: [usize; 2], block: Matrix6<f64>| match self.patch_of[i].cmp(&self.patch_of[j]) {
+                Ordering::Less => blocks[slot] += block,
+                Ordering::Greater => blocks[slot] += block.transpose(),
+                Ordering::Equal => blocks[slot] += block + block.transpose(),
+            };
         let [membrane, bending, springs] = &self.slots;
         for ((&pair, &slot), m) in operator.membrane_pairs.pairs().iter().zip(membrane).zip(&operator.membrane) {
             let [p, q] = pair.map(|v| &arms[v]);
@@ -94,7 +108,7 @@ impl CoarseSpace {
             add(slot, *pair, between_alike(p, -k, q));
         }
         let own: Vec<usize> = (0..self.count).filter_map(|a| self.pairs.slot(a, a)).collect();
-        for ((a, arm), block) in self.of.iter().zip(&arms).zip(diagonal) {
+        for ((a, arm), block) in self.patch_of.iter().zip(&arms).zip(diagonal) {
             blocks[own[*a]] += between(arm, block, arm);
         }
         self.add_contacts(operator, &arms, &mut blocks);
@@ -106,17 +120,18 @@ impl CoarseSpace {
         CoarseFactor { arms, factor: self.symbolic.factorise(&blocks) }
     }
 
-    /// From the middle of its patch to each vertex.
+    /// Vector from the centre of its patch to each vertex, m.
     fn arms(&self, x: &[V3]) -> Vec<V3> {
         let mut sums = vec![(V3::zeros(), 0.0); self.count];
-        for (a, p) in self.of.iter().zip(x) {
+        for (a, p) in self.patch_of.iter().zip(x) {
             sums[*a].0 += p;
             sums[*a].1 += 1.0;
         }
-        self.of.iter().zip(x).map(|(a, p)| p - sums[*a].0 / sums[*a].1).collect()
+        self.patch_of.iter().zip(x).map(|(a, p)| p - sums[*a].0 / sums[*a].1).collect()
     }
 
-    /// Couplings of contacts between patches that are coupled anyhow; the diagonal blocks have the rest.
+    /// Adds the contacts between patches that are coupled already. Between others, only the diagonal blocks have their
+    /// contacts.
     fn add_contacts(&self, operator: &Operator, arms: &[V3], blocks: &mut [Matrix6<f64>]) {
         for contact in &operator.contacts {
             let wrench = |k: usize| {
@@ -126,8 +141,8 @@ impl CoarseSpace {
             };
             for k in 0..4 {
                 for l in (0..4).filter(|l| *l != k) {
-                    let [a, b] = [k, l].map(|k| self.of[contact.vertices[k]]);
-                    // The other half stands transposed in the same block.
+                    let [a, b] = [k, l].map(|k| self.patch_of[contact.vertices[k]]);
+                    // The transposed pair is the same block.
                     if a <= b
                         && let Some(slot) = self.pairs.slot(a, b)
                     {
@@ -138,7 +153,8 @@ impl CoarseSpace {
         }
     }
 
-    /// The rigid motions of the patches that the forces `r` cause, in `motions`; returns what the forces work along them.
+    /// Computes the rigid motions of the patches under the forces `r`, in `motions`. Returns the work of the forces
+    /// along them.
     #[inline(always)]
     pub fn restrict_and_solve<S: Simd>(
         &self,
@@ -165,23 +181,23 @@ impl CoarseSpace {
         forces.iter().zip(motions.iter()).map(|pair| f64::from(work(pair))).sum()
     }
 
-    /// The next direction `p = z + beta p` of states `[p, K p]`, with these `motions` of the patches in `z`.
+    /// Updates the direction `p = P r + beta p` of states `[p, K p]`.
     #[inline(always)]
     pub fn next_direction<S: Simd>(
         &self,
         simd: S,
         coarse: &CoarseFactor,
-        (motions, z): (&[Row], &[f32x4]),
+        preconditioned: Correction,
         beta: f32x4,
         states: &mut [[f32x4; 2]],
     ) {
-        for ((members, arms), [x, y, w, a, b, c]) in self.members(coarse).zip(motions) {
+        for ((members, arms), [x, y, w, a, b, c]) in self.members(coarse).zip(preconditioned.motions) {
             let shift = f32x4::from([*x, *y, *w, 0.0]);
             let turn = [f32x4::from([*b, *c, *a, 0.0]), f32x4::from([*c, *a, *b, 0.0])];
             for (v, arm) in members.iter().zip(arms) {
                 let v = *v as usize;
                 let p = &mut states[v][0];
-                *p = simd.mul_add(beta, *p, arm.add_motion(simd, turn, z[v] + shift));
+                *p = simd.mul_add(beta, *p, arm.add_motion(simd, turn, preconditioned.z[v] + shift));
             }
         }
     }
@@ -193,7 +209,8 @@ impl CoarseSpace {
     }
 }
 
-/// From the middle of a patch to a vertex, as cross products take it: from y on, and from z on.
+/// Vector from the centre of a patch to a vertex, in the two cyclic orders (y, z, x) and (z, x, y) that cross products
+/// take.
 #[derive(Clone, Copy)]
 struct Arm([f32x4; 2]);
 
@@ -203,15 +220,15 @@ impl Arm {
         Self([f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0])])
     }
 
-    /// Adds what this arm makes of a force to the two terms of a moment, of which the second counts against the first.
+    /// Adds the two terms of the moment `arm x force`; the second is to be subtracted from the first.
     #[inline(always)]
-    fn add_moment<S: Simd>(&self, simd: S, force: f32x4, [one, other]: [f32x4; 2]) -> [f32x4; 2] {
+    fn add_moment<S: Simd>(&self, simd: S, force: f32x4, [plus, minus]: [f32x4; 2]) -> [f32x4; 2] {
         let [x, y, z, _] = force.to_array();
         let (from_y, from_z) = (f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0]));
-        [simd.mul_add(self.0[0], from_z, one), simd.mul_add(self.0[1], from_y, other)]
+        [simd.mul_add(self.0[0], from_z, plus), simd.mul_add(self.0[1], from_y, minus)]
     }
 
-    /// Adds how this arm's end moves by a turn, taken from y on and from z on.
+    /// Adds the displacement `turn x arm` to `to`, with the rotation in the cyclic orders (y, z, x) and (z, x, y).
     #[inline(always)]
     fn add_motion<S: Simd>(&self, simd: S, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
         simd.neg_mul_add(from_z, self.0[0], simd.mul_add(from_y, self.0[1], to))
@@ -220,7 +237,7 @@ impl Arm {
 
 /// A factorised stiffness between patches.
 pub struct CoarseFactor {
-    /// From the middle of its patch to each vertex, patch by patch.
+    /// Vector from the centre of its patch to each vertex, patch by patch.
     arms: Vec<Arm>,
     /// `None` where the stiffness was not positive definite.
     factor: Option<Numeric>,
@@ -231,7 +248,8 @@ fn six([[a, b, c, _], [x, y, z, _]]: [[f32; 4]; 2]) -> Row {
     [a, b, c, x, y, z]
 }
 
-/// `P^T m Q` for the rigid motions `P = [I, -[p]x]`, `Q = [I, -[q]x]` of two vertices at arms `p` and `q`.
+/// Coarse block `P^T m Q` for the rigid motions `P = [I, -[p]x]` and `Q = [I, -[q]x]` of two vertices at `p` and `q`
+/// from the centres of their patches.
 fn between(p: &V3, m: &Matrix3<f64>, q: &V3) -> Matrix6<f64> {
     let [p, q] = [p.cross_matrix(), q.cross_matrix()];
     let (pm, mq) = (p * m, m * q);
@@ -277,8 +295,8 @@ mod tests {
 
     /// A sheet of `w` by `h` vertices, bent, 20 mm apart.
     fn sheet(w: usize, h: usize) -> Vec<V3> {
-        let at = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
-        (0..w * h).map(at).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
+        let grid = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
+        (0..w * h).map(grid).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
     }
 
     /// Pairs of a sheet's vertices that are `apart` from each other along either side.
@@ -312,10 +330,10 @@ mod tests {
         };
         let patches = CoarseSpace::new(&operator);
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
-        // Rigid motions q give forces K P q; of these, the patches must find q again.
+        // Rigid motions q give forces K P q, from which the patches must recover q.
         let q = |a: usize, k: usize| (1.0 + (7 * a + 3 * k) as f64).sin() * if k < 3 { 1.0 } else { 20.0 };
         let moved: Vec<V3> = patches
-            .of
+            .patch_of
             .iter()
             .zip(patches.arms(&x))
             .map(|(&a, arm)| {
@@ -334,7 +352,7 @@ mod tests {
         }
     }
 
-    /// What patches make of forces.
+    /// Solution between the patches for given forces.
     struct Answer<'a>(&'a CoarseSpace, &'a CoarseFactor, &'a [f32x4]);
 
     impl Kernel for Answer<'_> {
@@ -345,7 +363,7 @@ mod tests {
             let (z, mut motions) = (vec![f32x4::ZERO; forces.len()], Vec::new());
             let r_dot_z = patches.restrict_and_solve(simd, coarse, forces, &mut motions);
             let mut states = vec![[f32x4::ONE; 2]; forces.len()];
-            patches.next_direction(simd, coarse, (&motions, &z), f32x4::ZERO, &mut states);
+            patches.next_direction(simd, coarse, Correction { motions: &motions, z: &z }, f32x4::ZERO, &mut states);
             let found: Vec<f32x4> = states.iter().map(|[p, _]| *p).collect();
             let work = |(p, f): (&f32x4, &f32x4)| p.vector().dot(&f.vector());
             let expect: f64 = found.iter().zip(forces).map(work).sum();

@@ -1,92 +1,18 @@
-//! A stiffness as conjugate gradients multiply with it, hundreds of times a step.
+//! A stiffness in compressed sparse rows, for the product of conjugate gradients.
 //!
 //! Each coupling is stored once, in the row of its smaller vertex, and serves both vertices. That moves fewer bytes
 //! through the processor than a copy in each row, and a large cloth fills the caches with little else. Blocks are
-//! applied to differences: in single precision, membrane and bending would otherwise drown each other.
+//! applied to differences of displacements: in single precision, membrane and bending would otherwise cancel each other
+//! out.
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use super::operator::{ArcStiffness, Contact4, Operator};
+use super::pairs::{RowCursor, Upper};
 use super::quad::{self, Block, Quad};
-use super::rows::sorted_by_row;
 use super::simd::{Kernel, Simd};
 
-/// Couplings by their smaller vertex.
-#[derive(Clone, Debug, Default)]
-pub struct Upper {
-    /// Where those of each vertex begin; one longer than there are vertices that are the smaller of a pair.
-    starts: Vec<u32>,
-    /// The larger vertex of each.
-    others: Vec<u32>,
-}
-
-impl Upper {
-    /// The list without couplings.
-    pub const EMPTY: Self = Self { starts: Vec::new(), others: Vec::new() };
-
-    /// Of distinct pairs, the smaller vertex first, sorted.
-    #[must_use]
-    pub fn new(pairs: &[[usize; 2]]) -> Self {
-        let count = pairs.last().map_or(0, |pair| pair[0] + 1);
-        let (starts, others) = sorted_by_row(count, pairs, |pair| pair[0], |pair| pair[1] as u32);
-        Self { starts, others }
-    }
-
-    /// Number of the coupling of `v` with the larger `other`.
-    #[must_use]
-    pub fn slot(&self, v: usize, other: usize) -> Option<usize> {
-        let row = self.row(v);
-        let at = self.others[row.clone()].binary_search(&(other as u32)).ok()?;
-        Some(row.start + at)
-    }
-
-    /// Numbers of the couplings of `v`.
-    #[inline(always)]
-    fn row(&self, v: usize) -> Range<usize> {
-        match self.starts.get(v..v + 2) {
-            Some(&[from, to]) => from as usize..to as usize,
-            _ => 0..0,
-        }
-    }
-
-    /// The larger vertices of the couplings of `v`, each with what is kept of it.
-    #[inline(always)]
-    pub fn of<'a, T>(&'a self, v: usize, kept: &'a [T]) -> impl Iterator<Item = (usize, &'a T)> {
-        let row = self.row(v);
-        self.others[row.clone()].iter().map(|other| *other as usize).zip(&kept[row])
-    }
-}
-
-/// Couplings that are met vertex by vertex, with what is kept of each.
-struct RowCursor<'a, T> {
-    starts: &'a [u32],
-    others: &'a [u32],
-    kept: &'a [T],
-}
-
-impl<'a, T> RowCursor<'a, T> {
-    #[inline(always)]
-    fn new(upper: &'a Upper, kept: &'a [T]) -> Self {
-        Self { starts: &upper.starts, others: &upper.others, kept }
-    }
-
-    /// Those of the next vertex.
-    #[inline(always)]
-    fn next_row(&mut self) -> impl Iterator<Item = (usize, &'a T)> {
-        let mut count = 0;
-        if let [from, to, ..] = *self.starts {
-            count = (to - from) as usize;
-            self.starts = &self.starts[1..];
-        }
-        let ((others, kept), rest);
-        ((others, rest), (kept, self.kept)) = (self.others.split_at(count), self.kept.split_at(count));
-        self.others = rest;
-        others.iter().map(|other| *other as usize).zip(kept)
-    }
-}
-
-/// An [`Operator`] in rows.
+/// An [`Operator`] in compressed rows.
 pub struct CsrMatrix<'a, Q: Quad> {
     diagonal: Vec<Block<Q>>,
     membrane: &'a Upper,
@@ -98,15 +24,15 @@ pub struct CsrMatrix<'a, Q: Quad> {
     arcs: Option<Arcs<'a, Q>>,
 }
 
-/// An [`ArcStiffness`] in the precision of a solve.
+/// An [`ArcStiffness`] in the precision of the solve.
 struct Arcs<'a, Q: Quad> {
-    of: &'a ArcStiffness<'a>,
+    stiffness: &'a ArcStiffness<'a>,
     chords: Vec<Q>,
     slopes: Vec<Q>,
     drawn: Vec<Q::Scalar>,
 }
 
-/// A [`Contact4`] with its stiffness worked into its direction.
+/// A [`Contact4`] with its direction scaled by the root of its stiffness.
 struct Contact<Q> {
     vertices: [usize; 4],
     weights: [Q; 4],
@@ -114,7 +40,7 @@ struct Contact<Q> {
 }
 
 impl<'a, Q: Quad> CsrMatrix<'a, Q> {
-    /// Writes an operator into rows.
+    /// Converts an operator into rows.
     #[must_use]
     pub fn new(operator: &'a Operator) -> Self {
         let contact = |c: &Contact4| Contact {
@@ -134,7 +60,7 @@ impl<'a, Q: Quad> CsrMatrix<'a, Q> {
         }
     }
 
-    /// `y = K x` of states `[x, y]`, which lie side by side since they are met side by side.
+    /// Computes `y = K x` for states `[x, y]`, which lie side by side since they are read together.
     #[inline(always)]
     pub fn apply<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
         simd.run(Product { rows: self, states });
@@ -181,12 +107,12 @@ impl<'a, Q: Quad> CsrMatrix<'a, Q> {
 }
 
 impl<'a, Q: Quad> Arcs<'a, Q> {
-    fn new(of: &'a ArcStiffness<'a>) -> Self {
+    fn new(stiffness: &'a ArcStiffness<'a>) -> Self {
         Self {
-            of,
-            chords: of.chords.iter().map(Q::from_vector).collect(),
-            slopes: of.slopes.iter().map(Q::from_vector).collect(),
-            drawn: of.drawn.iter().map(|k| Q::scalar(*k)).collect(),
+            stiffness,
+            chords: stiffness.chords.iter().map(Q::from_vector).collect(),
+            slopes: stiffness.slopes.iter().map(Q::from_vector).collect(),
+            drawn: stiffness.drawn.iter().map(|k| Q::scalar(*k)).collect(),
         }
     }
 
@@ -194,28 +120,29 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
     fn apply<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
         let count = self.slopes.len();
         let mut bends = vec![Q::ZERO; count];
-        // Of half of each squared side, what curvature adds and what all adds; then the tensions of either.
+        // Change of half of each squared arc length: by curvature alone, and by curvature and chord. Then the tension
+        // that each causes.
         let mut grown = vec![[0.0_f32; 2]; count];
         let mut tensions = vec![[0.0_f32; 2]; count];
-        for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
-            let bend = self.of.stencils.sum_of(simd, side, states);
+        for (side, &[i, j]) in self.stiffness.pairs.pairs().iter().enumerate() {
+            let bend = self.stiffness.stencils.sum_of(simd, side, states);
             bends[side] = bend;
             let by_bend = (self.slopes[side] * bend).total() as f32;
             let by_chord = (self.chords[side] * (states[j][0] - states[i][0])).total() as f32;
             grown[side] = [by_bend, by_bend + by_chord];
         }
-        for (sides, couplings) in self.of.triangles.iter().zip(&self.of.couplings) {
+        for (sides, couplings) in self.stiffness.triangles.iter().zip(&self.stiffness.couplings) {
             let [a, b, c] = sides.map(|side| side as usize);
             let [aa, bb, cc, ab, bc, ca] = *couplings;
             for k in 0..2 {
                 let (x, y, z) = (grown[a][k], grown[b][k], grown[c][k]);
-                // Summed up so that a mirrored triangle, whose sides come the other way round, has the same.
+                // In this order a mirrored triangle, whose sides come in the opposite order, has the same sums.
                 tensions[a][k] += (aa * x + ca * z) + ab * y;
                 tensions[b][k] += (ab * x + bc * z) + bb * y;
                 tensions[c][k] += (cc * z + ca * x) + bc * y;
             }
         }
-        for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
+        for (side, &[i, j]) in self.stiffness.pairs.pairs().iter().enumerate() {
             let [by_bend, by_all] = tensions[side];
             let pull = self.chords[side] * Q::spread_single(by_bend);
             states[i][1] -= pull;
@@ -224,7 +151,7 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
             bends[side] = bends[side].mul_add_on(Q::splat(self.drawn[side]), push, simd);
         }
         for (v, [_, force]) in states.iter_mut().enumerate() {
-            *force += self.of.stencils.column_sum(simd, v, &bends);
+            *force += self.stiffness.stencils.column_sum(simd, v, &bends);
         }
     }
 }
@@ -267,7 +194,7 @@ mod tests {
     use crate::simd::{self, Plain};
     use geom::V3;
 
-    /// Products as they stand in the definition: pairs on differences, one by one.
+    /// Products by the definition: pairs on differences, one by one.
     fn expected(operator: &Operator, x: &[V3]) -> Vec<V3> {
         let mut y = operator.contact_forces(x);
         let mut couple = |[i, j]: [usize; 2], block: Matrix3<f64>| {

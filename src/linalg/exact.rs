@@ -1,7 +1,7 @@
 //! Sparse Cholesky factor of a cloth's stiffness, kept over several steps as a preconditioner.
 //!
 //! Block-Jacobi needs hundreds of iterations: cloth is a million times softer in bending than in its plane. A factor of
-//! the true stiffness needs one or two, and a factor of the stiffness a few steps ago still few.
+//! the current stiffness needs one or two, and a factor of the stiffness a few steps ago still few.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
@@ -10,32 +10,31 @@ use faer::{MatMut, Par, Side};
 use nalgebra::Matrix3;
 use wide::f64x4;
 
-use super::operator::{Operator, PairList};
+use super::operator::Operator;
+use super::pairs::PairList;
 use super::quad::{self, Quad};
 
-/// The pattern of a stiffness with its symbolic factor, and the latest numeric one.
+/// Pattern of a stiffness with its symbolic factor, and the latest numeric one.
 pub struct Factor {
-    /// Lower triangle by columns, three rows and columns a vertex.
+    /// Lower triangle by columns, with three rows and columns a vertex.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicLlt<usize>,
     numeric: Option<Llt<usize, f64>>,
     /// Vertex pairs with a block.
     pairs: PairList,
-    /// Block of each membrane pair, bending pair and spring.
+    /// Block of each membrane pair, each bending pair and each spring.
     slots: [Vec<usize>; 3],
-    /// Where the blocks of the pairs begin within the columns of their smaller vertex, counted in blocks.
+    /// Rank of each pair's block among those of its smaller vertex.
     rank: Vec<usize>,
     values: Vec<f64>,
 }
 
 impl Factor {
-    /// Analyses the pattern of an operator.
-    ///
-    /// # Panics
-    /// When the machine's memory is used up.
+    /// When the memory is exhausted.
     #[must_use]
     pub fn new(operator: &Operator) -> Self {
-        // Other threads run other simulations: this one stays on its own. Also, sums then do not depend on their number.
+        // Other threads run other simulations, so this one takes no threads of its own. Sums then do not depend on
+        // their number either.
         faer::set_global_parallelism(Par::Seq);
         let n = operator.diagonal.len();
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
@@ -66,7 +65,8 @@ impl Factor {
         Self { pattern, symbolic, numeric: None, pairs, slots, rank, values }
     }
 
-    /// Factorises the operator. Contacts of the cloth with itself come and go; they enter by their diagonal blocks alone.
+    /// Factorises the operator. Contacts of the cloth with itself come and go, so only their diagonal blocks are
+    /// included.
     pub fn refresh(&mut self, operator: &Operator) {
         self.values.fill(0.0);
         for (v, block) in operator.own_blocks().iter().enumerate() {
@@ -87,7 +87,8 @@ impl Factor {
         self.numeric = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
     }
 
-    /// Adds the off-diagonal block `K_ij`, `i < j`, and takes it from both diagonals: rows of the stiffness sum to zero.
+    /// Adds the off-diagonal block `K_ij`, `i < j`, and subtracts it from both diagonal blocks: rows of the stiffness
+    /// sum to zero.
     fn add_pair(&mut self, slot: usize, block: &Matrix3<f64>) {
         let [i, j] = self.pairs.pairs()[slot];
         for c in 0..3 {
@@ -100,18 +101,18 @@ impl Factor {
         self.add_diagonal(j, &-block);
     }
 
-    /// Adds to a diagonal block; its lower triangle is kept.
+    /// Adds to a diagonal block, of which the lower triangle is stored.
     fn add_diagonal(&mut self, v: usize, block: &Matrix3<f64>) {
         for c in 0..3 {
             let start = self.pattern.col_ptr()[3 * v + c];
             for r in c..3 {
-                // A membrane block on its own need not be symmetric; their sum is.
+                // One membrane block need not be symmetric, but the sum of them is.
                 self.values[start + r - c] += 0.5 * (block[(r, c)] + block[(c, r)]);
             }
         }
     }
 
-    /// `z = K^-1 r` with the stiffness of the last [`Factor::refresh`]; `r` itself before the first.
+    /// Computes `z = K^-1 r` with the stiffness of the last [`Factor::refresh`]. Before the first, `z = r`.
     pub fn solve(&self, r: &[f64x4], z: &mut [f64x4]) {
         let mut flat: Vec<f64> = r.iter().flat_map(|v| <[f64; 3]>::from(v.vector())).collect();
         if let Some(factor) = &self.numeric {

@@ -1,14 +1,14 @@
-//! Formulas for one number or for four at once.
+//! Arithmetic in which a formula is written once, for one number or for four at once.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use super::simd::Simd;
 
-/// What formulas are written in.
+/// A number, or a vector of numbers, that formulas are written in.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
-    /// A constant, in as many lanes as `self` has.
+    /// Broadcasts a constant to as many lanes as `self` has.
     fn splat(self, number: f64) -> Self;
-    /// `self factor + sum`.
+    /// `self * factor + sum`.
     fn mul_add(self, factor: Self, sum: Self) -> Self;
     /// The lesser of the two, lane by lane.
     fn min(self, other: Self) -> Self;
@@ -45,7 +45,7 @@ impl Number for f64 {
     }
 }
 
-/// Four numbers in a vector register, with what computes on it.
+/// Four numbers in a vector register, with the instructions that compute on it.
 #[derive(Clone, Copy)]
 pub struct Lanes<S: Simd> {
     four: S::F64x4,
@@ -59,7 +59,7 @@ impl<S: Simd> Lanes<S> {
         Self { four: simd.f64s(numbers), simd }
     }
 
-    /// The numbers in single precision.
+    /// Rounds the numbers to single precision.
     #[inline(always)]
     pub fn single(self) -> [f32; 4] {
         self.simd.to_f32s(self.four)

@@ -1,9 +1,9 @@
-//! Sparse linear algebra of cloth: what a step solves, and how.
+//! Sparse linear algebra for the implicit time steps of cloth.
 //!
-//! A stiffness is an [`Operator`] of 3x3 blocks over pairs of vertices. [`LinearSolver`] solves with it by conjugate
-//! gradients ([`pcg`]) over compressed rows ([`csr`]). The preconditioner is block-Jacobi with a coarse space of rigid patches
-//! ([`coarse`]), whose stiffness [`cholesky`] factorises. Specimens take a sparse Cholesky factor of the whole instead
-//! ([`exact`]). The loops run on the widest vector registers of the processor ([`simd`]).
+//! A stiffness is an [`Operator`] of 3x3 blocks over pairs of vertices ([`pairs`]). [`LinearSolver`] solves with it by
+//! conjugate gradients ([`pcg`]) over compressed rows ([`csr`]). The preconditioner is block-Jacobi with a coarse space
+//! of rigid patches ([`coarse`]), whose stiffness [`cholesky`] factorises. For specimens it is a sparse Cholesky factor
+//! of the whole stiffness ([`exact`]). The loops run on the widest vector registers of the processor ([`simd`]).
 
 pub mod cholesky;
 pub mod coarse;
@@ -12,7 +12,7 @@ pub mod exact;
 pub mod lanes;
 pub mod linear;
 pub mod operator;
-mod packed;
+pub mod pairs;
 pub mod pcg;
 pub mod quad;
 pub mod rows;
@@ -23,9 +23,10 @@ pub mod tangent;
 use geom::constants::Constant;
 
 pub use linear::LinearSolver;
-pub use operator::{Contact4, Operator, PairList};
+pub use operator::{Contact4, Operator};
+pub use pairs::PairList;
 
-/// The constants here that decide results.
+/// Constants of this crate that decide results.
 #[must_use]
 pub fn constants() -> Vec<Constant> {
     [coarse::CONSTANTS, linear::CONSTANTS].concat()

@@ -1,10 +1,10 @@
-//! The linear solves of a step: conjugate gradients with one of three preconditioners.
+//! Linear solves of a time step: conjugate gradients with one of three preconditioners.
 
 use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
 use super::cholesky::Row;
-use super::coarse::{CoarseFactor, CoarseSpace};
+use super::coarse::{CoarseFactor, CoarseSpace, Correction};
 use super::csr::CsrMatrix;
 use super::exact::Factor;
 use super::operator::Operator;
@@ -13,21 +13,22 @@ use super::quad::{self, Block, Quad};
 use super::simd::Simd;
 use geom::V3;
 
-/// How the linear systems of a cloth are solved.
+/// Solver of the linear systems of a cloth.
 pub enum LinearSolver {
-    /// Block-Jacobi and patches that move rigidly: approximate, for garments.
+    /// Block-Jacobi with a coarse space of rigid patches, for garments. Its solutions are approximate.
     Patches(Option<Box<TwoLevel>>),
-    /// A Cholesky factor, renewed when it has aged: exact, for specimens whose answer is compared with mechanics.
+    /// A Cholesky factor, renewed when it has aged, for specimens that are compared with exact mechanics.
     Factor(Option<Box<Factor>>),
 }
 
 geom::constants! {
     "linalg.linear",
-    /// Iterations with an old factor after which a new one is made: about as many solves as a factorisation costs.
+    /// Iterations with an old factor after which a new one is made. They cost about as much as a factorisation.
     const PATIENCE: usize = 6;
-    /// Products that are summed up in single precision.
+    /// Number of products that are summed in single precision. Sums of longer vectors are made of such sums in double
+    /// precision.
     const SUMMED: usize = 256;
-    /// Iterations that a new factor costs.
+    /// Iterations that cost as much as a new factor.
     const FACTOR_COST: usize = 12;
 }
 
@@ -38,19 +39,19 @@ impl Default for LinearSolver {
 }
 
 impl LinearSolver {
-    /// The solver that factorises.
+    /// Solver with a Cholesky factor of the whole stiffness.
     #[must_use]
     pub fn exact() -> Self {
         Self::Factor(None)
     }
 
-    /// Whether it factorises.
+    /// True if it factorises the whole stiffness.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         matches!(self, Self::Factor(_))
     }
 
-    /// Solves `K x = b` approximately, improving `x`, with the cloth at `positions`.
+    /// Solves `K x = b` approximately, starting from `x`, with the cloth at `positions`.
     pub fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         match self {
             Self::Patches(kept) => {
@@ -72,7 +73,7 @@ impl LinearSolver {
     }
 }
 
-/// Solves `K x = b` with block-Jacobi in single precision: a direction of descent need not be better.
+/// Solves `K x = b` with block-Jacobi in single precision, which suffices for a direction of descent.
 pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
     pcg::solve(&CsrMatrix::new(operator), Jacobi::new(&operator.diagonal_blocks()), b, x, params);
 }
@@ -111,13 +112,13 @@ impl Preconditioner<f64x4> for &Factor {
     }
 }
 
-/// Block-Jacobi with the rigid motions of patches added, whose stiffness is factorised now and then.
+/// Block-Jacobi with the coarse space of patches added, whose stiffness is factorised now and then.
 pub struct TwoLevel {
     patches: CoarseSpace,
     coarse: Option<CoarseFactor>,
-    /// Iterations that the factor took when it was new.
+    /// Iterations of the solve for which the factor was made.
     when_new: usize,
-    /// Iterations that its age has cost since.
+    /// Iterations that later solves have taken in excess of that.
     lost: usize,
 }
 
@@ -144,12 +145,12 @@ impl TwoLevel {
     }
 }
 
-/// Vertices one by one, and patches of them.
+/// Sum of both preconditioners.
 struct TwoLevelPreconditioner<'a> {
     jacobi: Jacobi,
     patches: &'a CoarseSpace,
     coarse: &'a CoarseFactor,
-    /// How the patches answer.
+    /// Rigid motions of the patches.
     motions: Vec<Row>,
 }
 
@@ -162,6 +163,7 @@ impl Preconditioner<f32x4> for TwoLevelPreconditioner<'_> {
 
     #[inline(always)]
     fn next_direction<S: Simd>(&self, simd: S, z: &[f32x4], beta: f32x4, states: &mut [[f32x4; 2]]) {
-        self.patches.next_direction(simd, self.coarse, (&self.motions, z), beta, states);
+        let preconditioned = Correction { motions: &self.motions, z };
+        self.patches.next_direction(simd, self.coarse, preconditioned, beta, states);
     }
 }

@@ -1,110 +1,26 @@
 //! The stiffness of a cloth as a linear operator.
 //!
 //! Membrane and bending stiffness are invariant under translation: the blocks of a row sum to zero. They are therefore
-//! assembled as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`: that needs no
-//! diagonal, and a uniform translation is annihilated exactly, however the blocks were rounded. The linear solves take the
-//! pairs by rows ([`super::csr`]).
+//! assembled as one block a *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`. That needs no
+//! diagonal, and a uniform translation gives exactly zero, however the blocks were rounded. The linear solves take the
+//! pairs in compressed rows ([`super::csr`]).
 
 use nalgebra::Matrix3;
 use wide::f32x4;
 
-use super::csr::Upper;
+use super::pairs::PairList;
 use super::quad::{self, Block};
-use super::rows::sorted_by_row;
 use super::stencil::Stencils;
 use geom::V3;
 
-/// Pairs of vertices `i < j`, sorted, that some element couples.
-#[derive(Clone, Debug, Default)]
-pub struct PairList {
-    pairs: Vec<[usize; 2]>,
-    upper: Upper,
-}
-
-impl PairList {
-    /// The list without pairs.
-    pub const EMPTY: &'static Self = &Self { pairs: Vec::new(), upper: Upper::EMPTY };
-
-    /// Collects the distinct unordered pairs.
-    #[must_use]
-    pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
-        let given: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
-        let rows = given.iter().map(|[i, _]| i + 1).max().unwrap_or(0);
-        let (starts, mut others) = sorted_by_row(rows, &given, |[i, _]| *i, |[_, j]| *j);
-        let mut pairs: Vec<[usize; 2]> = Vec::with_capacity(given.len());
-        for (i, ends) in starts.windows(2).enumerate() {
-            let row = &mut others[ends[0] as usize..ends[1] as usize];
-            row.sort_unstable();
-            for (k, j) in row.iter().enumerate() {
-                if k == 0 || row[k - 1] != *j {
-                    pairs.push([i, *j]);
-                }
-            }
-        }
-        pairs.shrink_to_fit();
-        let upper = Upper::new(&pairs);
-        Self { pairs, upper }
-    }
-
-    /// Position of the pair `{i, j}` in the list.
-    #[must_use]
-    pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
-        self.upper.slot(i.min(j), i.max(j))
-    }
-
-    /// The pairs by their smaller vertex.
-    #[must_use]
-    pub fn upper(&self) -> &Upper {
-        &self.upper
-    }
-
-    /// Divides vertices that the pairs couple into patches: the patch of each, and their number. Each goes to the nearest of
-    /// middles that are at least `apart` pairs from each other.
-    #[must_use]
-    pub fn divide(&self, vertices: usize, apart: usize) -> (Vec<usize>, usize) {
-        let mut neighbours = vec![Vec::new(); vertices];
-        for &[i, j] in &self.pairs {
-            neighbours[i].push(j);
-            neighbours[j].push(i);
-        }
-        let mut distance = vec![usize::MAX; vertices];
-        let mut of = vec![0; vertices];
-        let mut count = 0;
-        let mut queue = std::collections::VecDeque::new();
-        for seed in 0..vertices {
-            if distance[seed] < apart {
-                continue;
-            }
-            (distance[seed], of[seed]) = (0, count);
-            queue.push_back(seed);
-            while let Some(v) = queue.pop_front() {
-                for &w in &neighbours[v] {
-                    if distance[v] + 1 < distance[w] {
-                        (distance[w], of[w]) = (distance[v] + 1, count);
-                        queue.push_back(w);
-                    }
-                }
-            }
-            count += 1;
-        }
-        (of, count)
-    }
-
-    /// The pairs, sorted.
-    #[must_use]
-    pub fn pairs(&self) -> &[[usize; 2]] {
-        &self.pairs
-    }
-}
-
-/// Coupling of four vertices along one direction: the stiffness `k a a^T` with `a = (w_0 n, ..., w_3 n)`.
+/// Rank-one stiffness `k a a^T` of four vertices along one direction, with `a = (w_0 n, ..., w_3 n)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact4 {
-    /// The four vertices; those of weight zero may repeat others.
+    /// The four vertices. One of weight zero may repeat another.
     pub vertices: [usize; 4],
-    /// Weight of each vertex; they sum to zero between layers of cloth, and to one on the body.
+    /// Weight of each vertex. Weights sum to zero between layers of cloth, and to one on the body.
     pub weights: [f64; 4],
-    /// Unit direction along which it resists.
+    /// Unit direction of the contact force.
     pub normal: V3,
     /// Stiffness, N/m.
     pub stiffness: f64,
@@ -119,47 +35,49 @@ impl Contact4 {
     }
 }
 
-/// Stiffness of triangles' sides that are arcs, beyond that of their chords, which the membrane's blocks hold.
+/// Stiffness of triangle sides that are arcs (`sim::cloth::arcs`), beyond that of their chords, which the membrane's
+/// blocks hold.
 #[derive(Clone, Debug)]
 pub struct ArcStiffness<'a> {
-    /// Pairs of vertices that are sides.
+    /// Vertex pairs of the sides.
     pub pairs: &'a PairList,
-    /// What the curvature along each side is told by.
+    /// Stencils that give the curvature along each side as a weighted sum of positions.
     pub stencils: &'a Stencils,
-    /// Sides of each triangle.
+    /// The three sides of each triangle.
     pub triangles: &'a [[u32; 3]],
-    /// From the first vertex of each side to the second, m.
+    /// Vector from the first vertex of each side to the second, m.
     pub chords: Vec<V3>,
-    /// What a unit of curvature along each side adds to half of its square, m.
+    /// Derivative of half of each squared arc length by the stencil's sum, m.
     pub slopes: Vec<V3>,
-    /// Stiffness against curvature itself of sides that are drawn, N/m.
+    /// Geometric stiffness against curvature that the tension of each side causes, N/m.
     pub drawn: Vec<f64>,
-    /// Of each triangle, what half of a squared side adds to the tension of a side, N/m3: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    /// Stiffness of each triangle between half squared side lengths and the tensions of sides, N/m3: of each side with
+    /// itself, then of the sides (0, 1), (1, 2), (2, 0).
     pub couplings: Vec<[f32; 6]>,
 }
 
-/// A symmetric positive semidefinite stiffness, assembled anew each step.
+/// A symmetric positive semidefinite stiffness, assembled anew in each step.
 pub struct Operator<'a> {
     /// Diagonal blocks: inertia, body contact, friction. N/m.
     pub diagonal: Vec<Matrix3<f64>>,
     /// Pairs coupled by the membrane.
     pub membrane_pairs: &'a PairList,
-    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m, with what bending has there.
+    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m. They include the bending of these pairs.
     pub membrane: Vec<Block<f32x4>>,
     /// Pairs coupled by bending alone.
     pub bending_pairs: &'a PairList,
-    /// Their off-diagonal entries, one a pair, N/m, the same in x, y and z.
+    /// Their off-diagonal entries, one a pair, the same in x, y and z, N/m.
     pub bending: &'a [f64],
-    /// Springs between two vertices: stiffness, N/m.
+    /// Springs: the two vertices, and the stiffness, N/m.
     pub springs: Vec<([usize; 2], f64)>,
-    /// Contacts of the cloth with itself, and of points between vertices with the body.
+    /// Contacts of the cloth with itself, and of points inside triangles with the body.
     pub contacts: Vec<Contact4>,
-    /// Sides that are arcs, where any are.
+    /// Stiffness of curved sides, if any are.
     pub arcs: Option<ArcStiffness<'a>>,
 }
 
 impl Operator<'_> {
-    /// What the diagonal and the contacts alone make of a displacement.
+    /// Product of the diagonal and the contacts alone with a displacement `x`.
     #[must_use]
     pub fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
         let mut y: Vec<V3> = self.diagonal.iter().zip(x).map(|(block, x)| block * x).collect();
@@ -178,19 +96,19 @@ impl Operator<'_> {
                 blocks[v] += Matrix3::identity() * stiffness;
             }
         }
-        // CsrMatrix and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing. Once a vertex is
-        // met, all smaller ones have been, and its column is whole.
+        // Sums of the rows and of the columns of couplings. Rows of the stiffness sum to zero, so the diagonal is their
+        // negative. When a vertex is reached, all smaller ones have been visited, and its column is complete.
         let mut columns = vec![[f32x4::ZERO; 3]; blocks.len()];
         let mut alike = vec![0.0; blocks.len()];
         for (i, block) in blocks.iter_mut().enumerate() {
             let mut rows = [f32x4::ZERO; 3];
-            for (j, coupling) in self.membrane_pairs.upper().of(i, &self.membrane) {
+            for (j, coupling) in self.membrane_pairs.upper().couplings(i, &self.membrane) {
                 for (k, row) in coupling.iter().enumerate() {
                     rows[k] += *row;
                     columns[j][k] += *row;
                 }
             }
-            for (j, entry) in self.bending_pairs.upper().of(i, self.bending) {
+            for (j, entry) in self.bending_pairs.upper().couplings(i, self.bending) {
                 alike[i] += entry;
                 alike[j] += entry;
             }
@@ -203,7 +121,7 @@ impl Operator<'_> {
         blocks
     }
 
-    /// The diagonal blocks without what couplings of pairs and springs have there.
+    /// The diagonal blocks without the parts of couplings and springs.
     #[must_use]
     pub fn own_blocks(&self) -> Vec<Matrix3<f64>> {
         let mut blocks = self.diagonal.clone();
@@ -218,7 +136,7 @@ impl Operator<'_> {
 }
 
 impl ArcStiffness<'_> {
-    /// Adds what curvature alone has on the diagonal.
+    /// Adds the diagonal of the stiffness against curvature.
     fn add_diagonal(&self, blocks: &mut [Matrix3<f64>]) {
         let mut own = vec![0.0; self.slopes.len()];
         for (sides, couplings) in self.triangles.iter().zip(&self.couplings) {
@@ -232,33 +150,5 @@ impl ArcStiffness<'_> {
                 blocks[v] += block * (weight * weight);
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pairs_are_kept_once_and_found_either_way_round() {
-        let list = PairList::new([[3, 1], [0, 2], [1, 3], [5, 5], [0, 1], [2, 0]]);
-        assert_eq!(list.pairs(), [[0, 1], [0, 2], [1, 3], [5, 5]]);
-        let check = |i: usize, j: usize, expect: Option<usize>| assert_eq!(list.slot(i, j), expect, "{i}, {j}");
-        check(2, 0, Some(1));
-        check(3, 1, Some(2));
-        check(5, 5, Some(3));
-        check(1, 2, None);
-        check(4, 6, None);
-        assert!(PairList::new([]).pairs().is_empty());
-    }
-
-    #[test]
-    fn every_vertex_is_in_a_patch_near_its_middle() {
-        let line = PairList::new((0..99).map(|v| [v, v + 1]));
-        let (of, count) = line.divide(100, 4);
-        let sizes: Vec<usize> = (0..count).map(|a| of.iter().filter(|b| **b == a).count()).collect();
-        assert!(sizes.iter().all(|n| (2..=5).contains(n)), "{sizes:?}");
-        // Cloth in two pieces, and a vertex of no pair.
-        assert_eq!(PairList::new([[0, 1]]).divide(4, 4), (vec![0, 0, 1, 2], 3));
     }
 }

@@ -5,30 +5,30 @@ use super::quad::Quad;
 use super::simd::{self, Kernel, Simd};
 use geom::V3;
 
-/// When to stop.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug)]
 pub struct PcgParams {
-    /// Stop when the preconditioned residual has fallen to this share of that of the right-hand side.
+    /// Ratio of the preconditioned norm of the residual to that of the right-hand side at which a solve stops.
     pub tolerance: f64,
-    /// Stop after so many iterations at the latest.
+    /// Greatest number of iterations.
     pub max_iterations: usize,
 }
 
-/// How a run ended.
+/// Result of a solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Whether the tolerance was met.
+    /// True if the tolerance was met.
     pub is_solved: bool,
-    /// Iterations that were made.
+    /// Number of iterations made.
     pub iterations: usize,
 }
 
-/// A preconditioner `P`, applied in two halves: between them only the product `r . P r` is asked for.
+/// A preconditioner `P`, applied in two halves. Between them only the product `r . P r` is needed.
 pub trait Preconditioner<Q: Quad> {
-    /// The first half of `P r`, in `z`; returns `r . P r`.
+    /// Computes the first half of `P r`, in `z`. Returns `r . P r`.
     fn apply<S: Simd>(&mut self, simd: S, r: &[Q], z: &mut [Q]) -> f64;
 
-    /// The next direction of states `[p, K p]`: `p = P r + beta p`, where the first half came to `z`.
+    /// Updates the direction of states `[p, K p]` to `p = P r + beta p`, where `z` is the first half of `P r`.
     #[inline(always)]
     fn next_direction<S: Simd>(&self, simd: S, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
         for ([p, _], z) in states.iter_mut().zip(z) {
@@ -37,9 +37,9 @@ pub trait Preconditioner<Q: Quad> {
     }
 }
 
-/// Improves `x` towards the solution of `K x = b` with a preconditioner, starting at the best multiple of it; says how that ended.
+/// Improves `x` towards the solution of `K x = b`, starting from the best multiple of it between 0 and 1.
 ///
-/// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
+/// Every iterate decreases the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a direction of descent.
 pub fn solve<Q: Quad>(
     operator: &CsrMatrix<Q>,
     preconditioner: impl Preconditioner<Q>,
@@ -73,10 +73,10 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
         let (alike, within) = (|a: &Q, b: &Q| *a * *b, |[p, kp]: &[Q; 2], _: &[Q; 2]| *p * *kp);
         let mut z = vec![Q::ZERO; b.len()];
         let goal = preconditioner.apply(simd, b, &mut z) * params.tolerance * params.tolerance;
-        // The last displacement `p`, and what it is multiplied to.
+        // The direction `p` and `K p`; the start is treated as a first direction.
         let mut states: Vec<[Q; 2]> = x.iter().map(|x| [*x, Q::ZERO]).collect();
         operator.apply(simd, &mut states);
-        // Never worse than zero.
+        // The start is scaled so that it is no worse than zero.
         let scale = dot(x, b, alike) / dot(&states, &states, within);
         let mut alpha = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
         x.fill(Q::ZERO);
@@ -110,7 +110,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
     }
 }
 
-/// Sum of the products of pairs; sums side by side, so that none waits for the other.
+/// Sum of the products of pairs. Four partial sums run side by side, so that no addition waits for the one before.
 #[inline(always)]
 pub fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());

@@ -1,6 +1,6 @@
-//! Three components and a zero in one vector register: what the loops of the linear solves are made of.
+//! A vector of space in one vector register, as three components and a zero.
 //!
-//! Written as arrays, most of these loops come out of the compiler a number at a time; so they say what they mean.
+//! From loops over arrays, the compiler mostly makes instructions on single numbers. So the register is explicit here.
 
 use std::borrow::Cow;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
@@ -15,45 +15,45 @@ use geom::V3;
 pub trait Quad:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + AddAssign + SubAssign + 'static
 {
-    /// One of the numbers.
+    /// Type of one number.
     type Scalar: Copy;
     /// Four zeros.
     const ZERO: Self;
-    /// Products of forces and displacements below which a solve has nothing left to do.
+    /// Work of the residual forces below which there is nothing left to solve.
     const NEGLIGIBLE: f64;
-    /// Four numbers, rounded.
+    /// Loads four numbers, rounded.
     fn of(numbers: [f64; 4]) -> Self;
-    /// One number, rounded.
+    /// Rounds one number.
     fn scalar(number: f64) -> Self::Scalar;
-    /// The same number four times.
+    /// Broadcasts one number.
     fn splat(number: Self::Scalar) -> Self;
     /// The four numbers, in order.
     fn numbers(self) -> [Self::Scalar; 4];
     /// The sum of the four numbers.
     fn total(self) -> f64;
-    /// The sums of three, and a zero.
-    fn totals(of: [Self; 3]) -> Self;
-    /// The first three.
+    /// Sums of three quads, and a zero.
+    fn totals(quads: [Self; 3]) -> Self;
+    /// The first three numbers.
     fn vector(self) -> V3;
 
-    /// The same number four times, rounded.
+    /// Broadcasts one number, rounded.
     #[must_use]
     fn spread(number: f64) -> Self {
         Self::splat(Self::scalar(number))
     }
 
-    /// The same number four times, of single precision.
+    /// Broadcasts one number of single precision.
     fn spread_single(number: f32) -> Self;
 
-    /// `self factor + sum`.
+    /// `self * factor + sum`.
     fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self;
-    /// `from - self factor`.
+    /// `from - self * factor`.
     fn neg_mul_add_on<S: Simd>(self, factor: Self, from: Self, simd: S) -> Self;
 
-    /// Blocks in this precision.
-    fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
+    /// Converts blocks to this precision.
+    fn blocks(single: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
 
-    /// A vector, rounded.
+    /// Loads a vector, rounded.
     #[must_use]
     fn from_vector(v: &V3) -> Self {
         Self::of([v.x, v.y, v.z, 0.0])
@@ -69,8 +69,8 @@ macro_rules! quad {
                 let epsilon = <$scalar>::EPSILON as f64;
                 epsilon * epsilon * epsilon
             };
-            fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]> {
-                $blocks(of)
+            fn blocks(single: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]> {
+                $blocks(single)
             }
             #[inline(always)]
             fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self {
@@ -107,8 +107,8 @@ macro_rules! quad {
                 f64::from((a + c) + (b + d))
             }
             #[inline(always)]
-            fn totals(of: [Self; 3]) -> Self {
-                let [a, b, c] = of.map(|quad| quad.to_array()).map(|[a, b, c, d]| (a + c) + (b + d));
+            fn totals(quads: [Self; 3]) -> Self {
+                let [a, b, c] = quads.map(|quad| quad.to_array()).map(|[a, b, c, d]| (a + c) + (b + d));
                 Self::from([a, b, c, 0.0])
             }
             #[inline(always)]
@@ -121,14 +121,18 @@ macro_rules! quad {
 }
 
 #[inline(always)]
-fn in_single<S>(simd: S, of: impl Fn(S, f32x4, f32x4, f32x4) -> f32x4, [a, b, c]: [f32x4; 3]) -> f32x4 {
-    of(simd, a, b, c)
+fn in_single<S>(simd: S, operation: impl Fn(S, f32x4, f32x4, f32x4) -> f32x4, [a, b, c]: [f32x4; 3]) -> f32x4 {
+    operation(simd, a, b, c)
 }
 
 #[inline(always)]
-fn in_double<S: Simd>(simd: S, of: impl Fn(S, S::F64x4, S::F64x4, S::F64x4) -> S::F64x4, numbers: [f64x4; 3]) -> f64x4 {
+fn in_double<S: Simd>(
+    simd: S,
+    operation: impl Fn(S, S::F64x4, S::F64x4, S::F64x4) -> S::F64x4,
+    numbers: [f64x4; 3],
+) -> f64x4 {
     let [a, b, c] = numbers.map(|quad| simd.f64s(quad.to_array()));
-    f64x4::from(simd.to_f64s(of(simd, a, b, c)))
+    f64x4::from(simd.to_f64s(operation(simd, a, b, c)))
 }
 
 quad!(f32x4, f32, in_single, mul_add, neg_mul_add, Cow::Borrowed);
@@ -140,40 +144,40 @@ quad!(f64x4, f64, in_double, mul_add_f64s, neg_mul_add_f64s, |blocks: &[Block<f3
 /// A 3x3 block by rows.
 pub type Block<Q> = [Q; 3];
 
-/// A block that does the same to x, y and z.
+/// The block `n I`.
 #[inline(always)]
 #[must_use]
 pub fn alike(n: f32) -> Block<f32x4> {
     [f32x4::from([n, 0.0, 0.0, 0.0]), f32x4::from([0.0, n, 0.0, 0.0]), f32x4::from([0.0, 0.0, n, 0.0])]
 }
 
-/// A block as a matrix.
+/// Converts a block into a matrix.
 #[must_use]
 pub fn matrix<Q: Quad>(block: &Block<Q>) -> Matrix3<f64> {
     Matrix3::from_rows(&block.map(|row| row.vector().transpose()))
 }
 
-/// A block, rounded.
+/// Converts a matrix into a block, rounded.
 #[must_use]
 pub fn block<Q: Quad>(m: &Matrix3<f64>) -> Block<Q> {
     [0, 1, 2].map(|r| Q::of([m[(r, 0)], m[(r, 1)], m[(r, 2)], 0.0]))
 }
 
-/// Takes a matrix from a block.
+/// Subtracts a matrix from a block.
 pub fn subtract(from: &mut Block<f32x4>, matrix: &Matrix3<f64>) {
     for (row, taken) in from.iter_mut().zip(block::<f32x4>(matrix)) {
         *row -= taken;
     }
 }
 
-/// Each of three components four times.
+/// Broadcasts each of the three components.
 #[inline(always)]
 pub fn spread_out<Q: Quad>(v: Q) -> [Q; 3] {
     let [x, y, z, _] = v.numbers();
     [x, y, z].map(Q::splat)
 }
 
-/// The transpose of a block times a vector.
+/// Product of the transposed block with a vector.
 #[inline(always)]
 pub fn transposed_times<Q: Quad>(block: &Block<Q>, v: Q) -> Q {
     let [x, y, z] = spread_out(v);

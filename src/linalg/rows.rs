@@ -1,7 +1,7 @@
-//! Items by their rows.
+//! Counting sort of items by their rows, as for compressed sparse rows.
 
-/// Where each of `rows` rows begins, and one more, and what is `kept` of each item: sorted by its row by counting, within a row in the
-/// order of the items.
+/// Sorts items by their `row` by counting, stably. Returns the start of each of `rows` rows and one entry more, and the
+/// `kept` value of each item.
 pub fn sorted_by_row<I, T: Copy + Default>(
     rows: usize,
     items: &[I],

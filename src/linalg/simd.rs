@@ -1,14 +1,15 @@
-//! SIMD: fused products and sums, and eight numbers in single precision at once.
+//! SIMD: fused multiply-add, and eight numbers in single precision at once.
 //!
-//! Every x86-64 has registers of four such numbers; nearly all since 2013 have such of eight, and products that are summed up without
-//! rounding in between. The loops of the linear solves are written once, for a [`Simd`]; [`dispatch`] runs them on the best that is
-//! there. Another processor may so round otherwise; the same rounds the same.
+//! Every x86-64 processor has registers of four such numbers. Nearly all since 2013 have registers of eight, and fused
+//! multiply-add, which rounds once. The loops of the linear solves are written once, for a [`Simd`], and [`dispatch`]
+//! runs them on the best that the processor has. Results on another kind of processor may therefore be rounded
+//! otherwise. The same processor always rounds the same.
 
 use wide::{f32x4, f64x4};
 
-/// Arithmetic that not every processor does in one go.
+/// Instructions that not every processor has.
 pub trait Simd: Copy {
-    /// Runs a kernel in a function of its own, compiled with these instructions.
+    /// Runs a kernel in a function of its own that is compiled with these instructions.
     fn run<K: Kernel>(self, kernel: K) -> K::Output;
 
     /// Two quads in single precision.
@@ -19,7 +20,7 @@ pub trait Simd: Copy {
     fn mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
     /// `c - a b`.
     fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
-    /// Loads four numbers in double precision.
+    /// Loads four numbers.
     fn f64s(self, numbers: [f64; 4]) -> Self::F64x4;
     /// Stores the numbers.
     fn to_f64s(self, four: Self::F64x4) -> [f64; 4];
@@ -35,13 +36,13 @@ pub trait Simd: Copy {
     fn mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
     /// `c - a b`.
     fn neg_mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
-    /// The numbers in single precision.
+    /// Rounds the numbers to single precision.
     fn to_f32s(self, four: Self::F64x4) -> [f32; 4];
     /// The square roots.
     fn sqrt_f64s(self, a: Self::F64x4) -> Self::F64x4;
-    /// The lesser of each two; the second where one is not a number.
+    /// The lesser of each two; the second where one of them is not a number.
     fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// The greater of each two; the second where one is not a number.
+    /// The greater of each two; the second where one of them is not a number.
     fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
     /// Two quads in one register, the first in its lower half.
     fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
@@ -51,9 +52,9 @@ pub trait Simd: Copy {
     fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
 }
 
-/// An array of what an expression makes of each index, written out in full.
+/// Array of an expression's values for each index, written out in full.
 ///
-/// `map` over an array is not inlined into a kernel, in which each instruction would then be called as a function.
+/// `map` over an array is not inlined into a kernel. Each instruction in it would then be a function call.
 #[macro_export]
 macro_rules! each {
     ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
@@ -65,9 +66,9 @@ macro_rules! each {
 }
 pub use each;
 
-/// A loop that is compiled for every instruction set; it is inlined, with all that it calls.
+/// A loop that is compiled for every instruction set. It is inlined, with all functions that it calls.
 pub trait Kernel {
-    /// What the loop returns.
+    /// Return value of the loop.
     type Output;
     /// Runs the loop with the instructions of `simd`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
@@ -82,7 +83,7 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     Plain.run(kernel)
 }
 
-/// What every processor has.
+/// The instructions that every processor has.
 #[derive(Clone, Copy)]
 pub struct Plain;
 
@@ -192,7 +193,7 @@ mod x86 {
 
     use super::{Kernel, Simd};
 
-    /// A kernel for these instructions.
+    /// A kernel with the instructions to run it on.
     struct On<K> {
         simd: V3,
         kernel: K,
@@ -287,8 +288,8 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn join(self, [one, other]: [f32x4; 2]) -> __m256 {
-            self.avx._mm256_set_m128(cast::<_, __m128>(other), cast::<_, __m128>(one))
+        fn join(self, [low, high]: [f32x4; 2]) -> __m256 {
+            self.avx._mm256_set_m128(cast::<_, __m128>(high), cast::<_, __m128>(low))
         }
 
         #[inline(always)]

@@ -1,8 +1,9 @@
-//! The stiffness of a cloth as its forces have it: found by differences, factorised, solved with.
+//! Tangent stiffness of a cloth by finite differences of its forces, with its factor.
 //!
-//! The stiffness of a step is made to be positive definite and cheap: compression is left out, friction slides stiffly, bending is
-//! condensed. What answers to a small change is the true derivative of the forces. Vertices that no force couples are moved at once
-//! [Curtis 1974], so that a cloth of any size takes as many evaluations as its densest place asks for.
+//! The stiffness of a time step is made positive definite and cheap: compression is left out, friction is stiff,
+//! bending is condensed. The response to a small change needs the true derivative of the forces. Vertices without a
+//! common coupled force are displaced together [Curtis 1974]. The number of evaluations then depends on the densest
+//! neighbourhood, and not on the size of the cloth.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
@@ -10,9 +11,9 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side};
 use nalgebra::Vector3;
 
-use super::operator::PairList;
+use super::pairs::PairList;
 
-/// A symmetric stiffness of three rows and columns a vertex, with its factor.
+/// A symmetric stiffness with three rows and columns a vertex, and its factor.
 pub struct Tangent {
     /// Both triangles by columns.
     pattern: SymbolicSparseColMat<usize>,
@@ -20,22 +21,19 @@ pub struct Tangent {
     factor: Factor,
 }
 
-/// Into what a stiffness was factorised.
+/// Factor of a stiffness.
 enum Factor {
-    /// Positive definite: what it holds comes back when it is let go.
+    /// Cholesky factor of a positive definite stiffness: the equilibrium is stable.
     Definite(Box<Llt<usize, f64>>),
-    /// Regular, but not positive definite.
+    /// LU factor of a regular, indefinite stiffness.
     Indefinite(Box<Lu<usize, f64>>),
-    /// Singular: there is no factor.
+    /// No factor, since the stiffness is singular.
     None,
 }
 
 impl Tangent {
-    /// The stiffness `-df/dx` at `x` of forces by which only vertices of a pair, and each with itself, are coupled, by central differences
-    /// of step `step`; its symmetric part.
-    ///
-    /// # Panics
-    /// When the machine's memory is used up.
+    /// Symmetric part of the stiffness `-df/dx` of forces at `x`, by central differences of `step`, m. Forces couple
+    /// only the vertices of each pair, and each vertex with itself.
     #[must_use]
     pub fn of(
         pairs: &PairList,
@@ -55,12 +53,12 @@ impl Tangent {
         let mut values = vec![0.0; rows.len()];
         for moved in groups(&near) {
             for axis in 0..3 {
-                let at = |by: f64| {
+                let forces_at = |by: f64| {
                     let mut there = x.to_vec();
                     moved.iter().for_each(|&v| there[v][axis] += by);
                     forces(&there)
                 };
-                let (after, before) = (at(step), at(-step));
+                let (after, before) = (forces_at(step), forces_at(-step));
                 for &v in &moved {
                     let start = columns[3 * v + axis];
                     for (slot, &w) in near[v].iter().enumerate() {
@@ -77,7 +75,7 @@ impl Tangent {
         tangent
     }
 
-    /// Takes the mean of both triangles.
+    /// Replaces both triangles by their mean.
     fn make_symmetric(&mut self, near: &[Vec<usize>]) {
         let starts = self.pattern.col_ptr();
         for (v, of_v) in near.iter().enumerate() {
@@ -85,9 +83,9 @@ impl Tangent {
                 let Ok(back) = near[w].binary_search(&v) else { continue };
                 for r in 0..3 {
                     for c in 0..3 {
-                        let (one, other) = (starts[3 * v + c] + 3 * slot + r, starts[3 * w + r] + 3 * back + c);
-                        let mean = 0.5 * (self.values[one] + self.values[other]);
-                        (self.values[one], self.values[other]) = (mean, mean);
+                        let (here, mirrored) = (starts[3 * v + c] + 3 * slot + r, starts[3 * w + r] + 3 * back + c);
+                        let mean = 0.5 * (self.values[here] + self.values[mirrored]);
+                        (self.values[here], self.values[mirrored]) = (mean, mean);
                     }
                 }
             }
@@ -110,13 +108,13 @@ impl Tangent {
         };
     }
 
-    /// Whether what it holds is held stably: every displacement costs energy.
+    /// True if every displacement costs energy, so that the equilibrium is stable.
     #[must_use]
     pub fn is_definite(&self) -> bool {
         matches!(self.factor, Factor::Definite(_))
     }
 
-    /// Ties every vertex to where it is by springs of this stiffness besides, N/m.
+    /// Adds a spring of this stiffness, N/m, between every vertex and its position.
     pub fn tie(&mut self, stiffness: f64) {
         for column in 0..self.pattern.ncols() {
             let range = self.pattern.col_range(column);
@@ -127,7 +125,7 @@ impl Tangent {
         self.factorise();
     }
 
-    /// Displacements under these forces; none where the stiffness is singular.
+    /// Displacements under these forces. `None` where the stiffness is singular.
     #[must_use]
     pub fn solve(&self, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
         let mut flat: Vec<f64> = forces.iter().flat_map(|f| [f.x, f.y, f.z]).collect();
@@ -142,7 +140,7 @@ impl Tangent {
     }
 }
 
-/// Each vertex with those that it is coupled to, ascending, itself among them.
+/// Vertices coupled to each vertex, itself among them, ascending.
 fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
     let mut near: Vec<Vec<usize>> = (0..count).map(|v| vec![v]).collect();
     for &[i, j] in pairs.pairs() {
@@ -153,7 +151,7 @@ fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
     near
 }
 
-/// Vertices in groups, of which no two move the same force.
+/// Groups of vertices (a colouring) in which no two act on the same force.
 fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut group_of = vec![usize::MAX; near.len()];
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -178,7 +176,8 @@ fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// A chain of vertices whose neighbours pull each other by the cube of their distance, and a spring to the floor.
+    /// Forces of a chain in which neighbours pull each other by the cube of their distance, and springs pull to the
+    /// floor.
     fn chain(x: &[Vector3<f64>], floor: f64) -> Vec<Vector3<f64>> {
         let mut forces: Vec<Vector3<f64>> = x.iter().map(|p| p * -floor).collect();
         for i in 1..x.len() {
@@ -207,8 +206,8 @@ mod tests {
             assert_eq!(tangent.is_definite(), is_definite, "{floor}");
             let push: Vec<Vector3<f64>> = (0..40).map(|k| Vector3::new(1.0, k as f64, -2.0)).collect();
             let way = tangent.solve(&push).expect("regular");
-            let at = |by: f64| chain(&x.iter().zip(&way).map(|(p, d)| p + d * by).collect::<Vec<_>>(), floor);
-            let (after, before) = (at(1e-6), at(-1e-6));
+            let forces_at = |by: f64| chain(&x.iter().zip(&way).map(|(p, d)| p + d * by).collect::<Vec<_>>(), floor);
+            let (after, before) = (forces_at(1e-6), forces_at(-1e-6));
             for ((after, before), push) in after.iter().zip(&before).zip(&push) {
                 let gives = (before - after) / 2e-6;
                 assert!((gives - push).norm() < 1e-3 * push.norm(), "{floor}: {gives} not {push}");
@@ -220,7 +219,7 @@ mod tests {
         tied.tie(1.0);
         let push = vec![Vector3::new(0.0, 0.0, 1.0); 40];
         let [tied, floored] = [tied, tangent(&x, 0.5)].map(|tangent| tangent.solve(&push).expect("regular"));
-        assert!(tied.iter().zip(&floored).all(|(one, other)| (one - other).norm() < 1e-3 * other.norm()));
+        assert!(tied.iter().zip(&floored).all(|(tied, floored)| (tied - floored).norm() < 1e-3 * floored.norm()));
     }
 
     #[test]

@@ -53,17 +53,17 @@ impl EvidencePart {
             let cells = cells(&answer.analysis, answer.p_holm, regret);
             Statistic { name: answer.garment.clone(), class: answer.class.as_str(), fit, cells }
         });
-        let of_garments = evidence.garments.iter().map(|(name, analysis, p_holm)| Statistic {
-            name: name.clone(),
+        let of_garments = evidence.garments.iter().map(|all_fits| Statistic {
+            name: all_fits.garment.clone(),
             class: "",
             fit: "all fits".into(),
-            cells: cells(analysis, *p_holm, dash()),
+            cells: cells(&all_fits.analysis, all_fits.p_holm, dash()),
         });
         let mut without = Vec::new();
         let mut told_apart = Vec::new();
-        for (name, analysis, _) in &evidence.garments {
-            without.extend(without_chart(name, analysis)?);
-            told_apart.extend(told(name, analysis));
+        for all_fits in &evidence.garments {
+            without.extend(without_chart(&all_fits.garment, &all_fits.analysis)?);
+            told_apart.extend(told(&all_fits.garment, &all_fits.analysis));
         }
         let score = rule_score(&data.pairs);
         Ok(Some(Self {
@@ -122,8 +122,7 @@ fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
         .answers
         .iter()
         .filter_map(|answer| row(format!("{}, {}", answer.garment, answer.class.as_str()), &answer.analysis));
-    let garments =
-        evidence.garments.iter().filter_map(|(name, analysis, _)| row(format!("{name}, all fits"), analysis));
+    let garments = evidence.garments.iter().filter_map(|all| row(format!("{}, all fits", all.garment), &all.analysis));
     let rows: Vec<Difference> = answers.chain(garments).collect();
     Ok(if rows.is_empty() { None } else { Some(difference_chart(&data.title, "differences", &rows, None)?) })
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::picture;
 use body::Body;
 use engine::stages::Model;
-use fit::worn::{Angle, DIRECTIONS, Section, Site, sites};
+use fit::on_body::{Angle, DIRECTIONS, Section, Site, sites};
 use geom::V2;
 use geom::section::Outline;
 use geom::units::{from_mm, mm};

@@ -119,16 +119,17 @@ fn the_published_tables_know_no_winner() {
 fn t_shirts_turn_to_fem_without_the_neck_opening() {
     let (_folder, store) = open();
     let evidence = evidence::evidence(&store, PUBLISHED).expect("readable");
-    let (_, shirts, _) = evidence.garments.iter().find(|(name, ..)| name == "male_tshirt").expect("published");
+    let garment = |name: &str| evidence.garments.iter().find(|all| all.garment == name).expect("published");
+    let shirts = &garment("male_tshirt").analysis;
     let all = shirts.estimate.expect("six subjects");
     assert!(all.mean > 0.0 && shirts.wins == [5, 13], "{all:?}");
     let rest = shirts.turned_by().expect("one measurement");
     assert_eq!((rest.what.as_str(), rest.wins), ("#6 Neck Opening", [15, 3]));
     assert!(rest.mean < 0.0, "{rest:?}");
     // The dress: six of six subjects for FEM-GS, the least p that six can give.
-    let (_, dress, p_holm) = evidence.garments.iter().find(|(name, ..)| name == "female_dress").expect("published");
+    let (dress, p_holm) = (&garment("female_dress").analysis, garment("female_dress").p_holm);
     assert_eq!((dress.wins, dress.estimate.expect("six").p), ([6, 0], 0.03125));
-    assert_eq!(*p_holm, Some(0.125), "of four garments");
+    assert_eq!(p_holm, Some(0.125), "of four garments");
     // No universal rule: nothing is proven in any garment and fit class.
     for answer in &evidence.answers {
         assert_eq!(answer.finding, Finding::InsufficientEvidence, "{} {:?}", answer.garment, answer.class);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use body::Body;
 use engine::Level;
 use engine::levels::quantities;
-use fit::worn::{self, DIRECTIONS, Section};
+use fit::on_body::{self, DIRECTIONS, Section};
 use geom::units::mm;
 use geom::{Surface, V3};
 use pattern::pom::Point;
@@ -73,7 +73,7 @@ impl<'a> Place<'a> {
         let mut add = |name: String, value_m: Option<f64>| {
             found.extend(value_m.map(|m| (name, Reading { value: mm(m), unit: "mm" })));
         };
-        for site in worn::sites(self.body) {
+        for site in on_body::sites(self.body) {
             let Some(section) = Section::cut(site, &self.body.mesh, &sewn.mesh) else { continue };
             let Level { level, gaps_m, .. } = Level::of(&section);
             add(format!("gap_{level}"), mean(gaps_m.iter()));
@@ -94,7 +94,7 @@ impl<'a> Place<'a> {
         for (side, lines) in ["neck_front", "neck_back"].into_iter().zip(&self.necks) {
             add(side.to_owned(), ends(lines).map(|[neck, _]| neck.z).filter(|_| !self.shoulder.is_empty()));
         }
-        for one in worn::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
+        for one in on_body::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
             let most = Reading { value: one.most_kpa, unit: "kPa" };
             found.insert(format!("pressure_{}", one.region.as_str()), most);
         }

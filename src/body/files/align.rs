@@ -1,4 +1,4 @@
-//! Bringing a body of any orientation into the world frame: upright, facing `y`, its median plane at `x = 0`.
+//! Alignment of a body of any orientation with the world frame: upright, facing `y`, its median plane at `x = 0`.
 
 use crate::measure::tape;
 use crate::repair::clean::principal_axes;
@@ -7,33 +7,36 @@ use geom::{TriMesh, V2, V3, hull};
 use nalgebra::{Rotation2, UnitQuaternion};
 use std::borrow::Cow;
 
-/// A body whose long axis leans less than this from an axis of its file stands along that axis, radians.
+/// Angle between the long axis of a body and an axis of its file below which the body stands along that axis, radians.
+/// Judgement.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// A body that leans less than the first from the upright axis of its file, or less than the second where the file has
-/// none, is left as it is, radians. One that would lean more than [`SOLES`] by its soles does not stand on them (raised
-/// heels).
+/// Least lean of a body that is corrected, radians: from the upright axis of its file, and where the file has none.
+/// Then the greatest lean after righting by the soles. A body beyond it does not stand on its soles (raised heels).
+/// Judgement.
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Legs that end farther apart than this over stature are not of one length.
+/// Difference of the lengths of the legs over stature from which on one of them counts as cut off. Judgement.
 const UNEVEN: f64 = 0.02;
 
-/// Height of the soles above the lowest point, over stature.
+/// Height of the soles' zone above the lowest point, over stature. Judgement.
 const SOLE_ZONE: f64 = 0.025;
 
-/// Slabs in which the symmetry is judged, and directions of their support functions.
+/// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions.
+/// Judgement.
 const SLABS: usize = 24;
 const DIRECTIONS: usize = 720;
 
-/// A body turned or shifted by less than this is left as it is, radians and share of stature.
+/// Least turn (radians) and shift (share of stature) of a body that is corrected. Judgement.
 const TURNED: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const SHIFTED: f64 = 0.004;
 
-/// Left and right of a body differ by less than this over stature, root mean square.
+/// Greatest root mean square difference of left and right over stature in a symmetric body. Judgement.
 const SYMMETRIC: f64 = 0.02;
 
-/// Turns the mesh so that its long axis points up and its legs are below; whether it stands along an axis of its file.
+/// Turns the mesh so that its long axis points up and its legs are below. Returns true if it stands along an axis of
+/// its file.
 pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return true };
     let leaning = |axis: &V3| long.dot(axis).abs().clamp(0.0, 1.0).acos();
@@ -41,7 +44,7 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     let nearest = frame.iter().position(|axis| leaning(axis) < SNAP);
     match nearest {
         Some(0) => {}
-        // z to the front, as in most animation software; x then points to the subject's left.
+        // In most animation software z points to the front, and x to the subject's left.
         Some(1) => {
             turn_all(mesh, |p| V3::new(-p.x, p.z, p.y));
             notes.push("taken as y up, z to the front (the greatest extent is along y)".to_owned());
@@ -65,7 +68,7 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     nearest.is_some()
 }
 
-/// Rights a body that already faces front or back: its long axis must not lean sideways, its soles must lie level.
+/// Rights a body that already faces front or back: its long axis must not lean sideways, and its soles must be level.
 pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<String>) {
     let Some((_, [long, ..])) = principal_axes(mesh, &on_both_sides(mesh)) else { return };
     let long = if long.z < 0.0 { -long } else { long };
@@ -83,7 +86,8 @@ pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<S
     }
 }
 
-/// The triangles of a mesh, without those of one leg below the end of the other: a leg that ends early would make a body lean.
+/// Triangles of a mesh without those of one leg below the end of the other. A leg that is cut off would make the body
+/// lean.
 fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     let Some((low, high)) = mesh.bounds() else { return Cow::Borrowed(&mesh.triangles) };
     let middle = (low.x + high.x) / 2.0;
@@ -99,7 +103,7 @@ fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     Cow::Owned(mesh.triangles.iter().filter(is_above).copied().collect())
 }
 
-/// Slope of the soles from back to front, radians: that of the edge on which the feet rest under their middle.
+/// Slope of the soles from back to front, radians: that of the hull's lower edge below the middle of the feet.
 fn sole_slope(mesh: &TriMesh) -> Option<f64> {
     let (low, high) = mesh.bounds()?;
     let ceiling = low.z + SOLE_ZONE * (high.z - low.z);
@@ -107,7 +111,7 @@ fn sole_slope(mesh: &TriMesh) -> Option<f64> {
     let hull = hull::convex_hull(&soles);
     let (from, to) = soles.iter().fold((f64::MAX, f64::MIN), |(a, b), p| (a.min(p.x), b.max(p.x)));
     let middle = (from + to) / 2.0;
-    // Counter-clockwise, the lower edges run forwards.
+    // In a counter-clockwise hull the lower edges run forwards.
     let next = hull.iter().cycle().skip(1);
     let edge = hull.iter().zip(next).find(|(a, b)| a.x <= middle && b.x > middle)?;
     Some((edge.1.y - edge.0.y).atan2(edge.1.x - edge.0.x))
@@ -117,7 +121,7 @@ fn turn_all(mesh: &mut TriMesh, turn: impl Fn(&V3) -> V3) {
     mesh.positions.iter_mut().for_each(|p| *p = turn(p));
 }
 
-/// Whether the two legs are at the upper end, and one trunk at the lower.
+/// True if the two legs are at the upper end and the trunk at the lower.
 fn stands_on_head(mesh: &TriMesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let stature = high.z - low.z;
@@ -129,7 +133,7 @@ fn stands_on_head(mesh: &TriMesh) -> bool {
     legs([0.78, 0.82, 0.86]) && !legs([0.14, 0.18, 0.22])
 }
 
-/// Turns an upright mesh about the vertical so that its plane of symmetry is the median plane, where it has one.
+/// Turns an upright mesh about the vertical so that its plane of symmetry becomes the median plane, if it has one.
 pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     let Some((low, high)) = mesh.bounds() else { return };
     let stature = high.z - low.z;
@@ -137,7 +141,7 @@ pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     if symmetry.difference > SYMMETRIC * stature {
         return;
     }
-    // The plane has two sides: the turn that changes less is taken, the feet decide later.
+    // The plane has two sides. The smaller turn is taken, and the feet decide later.
     let turn = symmetry.front.rem_euclid(std::f64::consts::PI) - std::f64::consts::FRAC_PI_2;
     let turned = turn.abs() > TURNED;
     let rotation = Rotation2::new(if turned { -turn } else { 0.0 });
@@ -163,13 +167,13 @@ struct Symmetry {
     front: f64,
     /// A point of the plane.
     point: V2,
-    /// Root mean square of the difference of both sides, in the mesh's unit.
+    /// Root mean square difference between both sides, in the mesh's unit.
     difference: f64,
 }
 
 impl Symmetry {
-    /// Compares the support functions of horizontal slabs with their mirror images for every direction of the plane; near
-    /// the best one, between the sampled directions by a parabola.
+    /// Compares the support functions of horizontal slabs with their mirror images for every direction of the plane.
+    /// The best direction is interpolated by a parabola.
     fn find(mesh: &TriMesh, floor: f64, stature: f64) -> Option<Self> {
         let centre = mesh.positions.iter().map(V3::xy).sum::<V2>() / mesh.positions.len().max(1) as f64;
         let slabs: Vec<Vec<f64>> =
@@ -177,24 +181,26 @@ impl Symmetry {
         if slabs.len() < SLABS / 2 {
             return None;
         }
-        let tried: Vec<(f64, f64)> = (0..DIRECTIONS / 2).map(|front| asymmetry(&slabs, front)).collect();
+        let tried: Vec<Asymmetry> = (0..DIRECTIONS / 2).map(|front| asymmetry(&slabs, front)).collect();
         let wide = |i: usize| {
             let side = (i + DIRECTIONS / 4) % DIRECTIONS;
             slabs.iter().map(|slab| slab[side] + slab[(side + DIRECTIONS / 2) % DIRECTIONS]).sum::<f64>()
         };
-        // A body is also nearly alike in front and behind: of the two, the plane across which it is wide.
-        let least = (0..tried.len()).min_by(|&i, &j| (tried[i].0 / wide(i)).total_cmp(&(tried[j].0 / wide(j))))?;
-        let at = |i: usize| tried[i % tried.len()].0.powi(2);
-        let (before, here, after) = (at(least + tried.len() - 1), at(least), at(least + 1));
+        // A body is also nearly symmetric from front to back. Of the two planes, the body is wide across the one
+        // sought.
+        let least = (0..tried.len())
+            .min_by(|&i, &j| (tried[i].difference / wide(i)).total_cmp(&(tried[j].difference / wide(j))))?;
+        let squared = |i: usize| tried[i % tried.len()].difference.powi(2);
+        let (before, here, after) = (squared(least + tried.len() - 1), squared(least), squared(least + 1));
         let bend = before - 2.0 * here + after;
         let offset = if bend > 0.0 { ((before - after) / (2.0 * bend)).clamp(-0.5, 0.5) } else { 0.0 };
         let front = (least as f64 + offset) / DIRECTIONS as f64 * std::f64::consts::TAU;
         let side = V2::new(front.sin(), -front.cos());
-        Some(Self { front, point: centre + side * tried[least].1, difference: tried[least].0 })
+        Some(Self { front, point: centre + side * tried[least].offset, difference: tried[least].difference })
     }
 }
 
-/// Support function of one slab's vertices round `centre`: the distance of the tangent in every direction.
+/// Support function of one slab's vertices about `centre`: the distance of the tangent in every direction.
 fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> Option<Vec<f64>> {
     let within = |p: &&V3| ((p.z - floor) / height).floor() as usize == slab;
     let points: Vec<V2> = mesh.positions.iter().filter(within).map(|p| p.xy() - centre).collect();
@@ -207,9 +213,16 @@ fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> 
     (hull.len() >= 3).then(|| (0..DIRECTIONS).map(tangent).collect())
 }
 
-/// Root mean square difference of all slabs from their mirror images about a plane in the direction `front`, and the
-/// sideways place of that plane (to the right of `front`).
-fn asymmetry(slabs: &[Vec<f64>], front: usize) -> (f64, f64) {
+/// Asymmetry of a body about a plane.
+struct Asymmetry {
+    /// Root mean square difference of all slabs from their mirror images.
+    difference: f64,
+    /// Offset of the plane to the right of its direction.
+    offset: f64,
+}
+
+/// Asymmetry of the slabs about the plane in the direction `front`, at the offset of the least difference.
+fn asymmetry(slabs: &[Vec<f64>], front: usize) -> Asymmetry {
     const STEP: usize = 8;
     let turns = (STEP..DIRECTIONS / 2).step_by(STEP);
     let odd = |slab: &[f64], turn: usize| {
@@ -221,10 +234,10 @@ fn asymmetry(slabs: &[Vec<f64>], front: usize) -> (f64, f64) {
     let both = || slabs.iter().flat_map(|slab| turns.clone().map(move |turn| (odd(slab, turn), sine(turn))));
     let offset = both().map(|(odd, sine)| odd * sine).sum::<f64>() / both().map(|(_, sine)| sine * sine).sum::<f64>();
     let squares = both().map(|(odd, sine)| (odd - offset * sine).powi(2));
-    ((squares.sum::<f64>() / both().count() as f64).sqrt(), offset)
+    Asymmetry { difference: (squares.sum::<f64>() / both().count() as f64).sqrt(), offset }
 }
 
-/// Whether the feet point to the back: their vertices lie behind those of the ankles.
+/// True if the feet point backwards: their middle lies behind that of the ankles.
 pub(super) fn looks_back(mesh: &TriMesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let stature = high.z - low.z;

@@ -1,6 +1,6 @@
-//! Binary glTF (`.glb`): the triangles of all meshes of the scene, where their nodes put them.
+//! Binary glTF (`.glb`) [Khronos 2021]: the triangles of all meshes of the scene, placed by their nodes.
 //!
-//! Read by hand: the crate `gltf` panics on an index that is out of range.
+//! It is read without the crate `gltf`, which panics on an index that is out of range.
 
 use super::{MOST_TRIANGLES, file_error, merge_equal_vertices, too_many};
 use crate::BodyError;
@@ -8,11 +8,11 @@ use geom::{TriMesh, V3};
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion};
 use serde::Deserialize;
 
-/// First bytes of a file.
+/// First bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
-/// Most nodes above a mesh: more is a ring of them.
+/// Greatest depth of a node. A deeper one belongs to a cycle.
 const DEEPEST: usize = 64;
-/// Most meshes that nodes place: more is one mesh placed again and again.
+/// Greatest number of nodes that are visited. More are one node visited again and again.
 const MOST_PLACED: usize = 10_000;
 /// Mode of a primitive of triangles.
 const TRIANGLES: u32 = 4;
@@ -86,7 +86,8 @@ struct View {
     byte_stride: Option<usize>,
 }
 
-/// Reads the mesh of a file. Vertices are stored once for each chart of a texture: those of equal position are joined.
+/// Reads the mesh of a file. A vertex is stored once for each chart of a texture, so vertices of equal position are
+/// merged.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let (json, data) = chunks(bytes).ok_or_else(|| refused("its chunks are cut off"))?;
     let document: Document = serde_json::from_slice(json).map_err(|error| refused(&error.to_string()))?;
@@ -105,9 +106,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         }
         let node = document.nodes.get(index).ok_or_else(|| refused(&format!("no node {index}")))?;
         let place = above * node.place();
-        if let Some(of) = node.mesh {
-            let of = document.meshes.get(of).ok_or_else(|| refused(&format!("no mesh {of}")))?;
-            for primitive in &of.primitives {
+        if let Some(index) = node.mesh {
+            let placed_mesh = document.meshes.get(index).ok_or_else(|| refused(&format!("no mesh {index}")))?;
+            for primitive in &placed_mesh.primitives {
                 document.add(&mut mesh, primitive, data, &place)?;
             }
         }
@@ -133,7 +134,7 @@ fn chunks(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 impl Node {
-    /// Where it puts what hangs from it.
+    /// Transform of its mesh and its children.
     fn place(&self) -> Matrix4<f64> {
         if let Some(matrix) = self.matrix {
             return Matrix4::from_column_slice(&matrix);
@@ -147,7 +148,7 @@ impl Node {
 }
 
 impl Document {
-    /// Adds the triangles of a primitive; points and lines are no surface.
+    /// Adds the triangles of a primitive. Points and lines are ignored.
     fn add(
         &self,
         mesh: &mut TriMesh,
@@ -190,7 +191,7 @@ impl Document {
         Ok(())
     }
 
-    /// The items of an accessor, of so many bytes each; `None` where they are not in the file.
+    /// Items of an accessor, of so many bytes each. `None` where they are not in the file.
     fn items<'d>(
         &self,
         accessor: &Accessor,

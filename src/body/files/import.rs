@@ -1,6 +1,7 @@
-//! Bodies from files: OBJ, PLY, STL and GLB in any unit and with any axis up, and OBJ back out.
+//! Import of bodies from OBJ, PLY, STL and GLB in any unit and orientation, and export to OBJ.
 //!
-//! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
+//! Importers take bytes. The unit is given or inferred from the height; the upright axis is inferred from the extents.
+//! Both are stated in the notes.
 
 use super::{MOST_TRIANGLES, align, file_error, glb, merge_equal_vertices, stl, too_many};
 use crate::BodyError;
@@ -27,7 +28,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// Every unit; a standing adult is so high in one of them only.
+    /// All units. The height of a standing adult is plausible in one of them only.
     pub const ALL: [Self; 5] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Decimetre, Self::Inch];
 
     /// Metres in one unit.
@@ -55,22 +56,18 @@ impl LengthUnit {
     }
 }
 
-/// An imported body in the world frame, with what had to be guessed.
+/// An imported body in the world frame, with notes on what was inferred.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
-    /// The mesh: metres, z up, on the floor.
+    /// Mesh: metres, z up, on the floor.
     pub mesh: TriMesh,
-    /// Unit that was used.
+    /// Unit of the file.
     pub unit: LengthUnit,
-    /// Guesses and repairs, as sentences for the user.
+    /// Inferences and repairs, as sentences for the user.
     pub notes: Vec<String>,
 }
 
-/// Reads a body mesh; the format is told from its first bytes.
-///
-/// # Errors
-/// [`BodyError::File`] names the format, the place and what is wrong; [`BodyError::Unit`] refuses an extent that
-/// fits no unit.
+/// Reads a body mesh. The format is recognised by its first bytes.
 pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     settle(&read(bytes)?, unit)
 }
@@ -103,7 +100,7 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(mesh)
 }
 
-/// Faces that a file says or shows to have, counted without reading them.
+/// Number of faces that a file states or shows, counted without reading them.
 fn announced_faces(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"ply") {
         let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
@@ -132,7 +129,7 @@ fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&mesh))
 }
 
-/// The first line that is no OBJ statement with the numbers it needs.
+/// First line that is not an OBJ statement with the numbers that it needs.
 fn obj_place(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let broken = |line: &str| {
@@ -198,7 +195,7 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&mesh))
 }
 
-/// Brings a raw mesh into the world frame.
+/// Brings a mesh as read into the world frame.
 fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     let mut notes = Vec::new();
     if clean::several(mesh) {
@@ -249,12 +246,12 @@ fn is_adult(height_m: f64) -> bool {
     (1.2..2.4).contains(&height_m)
 }
 
-/// The unit in which `height` is that of a standing person.
+/// Unit in which `height` is that of a standing adult.
 fn guess_unit(height: f64) -> Option<LengthUnit> {
     LengthUnit::ALL.into_iter().find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
 }
 
-/// The mesh as Wavefront OBJ text, metres with a tenth of a micrometre.
+/// Writes the mesh as Wavefront OBJ, metres with a tenth of a micrometre.
 #[must_use]
 pub fn write_obj(mesh: &TriMesh) -> String {
     let mut text = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 20);

@@ -1,40 +1,38 @@
-//! STL, ASCII and binary, by our own reader: the crate `stl_io` names no line, drops every solid but the first, and rounds ASCII
-//! numbers to single precision.
+//! STL, ASCII and binary. It is read without the crate `stl_io`, which names no line in its errors, drops every solid
+//! but the first, and rounds ASCII numbers to single precision.
 
 use super::{file_error, merge_equal_vertices};
 use crate::BodyError;
 use geom::{TriMesh, V3};
 
-/// Bytes of a binary file before its facets, and of one facet.
+/// Number of bytes of a binary file before its facets, and of one facet.
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
-/// Whether these bytes are STL.
+/// True if these bytes are STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
     is_binary(bytes) || bytes.trim_ascii_start().starts_with(b"solid")
 }
 
-/// Facets that a binary file announces, and that an ASCII file of its length may have.
+/// Number of facets that a binary file states, or that an ASCII file of its length may have.
 pub(super) fn announced_faces(bytes: &[u8]) -> usize {
-    /// Fewest bytes that a facet of an ASCII file takes.
+    /// Least number of bytes of a facet in an ASCII file.
     const ASCII_FACET: usize = 100;
     if is_binary(bytes) { count(bytes) } else { bytes.len() / (4 * ASCII_FACET) }
 }
 
-/// Whether the count of facets ends in a zero byte, as any below 16 million does and no text: a header may begin with `solid` too.
+/// True if the last byte of the facet count is zero. It is so for any count below 16 million, and in no text. The
+/// header of a binary file may begin with `solid`, too.
 fn is_binary(bytes: &[u8]) -> bool {
     bytes.get(HEADER - 1) == Some(&0)
 }
 
-/// Facets by the header of a binary file.
+/// Number of facets in the header of a binary file.
 fn count(bytes: &[u8]) -> usize {
     bytes[HEADER - 4..HEADER].iter().rev().fold(0, |count, byte| count << 8 | usize::from(*byte))
 }
 
-/// Reads a file and joins the corners of its facets.
-///
-/// # Errors
-/// [`BodyError::File`] with the line of an ASCII file, the facet of a binary one.
+/// Reads a file and merges the corners of its facets.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let corners = if is_binary(bytes) { binary_corners(bytes)? } else { ascii_corners(bytes)? };
     if corners.len() % 3 != 0 {

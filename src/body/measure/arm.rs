@@ -1,36 +1,38 @@
-//! The centre line of an arm, traced by sections across it: for bodies of which only the skin is known.
+//! Centre line of an arm, traced by cross-sections of a skin whose skeleton is unknown.
 
-use super::tape;
+use super::{AxisPoint, tape};
 use crate::repair::clean;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Step along the arm, and how far a section's middle may lie off the line so far, over stature.
+/// Step along the arm, and greatest distance of a section's middle from the line extrapolated so far, over stature.
+/// Judgement.
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
-/// How far outside the armpit a spread arm is first cut, over stature.
+/// Distance outside the armpit at which an arm that is spread wide is first cut, over stature. Judgement.
 const SPREAD: f64 = 0.05;
 
-/// Girths of the outlines of an arm, over stature.
+/// Range of the girths of an arm's sections, over stature. Judgement.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
-/// Most steps; arms are shorter.
+/// Greatest number of steps. Arms are shorter.
 const MOST_STEPS: usize = 50;
 
-/// Elbow as a share of the line from the shoulder joint to the finger tips (mean of 200 model bodies; 15 mm remain), and where
-/// the narrowest place of the wrist is searched.
+/// Place of the elbow as a share of the line from the shoulder joint to the finger tips: mean of 200 model bodies, with
+/// a residual of 15 mm. Then the range of shares in which the narrowest section of the wrist is sought.
 const ELBOW: f64 = 0.364;
 const WRIST: [f64; 2] = [0.66, 0.82];
 
-/// The wrist's joint as a share of the line: constant, and change with the narrowest place (model bodies; 10 mm remain).
+/// Regression of the wrist joint's share of the line on that of the narrowest section: intercept and slope. Fitted to
+/// model bodies, with a residual of 10 mm.
 const WRIST_JOINT: [f64; 2] = [0.317, 0.573];
 
-/// A section across the arm.
+/// A cross-section of the arm.
 #[derive(Clone, Copy, Debug)]
 struct Station {
     centre: V3,
-    /// Distance from the joint along the line, metres.
+    /// Distance from the shoulder joint along the line, metres.
     at: f64,
     /// Tape girth, metres.
     girth: f64,
@@ -46,8 +48,8 @@ pub(crate) struct Arm {
 }
 
 impl Arm {
-    /// Follows the right arm from the shoulder joint, taken half way between shoulder point and armpit, to the finger
-    /// tips; `None` where the skin below the armpit is no arm.
+    /// Traces the right arm from the shoulder joint, taken half way between shoulder point and armpit, to the finger
+    /// tips. `None` where the skin below the armpit is no arm.
     pub fn trace(mesh: &TriMesh, shoulder: V3, armpit: V3, stature: f64) -> Option<Self> {
         let joint = (shoulder + armpit) / 2.0;
         let mesh = &beyond(mesh, armpit.x - 0.06 * stature);
@@ -55,7 +57,7 @@ impl Arm {
         let limbs = tape::right_limbs(mesh, below, armpit.x - 0.02 * stature);
         let start = match limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x)) {
             Some(first) => Plane::horizontal(below).lift(middle(first)),
-            // An arm that is spread wide: no part of it lies below the armpit.
+            // An arm that is spread wide has no part below the armpit.
             None => {
                 let plane = Plane::normal_to(V3::new(armpit.x + SPREAD * stature, joint.y, joint.z), V3::x());
                 plane.lift(middle(&nearest(mesh, &plane, stature)?))
@@ -71,7 +73,7 @@ impl Arm {
             let Some(outline) = nearest(mesh, &plane, stature) else { break };
             let centre = plane.lift(middle(&outline));
             stations.push(Station { centre, at, girth: tape::girth(&outline) });
-            // The direction of the last four steps: that of one wavers with the muscles.
+            // The direction is that of the last four steps. Over a single step it varies with the muscles.
             let back = stations[stations.len().saturating_sub(5)].centre;
             along = (centre - back).try_normalize(1e-6)?;
             predicted = centre + along * step;
@@ -83,43 +85,43 @@ impl Arm {
         Some(Self { stations, tip, length })
     }
 
-    /// Place and direction of the line at a share of its length.
-    pub fn at(&self, share: f64) -> (V3, V3) {
+    /// Point and direction of the line at a share of its length.
+    pub fn at(&self, share: f64) -> AxisPoint {
         let at = share * self.length;
         let count = self.stations.len();
         let next = self.stations.partition_point(|station| station.at < at).clamp(1, count - 1);
         let (a, b) = (self.stations[next - 1], self.stations[next]);
         let place = a.centre.lerp(&b.centre, ((at - a.at) / (b.at - a.at)).clamp(0.0, 1.0));
         let (from, to) = (self.stations[next.saturating_sub(3)], self.stations[(next + 2).min(count - 1)]);
-        (place, (to.centre - from.centre).normalize())
+        AxisPoint { place, along: (to.centre - from.centre).normalize() }
     }
 
-    /// Share of the length at the elbow.
+    /// Share of the line's length at the elbow.
     pub fn elbow(&self) -> f64 {
         ELBOW
     }
 
-    /// Share of the length at the narrowest place of the wrist.
+    /// Share of the line's length at the narrowest section of the wrist.
     pub fn wrist(&self) -> f64 {
         let within = |station: &&Station| (WRIST[0]..WRIST[1]).contains(&(station.at / self.length));
         let narrowest = self.stations.iter().filter(within).min_by(|a, b| a.girth.total_cmp(&b.girth));
         narrowest.map_or((WRIST[0] + WRIST[1]) / 2.0, |station| station.at / self.length)
     }
 
-    /// Share of the length at the joint of the wrist, to which the arm is measured.
+    /// Share of the line's length at the wrist joint, where the arm length ends.
     pub fn wrist_joint(&self) -> f64 {
         WRIST_JOINT[0] + WRIST_JOINT[1] * self.wrist()
     }
 
-    /// The plane across the arm at a share of its length: first axis forward, second outward and up.
+    /// Plane across the arm at a share of its length. Its first axis points forward, its second outward and up.
     pub fn across(&self, share: f64) -> Plane {
-        let (origin, along) = self.at(share);
+        let AxisPoint { place: origin, along } = self.at(share);
         let forward = (V3::y() - along * along.y).normalize();
         Plane { origin, u: forward, v: along.cross(&forward) }
     }
 }
 
-/// The triangles that reach beyond `x`.
+/// Part of the mesh with the triangles that reach beyond `x`.
 fn beyond(mesh: &TriMesh, x: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&i| mesh.positions[i].x > x);
     let triangles: Vec<[usize; 3]> = mesh.triangles.iter().filter(reaches).copied().collect();
@@ -131,7 +133,7 @@ fn middle(outline: &Outline) -> V2 {
     (low + high) / 2.0
 }
 
-/// The outline of an arm's girth whose middle is nearest to the origin of the plane.
+/// The outline with the girth of an arm whose middle is nearest to the origin of the plane.
 fn nearest(mesh: &TriMesh, plane: &Plane, stature: f64) -> Option<Outline> {
     let off = |outline: &Outline| middle(outline).norm();
     let fits =
@@ -139,7 +141,7 @@ fn nearest(mesh: &TriMesh, plane: &Plane, stature: f64) -> Option<Outline> {
     section(mesh, plane).into_iter().filter(fits).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// The vertex near the line through `from` that reaches farthest along it, not more than three steps.
+/// Farthest vertex along the line through `from`, among those near the line and within three steps.
 fn farthest(mesh: &TriMesh, from: V3, along: V3, step: f64) -> V3 {
     let reach = |p: &V3| (p - from).dot(&along);
     let near = |p: &&V3| (0.0..3.0 * step).contains(&reach(p)) && (*p - from - along * reach(p)).norm() < 4.0 * step;

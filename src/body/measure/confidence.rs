@@ -1,7 +1,7 @@
-//! How well each measure of a scan is known: a standard deviation with its reason.
+//! Uncertainty of each measurement of a scan: a standard deviation with its cause.
 //!
-//! A girth is as uncertain as its level lets it be: the level's deviation times how fast the girth changes there. The deviations of
-//! the levels are what is left on 218 model bodies on which bones and nipples are known.
+//! The uncertainty of a girth follows from that of its level: the deviation of the level times the change of girth with
+//! height there. The deviations of the levels are residuals over 218 model bodies whose bones and nipples are known.
 
 use super::sites::Sites;
 use super::tailor::{Marks, knee_level};
@@ -9,36 +9,36 @@ use super::tape;
 use geom::TriMesh;
 use geom::units::mm;
 
-/// How well a measure is known.
+/// Uncertainty of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Confidence {
-    /// Key of the measure.
+    /// Key of the measurement.
     pub key: &'static str,
     /// Standard deviation in the unit of the key: millimetres, degrees.
     pub sd: f64,
-    /// What limits it.
+    /// Cause that limits it, in words.
     pub reason: &'static str,
 }
 
-/// Standard deviations of levels over stature: nipples, under-bust, hip, knee.
+/// Standard deviations of the levels of nipples, under-bust, hip and knee, over stature.
 const NIPPLES: f64 = 0.0090;
 const UNDERBUST: f64 = 0.0060;
 const HIP: f64 = 0.0040;
 const KNEE: f64 = 0.0180;
 
-/// That of the nipples' distance from the median plane, of the wrist's joint and the elbow along the arm, and of the neck's base,
-/// over stature.
+/// Standard deviations over stature: of the nipples' distance from the median plane, of wrist joint and elbow along the
+/// arm, and of the base of the neck.
 const NIPPLES_OUT: f64 = 0.0045;
 const WRIST: f64 = 0.0055;
 const NECK_BASE: f64 = 0.0050;
 
-/// That of the shoulders' slope, degrees.
+/// Standard deviation of the shoulder slope, degrees.
 const SLOPE: f64 = 1.5;
 
-/// What the tape itself leaves open on a smooth skin, metres: facets and steps of the search.
+/// Standard deviation of the tape on a smooth skin, metres: facets of the mesh and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// How far above and below a level its girth is read to tell how fast it changes, metres.
+/// Height above and below a level over which the change of its girth is measured, metres. Judgement.
 const STEP: f64 = 0.008;
 
 const SKIN: &str = "facets and noise of the skin";
@@ -51,18 +51,18 @@ const JOINTS: &str = "elbow and wrist joint are told from the line of the arm";
 const BASE: &str = "the base of the neck is where the skin bends";
 const FLAT: &str = "a flat summit stands out alike over some height";
 
-/// The confidence of every key.
-pub(super) fn of(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence> {
+/// Uncertainty of every key.
+pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence> {
     let h = marks.stature;
     let trunk = |level: f64, off: f64| {
-        let at = |z: f64| tape::trunk_girth(mesh, z, sites.middle);
-        swing(at(level), [at(level - STEP), at(level + STEP)], off * h)
+        let girth_at = |z: f64| tape::trunk_girth(mesh, z, sites.middle);
+        girth_error(girth_at(level), [girth_at(level - STEP), girth_at(level + STEP)], off * h)
     };
     let knee = knee_level(marks);
     let leg = |z: f64| tape::leg_girth(mesh, z, sites.middle);
-    let knee_girth = swing(leg(knee), [leg(knee - STEP), leg(knee + STEP)], KNEE * h);
+    let knee_girth = girth_error(leg(knee), [leg(knee - STEP), leg(knee + STEP)], KNEE * h);
     let [shoulder, nape] = sites.upper_sd;
-    // On a shoulder that slopes, the tape runs farther than the point moves outwards.
+    // On a sloping shoulder the tape lengthens by more than the point moves outwards.
     let (arm, over) = (shoulder.hypot(WRIST * h), 2.3 * shoulder);
     let base = NECK_BASE * h;
     let known = |key, sd: f64, reason| Confidence { key, sd: mm(sd.hypot(TAPE)), reason };
@@ -106,11 +106,11 @@ pub(super) fn of(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec<Confidence
     ]
 }
 
-/// How far a girth swings when its level is off by so much, by its values at, below and above the level. Where an arm joins the
-/// trunk on one side the girth jumps: the other side tells.
-fn swing(at: Option<f64>, around: [Option<f64>; 2], off: f64) -> f64 {
-    /// Steepest change of a girth with height, where only skin bends.
+/// Error of a girth whose level is off by so much, from the girths at, below and above the level. Where an arm joins
+/// the trunk on one side, the girth jumps, and the other side is used.
+fn girth_error(at: Option<f64>, around: [Option<f64>; 2], off: f64) -> f64 {
+    /// Greatest change of a girth with height on a bent skin without such a jump. Judgement.
     const STEEPEST: f64 = 2.5;
-    let change = |other: Option<f64>| Some((other? - at?).abs() / STEP).filter(|slope| *slope < STEEPEST);
+    let change = |neighbour: Option<f64>| Some((neighbour? - at?).abs() / STEP).filter(|slope| *slope < STEEPEST);
     around.into_iter().filter_map(change).reduce(f64::max).unwrap_or(STEEPEST) * off
 }

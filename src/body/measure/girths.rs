@@ -1,4 +1,4 @@
-//! What a tape reads on a body.
+//! Girths and levels that a tape reads on a body.
 
 use crate::people::dimension::{COUNT, Dimension};
 use crate::repair::feet::Feet;
@@ -7,7 +7,7 @@ use geom::units::{from_mm, mm};
 use serde::de::Error as _;
 use std::collections::BTreeMap;
 
-/// What the tape reads, in the order in which it is written.
+/// Dimensions that the tape reads, in the order in which they are written.
 const READ: [Dimension; 16] = {
     use Dimension::*;
     [
@@ -30,7 +30,7 @@ const READ: [Dimension; 16] = {
     ]
 };
 
-/// Heights at which something is read, with their keys.
+/// Dimensions whose height is written, with the keys of the heights.
 const LEVELS: [(Dimension, &str); 9] = [
     (Dimension::NeckGirth, "neck_level_mm"),
     (Dimension::ChestGirth, "chest_level_mm"),
@@ -43,10 +43,10 @@ const LEVELS: [(Dimension, &str); 9] = [
     (Dimension::Inseam, "crotch_level_mm"),
 ];
 
-/// What is read of the right leg between knee and foot.
+/// Dimensions of the right leg between knee and foot.
 const LOWER_LEG: [Dimension; 3] = [Dimension::KneeGirth, Dimension::CalfGirth, Dimension::AnkleGirth];
 
-/// Stature and inseam, and what is read at a share of the stature.
+/// Stature, inseam, and the dimensions that are read at a share of the stature.
 const PLACED_BY_STATURE: [Dimension; 6] = [
     Dimension::Stature,
     Dimension::Inseam,
@@ -59,38 +59,40 @@ const PLACED_BY_STATURE: [Dimension; 6] = [
 /// Key of the volume.
 const VOLUME: &str = "volume_l";
 
-/// What the tape reads on a body, and its volume. Limbs below the upper arm and the thigh are read where their axes are known.
+/// Girths and levels of a body, and its volume. Limbs below the upper arm and the thigh are read where their axes are
+/// known.
 ///
-/// Written as the keys of `body measure`. The numbers are held as they are written, so that a stored body equals the one that was
-/// stored to the last bit.
+/// They are serialised by the keys of `body measure`. The numbers are held in the units in which they are written, so
+/// that a body that is stored and read again is equal to the last bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Girths {
-    /// What the tape reads of each dimension, by its number, millimetres.
+    /// Values by dimension, millimetres.
     values: [Option<f64>; COUNT],
-    /// Heights above the floor, millimetres.
+    /// Heights above the floor by dimension, millimetres.
     levels: [Option<f64>; COUNT],
-    /// Not a number where feet are missing.
+    /// Volume, litres. Not a number where feet are missing.
     volume_l: f64,
 }
 
 impl Girths {
-    /// Of a body of a volume (m3) on which nothing is read yet.
+    /// Girths of a body with a volume (m3) on which nothing has been read yet.
     pub(super) fn of(volume_m3: f64) -> Self {
         Self { values: [None; COUNT], levels: [None; COUNT], volume_l: volume_m3 * 1e3 }
     }
 
-    /// Notes what is read, m; nothing where the tape cannot be laid.
+    /// Sets a dimension, m. `None` where the tape cannot be laid.
     pub(crate) fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
         self.values[dimension as usize] = value.into().map(mm);
     }
 
-    /// Notes the height above the floor at which a dimension is read, m.
+    /// Sets the height above the floor at which a dimension is read, m.
     pub(super) fn set_level(&mut self, dimension: Dimension, height: impl Into<Option<f64>>) {
         self.levels[dimension as usize] = height.into().map(mm);
     }
 
-    /// Leaves out what a body without these feet does not tell: its volume; of the right leg what lies below the knee; and where the floor
-    /// is not known, heights and what is placed by a share of the stature.
+    /// Removes what a body with these feet does not show. Without one foot, this is the volume, and on the right leg
+    /// all below the knee. Without both, the floor is not known, so heights and all that is placed by a share of the
+    /// stature are removed, too.
     pub(crate) fn keep_known(&mut self, feet: Feet) {
         if feet == Feet::BOTH {
             return;
@@ -105,38 +107,38 @@ impl Girths {
         }
     }
 
-    /// The same girths on a body moved down by some metres; stature and inseam are those of the body standing upright.
+    /// Lowers the levels by some metres. Stature and inseam stay those of the upright body.
     pub(crate) fn lower(&mut self, down: f64) {
         self.levels.iter_mut().flatten().for_each(|level| *level -= mm(down));
     }
 
-    /// What the tape reads of a dimension, m.
+    /// Value of a dimension, m.
     #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize].map(from_mm)
     }
 
-    /// Volume within the skin, litres; not a number where feet are missing.
+    /// Volume, litres. Not a number where feet are missing.
     #[must_use]
     pub fn volume_l(&self) -> f64 {
         self.volume_l
     }
 
-    /// What stands under a key where these girths are written: millimetres, litres.
+    /// Value of a key as it is written, in millimetres or litres.
     #[must_use]
     pub fn written(&self, key: &str) -> Option<f64> {
         self.entries().find(|(other, _)| *other == key)?.1
     }
 
-    /// Every key with its value.
+    /// All keys with their values.
     pub(super) fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let values = READ.map(|dimension| (dimension.key(), self.values[dimension as usize]));
         let levels = LEVELS.map(|(dimension, key)| (key, self.levels[dimension as usize]));
         values.into_iter().chain([(VOLUME, Some(self.volume_l).filter(|litres| litres.is_finite()))]).chain(levels)
     }
 
-    /// The measurements of a subject with these girths, as a study holds them: all that a subject may have, to the tenth of a
-    /// millimetre, which is finer than any tape.
+    /// Measurements of a subject with these girths, as a study holds them: all that a subject may have, rounded to a
+    /// tenth of a millimetre, which is finer than a tape.
     #[must_use]
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let mut known = Measurements::of(sex, f64::NAN);
@@ -159,11 +161,11 @@ impl serde::Serialize for Girths {
 impl<'de> serde::Deserialize<'de> for Girths {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let written = BTreeMap::<String, Option<f64>>::deserialize(deserializer)?;
-        let at = |key: &str| written.get(key).copied().flatten();
-        let volume_l = at(VOLUME).ok_or_else(|| D::Error::missing_field(VOLUME))?;
+        let value_of = |key: &str| written.get(key).copied().flatten();
+        let volume_l = value_of(VOLUME).ok_or_else(|| D::Error::missing_field(VOLUME))?;
         let mut girths = Self { values: [None; COUNT], levels: [None; COUNT], volume_l };
-        READ.into_iter().for_each(|dimension| girths.values[dimension as usize] = at(dimension.key()));
-        LEVELS.into_iter().for_each(|(dimension, key)| girths.levels[dimension as usize] = at(key));
+        READ.into_iter().for_each(|dimension| girths.values[dimension as usize] = value_of(dimension.key()));
+        LEVELS.into_iter().for_each(|(dimension, key)| girths.levels[dimension as usize] = value_of(key));
         Ok(girths)
     }
 }

@@ -1,4 +1,4 @@
-//! Points of a body mesh that can be told from its sections alone.
+//! Landmarks of a body mesh that follow from its sections alone.
 
 use super::slices::{Sliced, Slices, steps};
 use super::tape;
@@ -6,10 +6,10 @@ use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
-/// Least girth of an outline between the legs that belongs to the trunk, metres.
+/// Least girth of an outline across the median plane that belongs to the trunk, metres. Judgement.
 const LEAST_TRUNK: f64 = 0.03;
 
-/// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
+/// Height of the crotch: the lowest at which an outline crosses the median plane, by bisection.
 pub(crate) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
     let lower = Slices::new(mesh, below, above);
     let joined =
@@ -31,7 +31,7 @@ pub(crate) enum Side {
     Back,
 }
 
-/// The point of the trunk's outline in the median plane at height `z`.
+/// Point of the trunk's outline in the median plane at height `z`.
 pub(crate) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, z, middle)?;
     let next = outline.points.iter().cycle().skip(1);
@@ -44,16 +44,16 @@ pub(crate) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) 
     y.map(|y| V3::new(middle, y, z))
 }
 
-/// The highest point of the shoulder at the distance `x` from the median plane (signed), below the height `ceiling`.
+/// Highest point of the shoulder at the signed distance `x` from the median plane, below the height `ceiling`.
 pub(crate) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
     let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
     let points = section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(|p| p.y < ceiling);
     points.max_by(|a, b| a.y.total_cmp(&b.y)).map(|p| plane.lift(p))
 }
 
-/// The highest point of the gap between trunk and right arm.
+/// Armpit of the right arm: the highest point of the gap between trunk and arm.
 ///
-/// Searched by bisection between a height where the arm is free and one where it is joined to the trunk.
+/// Found by bisection between a height at which the arm is free and one at which it is joined to the trunk.
 pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
     let around = Slices::new(mesh, free, joined);
     let gap = |z: f64| {
@@ -78,11 +78,12 @@ pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64
     Some(apex)
 }
 
-/// Greatest height of an arm's section along the body, over stature.
+/// Greatest height of an arm in a section parallel to the median plane, over stature. Judgement.
 const SPREAD_ARM: f64 = 0.10;
 
-/// The armpit of a right arm that is spread so wide that no level passes between it and the trunk: its underside where, from the
-/// free arm inwards, sections along the body reach farther down than an arm's.
+/// Armpit of a right arm that is spread so wide that no horizontal plane passes between it and the trunk. It is the
+/// underside of the arm where, going inwards, sections parallel to the median plane begin to reach farther down than an
+/// arm.
 pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Option<V3> {
     let underside = |x: f64| {
         let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
@@ -103,7 +104,7 @@ pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Op
     Some(apex)
 }
 
-/// The lowest point of the skin between the thighs, in the median plane just above the crotch's height.
+/// Lowest point of the skin between the thighs, in the median plane just above the crotch's height.
 pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
     let next = outline.points.iter().cycle().skip(1);
@@ -112,9 +113,9 @@ pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
     (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
 }
 
-/// The foremost point of one side of the chest at height `z`; where the chest is flat, the usual place of the nipple.
+/// Foremost point of one side of the chest at height `z`. On a flat chest it is the usual place of the nipple.
 pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
-    /// Usual distance of the nipple from the median plane over stature, and the range searched.
+    /// Usual distance of the nipple from the median plane over stature, and the range that is searched. Judgement.
     const USUAL: f64 = 0.054;
     const RANGE: [f64; 2] = [0.040, 0.075];
     let outline = tape::trunk_outline(mesh, z, 0.0)?;
@@ -132,11 +133,12 @@ pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
 }
 
-/// Distance of the nipples from the median plane: constant, change with the chest's girth, both over stature, and what women have
-/// more. Least squares over 199 model bodies; 8 mm remain.
+/// Distance of the nipples from the median plane, over stature: intercept, slope with the chest girth over stature, and
+/// addition for women. Least squares over 199 model bodies, with a residual of 8 mm.
 const NIPPLES_OUT: [f64; 3] = [0.0065, 0.0836, 0.0092];
 
-/// The bust point of one side at height `z` of a bare mesh: the front of the chest where a chest of that girth has its nipples.
+/// Bust point of one side of a bare mesh at height `z`: on the front of the chest, at the distance that follows from
+/// the chest girth. `frame` is the position of the median plane and the stature.
 pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2], sex: Sex) -> Option<V3> {
     let [middle, stature] = frame;
     let outline = tape::trunk_outline(mesh, z, middle)?;
@@ -146,7 +148,7 @@ pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2
     Some(V3::new(x, tape::edge(&outline, x, 1.0)?, z))
 }
 
-/// The mesh mirrored at the plane `x = middle`: what is found on its right is the left of the body.
+/// Mirrors a mesh at the plane `x = middle`, so that the left of the body can be measured as its right.
 pub(crate) fn mirrored(mesh: &TriMesh, middle: f64) -> TriMesh {
     let positions = mesh.positions.iter().map(|p| V3::new(2.0 * middle - p.x, p.y, p.z)).collect();
     TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }

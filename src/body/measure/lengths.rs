@@ -1,4 +1,4 @@
-//! Lengths along the surface and girths of the limbs, names after ISO 8559-1; the tape is taut and spans hollows.
+//! Lengths on the surface and girths of the limbs, named after ISO 8559-1. The tape is taut and spans hollows.
 
 use super::arm::Arm;
 use super::confidence::{self, Confidence};
@@ -14,7 +14,7 @@ use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 use std::collections::BTreeSet;
 
-/// What `body measure` says beyond [`Girths`], metres; absent where the body does not show it.
+/// Lengths that `body measure` states beside [`Girths`], metres. `None` where the body does not show them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lengths {
     /// Height of the back neck point.
@@ -27,27 +27,27 @@ pub struct Lengths {
     pub total_crotch_length_m: Option<f64>,
     /// Height of the greatest girth of the right calf.
     pub calf_level_m: Option<f64>,
-    /// Height of the middle of the right knee, as stature and crotch tell it.
+    /// Height of the middle of the right knee, estimated from stature and crotch.
     pub knee_level_m: Option<f64>,
-    /// Girth round the right elbow, the arm straight.
+    /// Girth of the right elbow, the arm straight.
     pub elbow_girth_m: Option<f64>,
 }
 
-/// Girths and lengths together: one flat set of names, written in millimetres and litres.
+/// Girths and lengths together: one flat set of keys, written in millimetres and litres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Girths and their levels, those of the limbs among them.
+    /// Girths and their levels, including those of the limbs.
     pub girths: Girths,
-    /// Lengths over the skin and heights that are no level of a girth.
+    /// Lengths on the skin, and heights that are not the level of a girth.
     pub lengths: Lengths,
-    /// What a tailor takes beside them.
+    /// Tailor's measurements.
     pub tailor: Vec<Taken>,
-    /// How well each of them is known, by key.
+    /// Uncertainty of each value, by key.
     pub confidence: Vec<Confidence>,
 }
 
 impl Measured {
-    /// Every key with its value, as it is written.
+    /// All keys with their values as they are written.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
         let lengths = &self.lengths;
         let lengths = [
@@ -64,7 +64,7 @@ impl Measured {
         self.girths.entries().chain(lengths).chain(tailor)
     }
 
-    /// Leaves out what a body without these feet does not tell.
+    /// Removes what a body with these feet does not show.
     fn keep_known(&mut self, feet: Feet) {
         self.girths.keep_known(feet);
         if !feet.right {
@@ -78,7 +78,7 @@ impl Measured {
             }
         }
         let known: BTreeSet<&str> = self.entries().filter_map(|(key, value)| value.map(|_| key)).collect();
-        self.confidence.retain(|of| known.contains(of.key));
+        self.confidence.retain(|confidence| known.contains(confidence.key));
     }
 }
 
@@ -86,24 +86,21 @@ impl serde::Serialize for Measured {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut document = serde_json::Map::new();
         document.extend(self.entries().map(|(key, value)| (key.to_owned(), value.into())));
-        let of = |known: &Confidence| {
+        let entry = |known: &Confidence| {
             let unit = known.key.rsplit('_').next().unwrap_or_default();
             serde_json::json!({ format!("sd_{unit}"): known.sd, "reason": known.reason })
         };
-        let confidence = self.confidence.iter().map(|known| (known.key.to_owned(), of(known))).collect();
+        let confidence = self.confidence.iter().map(|known| (known.key.to_owned(), entry(known))).collect();
         document.insert("confidence".to_owned(), serde_json::Value::Object(confidence));
         document.serialize(serializer)
     }
 }
 
-/// Heights between which calf and ankle are sought, over the height of the crotch.
+/// Heights between which calf and ankle are sought, over the height of the crotch. Judgement.
 const CALF: [f64; 2] = [0.38, 0.60];
 const ANKLE: [f64; 2] = [0.10, 0.30];
 
-/// Measures the lengths of an upright body mesh in the world frame, beside its girths: those of the limbs are added to them.
-///
-/// # Errors
-/// Those of [`crate::measure()`].
+/// Measures the lengths of an upright body mesh in the world frame, and adds the girths of its limbs to `girths`.
 pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, girths: Girths) -> Result<Measured, BodyError> {
     let (sites, sex) = sites::find_sites(mesh, sex, Feet::BOTH)?;
     Ok(at_sites(mesh, &sites, sex, girths))
@@ -131,17 +128,17 @@ fn at_sites(mesh: &TriMesh, sites: &Sites, sex: Sex, mut girths: Girths) -> Meas
         knee_level_m: Some(limbs.knee - sites.floor),
         elbow_girth_m: limbs.elbow_girth,
     };
-    let confidence = confidence::of(mesh, sites, &marks);
+    let confidence = confidence::uncertainties(mesh, sites, &marks);
     let tailor = tailor::take(mesh, &marks);
     Measured { girths, lengths, tailor, confidence }
 }
 
-/// Adds what the tape reads on the limbs of a mesh to its girths.
+/// Adds the girths of a mesh's limbs to its girths.
 pub(crate) fn add_limbs(mesh: &TriMesh, sites: &Sites, sex: Sex, girths: &mut Girths) {
     read_limbs(mesh, sites, &Marks::of_mesh(mesh, sites, sex), girths);
 }
 
-/// Where limbs were read, and what is none of their girths, metres.
+/// Levels of the limbs, and readings that are not among the girths, metres.
 struct Limbs {
     calf: Option<f64>,
     knee: f64,
@@ -168,7 +165,7 @@ fn read_limbs(mesh: &TriMesh, sites: &Sites, marks: &Marks, girths: &mut Girths)
     Limbs { calf: calf.map(|(z, _)| z), knee, elbow_girth }
 }
 
-/// The points of the median section of the trunk: forward and up.
+/// Points of the trunk's median section: forward and up.
 fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
     let origin = V3::new(sites.middle, 0.0, 0.0);
     let outlines = section(mesh, &Plane { origin, u: V3::y(), v: V3::z() });
@@ -176,7 +173,8 @@ fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
     longest.map_or_else(Vec::new, |outline| outline.points)
 }
 
-/// The taut tape from a point of the median section down to a height, along the front (`side` 1) or the back (-1).
+/// Length of the taut tape from a point of the median section down to a height, along the front (`side` 1) or the back
+/// (-1).
 fn taut(median: &[V2], top: V3, bottom: f64, side: f64) -> Option<f64> {
     let ends = |z: f64| crossing(median, z, side).map(|y| V2::new(y, z));
     let (from, to) = (V2::new(top.y, top.z), ends(bottom)?);
@@ -187,7 +185,7 @@ fn taut(median: &[V2], top: V3, bottom: f64, side: f64) -> Option<f64> {
     Some(hull::tape_girth(&points) - chord.norm())
 }
 
-/// The foremost (`side` 1) or hindmost (-1) place of the median section at a height.
+/// Foremost (`side` 1) or hindmost (-1) point of the median section at a height.
 fn crossing(median: &[V2], z: f64, side: f64) -> Option<f64> {
     let next = median.iter().cycle().skip(1);
     let crossings = median.iter().zip(next).filter(|(a, b)| (a.y > z) != (b.y > z));
@@ -195,7 +193,7 @@ fn crossing(median: &[V2], z: f64, side: f64) -> Option<f64> {
     places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
 }
 
-/// Round the lower end of the median section below a height.
+/// Length of the taut tape round the lower end of the median section, from the waist level to the waist level.
 fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
     let ends = [1.0, -1.0].map(|side| crossing(median, waist, side).map(|y| V2::new(y, waist)));
     let [Some(front), Some(back)] = ends else { return None };
@@ -205,11 +203,11 @@ fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
 }
 
 fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
-    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist_joint()).0);
+    let (elbow, wrist) = (arm.at(arm.elbow()).place, arm.at(arm.wrist_joint()).place);
     (elbow - shoulder).norm() + (wrist - elbow).norm()
 }
 
-/// Heights and girths of the right leg within a range over the crotch's height.
+/// Heights and girths of the right leg within a range of shares of the crotch's height.
 fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)> {
     let inseam = sites.crotch - sites.floor;
     let [low, high] = range.map(|share| sites.floor + share * inseam);

@@ -1,4 +1,4 @@
-//! The base of the neck, where the skin bends from trunk and shoulder into the neck.
+//! Base of the neck, where the skin bends from trunk and shoulder into the neck.
 
 use super::landmarks::{Side, median_point, shoulder_top};
 use super::sites::Sites;
@@ -6,14 +6,14 @@ use super::slices::steps;
 use super::tape;
 use geom::{TriMesh, V3};
 
-/// Heights over stature between which the front neck point is searched.
+/// Heights over stature between which the front neck point is sought. Judgement.
 const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
-/// The front neck point: where the front bends from the chest into the neck, farthest behind the chord between both.
+/// Front neck point: the point of the front that lies farthest behind the chord from the chest to the neck.
 pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
-    let at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
-    let upper = tape::above(mesh, at(FRONT_NECK[0] - 0.05));
-    let heights = steps(at(FRONT_NECK[0]), at(FRONT_NECK[1]).min(sites.neck.height), 32);
+    let height_at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
+    let upper = tape::above(mesh, height_at(FRONT_NECK[0] - 0.05));
+    let heights = steps(height_at(FRONT_NECK[0]), height_at(FRONT_NECK[1]).min(sites.neck.height), 32);
     let line: Vec<V3> = heights.filter_map(|z| median_point(&upper, z, sites.middle, Side::Front)).collect();
     let (first, last) = (line.first()?, line.last()?);
     let slope = (last.y - first.y) / (last.z - first.z);
@@ -21,8 +21,8 @@ pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
     line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
 }
 
-/// Where the line over the shoulder bends from the neck into the shoulder: the point farthest below the chord from the side of
-/// the neck to the shoulder point.
+/// Side neck point: the point of the line over the shoulder that lies farthest below the chord from the side of the
+/// neck to the shoulder point.
 pub(crate) fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
     let stature = sites.crown - sites.floor;
     let neck = tape::trunk_outline(mesh, sites.neck.height, sites.middle)?;

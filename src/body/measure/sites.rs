@@ -1,5 +1,6 @@
-//! Measuring any upright body mesh: the levels are found on the mesh, then the tape is laid.
+//! Measurement of an upright body mesh: the levels are found on the mesh, and the tape is laid there.
 
+use super::AxisPoint;
 use super::landmarks::crotch;
 use super::shoulder::Frame;
 use super::slices::{Sliced, Slices, steps};
@@ -9,13 +10,13 @@ use crate::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Where on a mesh the tape is laid, metres.
+/// Levels and points of a mesh at which the tape is laid, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sites {
-    /// Height of the floor and of the crown; without feet the floor lies where bodies of such a trunk have it.
+    /// Heights of floor and crown. Without feet, the floor is estimated from the trunk.
     pub floor: f64,
     pub crown: f64,
-    /// Sideways place of the median plane.
+    /// Position of the median plane along x.
     pub middle: f64,
     pub crotch: f64,
     pub hip: f64,
@@ -26,14 +27,15 @@ pub(crate) struct Sites {
     /// Shoulder points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
-    /// Standard deviations of a shoulder point's distance from the median plane, and of the back neck point's height, metres.
+    /// Standard deviations of a shoulder point's distance from the median plane, and of the back neck point's height,
+    /// metres.
     pub upper_sd: [f64; 2],
-    /// Middle of the right upper arm, and the direction of the arm.
-    pub upper_arm: Option<(V3, V3)>,
+    /// Middle of the right upper arm.
+    pub upper_arm: Option<AxisPoint>,
 }
 
 impl Sites {
-    /// The levels of a body whose tape lies here.
+    /// Levels of the body.
     pub fn levels(&self) -> Levels {
         Levels {
             chest_m: self.chest,
@@ -46,20 +48,17 @@ impl Sites {
     }
 }
 
-/// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]; it has no mark on the skin.
+/// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]. It has no mark on the skin.
 const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 
-/// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist
-/// (else it is told from neck, hip and waist girth).
-///
-/// # Errors
-/// [`BodyError::MissingPart`] names the part that was not found where a standing body has it.
+/// Measures an upright closed (or nearly closed) body mesh in the world frame. The sex places the waist. Where it is
+/// not given, it is estimated from neck, hip and waist girth.
 pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
     let (sites, _) = find_sites(mesh, sex, Feet::BOTH)?;
     girths_at(mesh, &sites)
 }
 
-/// Lays the tape at given sites.
+/// Reads the girths at given sites.
 pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyError> {
     let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).ok_or_else(|| missing(part, z));
     let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
@@ -71,7 +70,7 @@ pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     let [right, left] = sites.shoulder;
     let across_shoulder =
         tape::tape_over(mesh, right, sites.back_neck, left).ok_or_else(|| missing("shoulder", right.z))?;
-    let upper_arm = sites.upper_arm.and_then(|(point, along)| Some((tape::girth_round(mesh, point, along)?, point.z)));
+    let upper_arm = sites.upper_arm.and_then(|arm| Some((tape::girth_round(mesh, arm.place, arm.along)?, arm.place.z)));
     let mut girths = Girths::of(mesh.volume());
     let mut note = |dimension, value: Option<f64>, z: Option<f64>| {
         girths.set(dimension, value);
@@ -90,7 +89,7 @@ pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     Ok(girths)
 }
 
-/// The thigh is measured this far below the crotch, metres.
+/// Distance below the crotch at which the thigh girth is read, by its definition here, metres.
 const THIGH_BELOW_CROTCH: f64 = 0.02;
 
 fn missing(part: &'static str, z: f64) -> BodyError {
@@ -100,10 +99,10 @@ fn missing(part: &'static str, z: f64) -> BodyError {
 /// Mean height of the crotch over stature, of the model bodies of [`crate::shape::atlas`].
 const USUAL_CROTCH: f64 = 0.481;
 
-/// Least height of the crotch over that of a body without feet: legs that end below the knee.
+/// Least height of the crotch of a body without feet, over its height: legs that end about at the knee.
 const LEAST_CROTCH: f64 = 0.25;
 
-/// Where the floor was of an upright body without feet, by its trunk.
+/// Estimates the height of the floor of an upright body without feet, from crotch and crown.
 pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     let height = high.z - low.z;
     let middle = trunk_middle(mesh, low.z, height).x;
@@ -111,7 +110,7 @@ pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     Some(high.z - (high.z - crotch) / (1.0 - USUAL_CROTCH))
 }
 
-/// Finds the places to measure on the mesh itself, and the sex where it is not given.
+/// Finds the sites on a mesh, and estimates the sex where it is not given.
 pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result<(Sites, Sex), BodyError> {
     let (mut low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
     if !feet.stand() {
@@ -119,20 +118,22 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result
     }
     let stature = high.z - low.z;
     let middle = trunk_middle(mesh, low.z, stature).x;
-    let at = |share: f64| low.z + share * stature;
-    let crotch = crotch(mesh, at(0.38), at(0.56), middle).ok_or_else(|| missing("crotch", at(0.47)))?;
-    let hip = hip_level(mesh, crotch, stature, middle).ok_or_else(|| missing("hip", at(0.52)))?;
-    let chest = chest_level(mesh, low.z, stature, crotch, middle).ok_or_else(|| missing("chest", at(0.73)))?;
+    let height_at = |share: f64| low.z + share * stature;
+    let crotch =
+        crotch(mesh, height_at(0.38), height_at(0.56), middle).ok_or_else(|| missing("crotch", height_at(0.47)))?;
+    let hip = hip_level(mesh, crotch, stature, middle).ok_or_else(|| missing("hip", height_at(0.52)))?;
+    let chest = chest_level(mesh, low.z, stature, crotch, middle).ok_or_else(|| missing("chest", height_at(0.73)))?;
     let underbust = underbust_level(mesh, chest, stature, middle);
-    let upper = tape::above(mesh, at(0.7));
-    let neck = tape::neck(&upper, at(0.83), at(0.90), middle).ok_or_else(|| missing("neck", at(0.87)))?;
+    let upper = tape::above(mesh, height_at(0.7));
+    let neck =
+        tape::neck(&upper, height_at(0.83), height_at(0.90), middle).ok_or_else(|| missing("neck", height_at(0.87)))?;
     let hip_girth = tape::trunk_girth(mesh, hip, middle).ok_or_else(|| missing("hip", hip))?;
-    let about_waist = at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0);
+    let about_waist = height_at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0);
     let waist_girth = tape::trunk_girth(mesh, about_waist, middle).ok_or_else(|| missing("waist", about_waist))?;
     let sex = sex.unwrap_or_else(|| likely_sex([neck.girth, hip_girth, waist_girth].map(|girth| girth / stature)));
-    let waist = at(ISO_WAIST[usize::from(sex == Sex::Female)]);
+    let waist = height_at(ISO_WAIST[usize::from(sex == Sex::Female)]);
     let frame = Frame { upper: &upper, mesh, floor: low.z, stature, middle, waist, neck: &neck, sex };
-    let found = frame.find().ok_or_else(|| missing("shoulder", at(0.82)))?;
+    let found = frame.find().ok_or_else(|| missing("shoulder", height_at(0.82)))?;
     let upper_arm = upper_arm(mesh, found.shoulder[0], low.z, stature, middle);
     let sites = Sites {
         floor: low.z,
@@ -152,8 +153,8 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result
     Ok((sites, sex))
 }
 
-/// Middle of the trunk of an upright body, whatever its arms do: where the median plane passes, and half way from
-/// front to back.
+/// Middle of the trunk of an upright body, whatever the pose of its arms: the median plane, and half way from front to
+/// back.
 pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     let middle = |share: f64| {
         let outlines = section(mesh, &Plane::horizontal(floor + share * stature));
@@ -170,14 +171,14 @@ pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     V2::new(median(0), median(1))
 }
 
-/// The sex that neck, hip and waist girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II
-/// survey [Gordon 2014]. It tells 97 % of them rightly, which is optimistic: their navel waists were turned into ISO waists by
-/// each sex's own mean factor. Only the height of the waist depends on it.
+/// Estimates the sex from neck, hip and waist girth over stature: linear discriminant over the 6,068 people of the
+/// ANSUR II survey [Gordon 2014]. It classifies 97 % of them correctly. That is optimistic, since their waists at the
+/// navel were converted into ISO waists by each sex's own mean factor. Only the height of the waist depends on it.
 fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
     if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }
 
-/// The level of the greatest buttock protrusion.
+/// Level of the greatest protrusion of the buttocks (ISO 8559-1).
 pub(crate) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 96);
     let mesh = &Slices::new(mesh, crotch, crotch + 0.11 * stature);
@@ -185,23 +186,24 @@ pub(crate) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) 
     summit(&heights.filter_map(back).collect::<Vec<_>>())
 }
 
-/// Where a profile is greatest: the middle of its summit, each height weighted by how far it stands above the summit's foot. The
-/// summit is what lies below the greatest value by no more than twice the profile's unevenness, which facets and noise leave:
-/// the greatest value alone would be anywhere on a flat summit.
+/// Height of the maximum of a profile: the mean height of its summit, weighted by the value above the summit's foot.
+/// The summit comprises the values that lie below the greatest by less than twice the roughness of the profile, which
+/// facets and noise cause. The place of the greatest value alone would be arbitrary on a flat summit.
 fn summit(profile: &[(f64, f64)]) -> Option<f64> {
     let level = levelled(profile.to_vec(), 2);
     let greatest = level.iter().map(|(_, value)| *value).max_by(f64::total_cmp)?;
     let uneven = profile.iter().zip(&level).map(|(raw, level)| (raw.1 - level.1).powi(2)).sum::<f64>();
     let depth = (2.0 * (uneven / profile.len() as f64).sqrt()).max(LEAST_SUMMIT);
     let above = |(_, value): &(f64, f64)| (value - greatest + depth).max(0.0);
-    let (weight, moment) = level.iter().fold((0.0, 0.0), |(w, m), at| (w + above(at), m + above(at) * at.0));
+    let (weight, moment) =
+        level.iter().fold((0.0, 0.0), |(w, m), point| (w + above(point), m + above(point) * point.0));
     Some(moment / weight)
 }
 
-/// How far a summit reaches down at least, metres: rounding.
+/// Least depth of a summit, metres: rounding.
 const LEAST_SUMMIT: f64 = 1e-6;
 
-/// Values along the height, each the mean of itself and `reach` neighbours on both sides: what remains of a scan's noise must not choose
+/// Moving average of a profile, over `reach` neighbours on either side. Without it, the noise of a scan would decide
 /// among the heights of a flat profile.
 fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
     let mean = |i: usize| {
@@ -212,26 +214,26 @@ fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
     (0..profile.len()).map(|i| (profile[i].0, mean(i))).collect()
 }
 
-/// Height of the nipples over stature: constant, and change with the height of the crotch over stature. Least squares over
-/// the 160 model bodies (CC0-1.0) of [`crate::shape::atlas`]; 8 mm remain.
+/// Height of the nipples over stature: intercept, and slope with the height of the crotch over stature. Least squares
+/// over the 160 model bodies (CC0-1.0) of [`crate::shape::atlas`], with a residual of 8 mm.
 const NIPPLES: [f64; 2] = [0.5123, 0.4651];
 
-/// Heights over stature between which the front of the chest stands out most.
+/// Heights over stature between which the most prominent level of the chest is sought. Judgement.
 pub(crate) const CHEST: [f64; 2] = [0.70, 0.752];
 
-/// Where the nipples are expected above a crotch, by proportion alone.
+/// Expected height of the nipples above the floor, by proportion alone.
 pub(crate) fn usual_chest(stature: f64, crotch: f64) -> f64 {
     NIPPLES[0] * stature + NIPPLES[1] * crotch
 }
 
-/// The level of the nipples, which leave no mark that a scan keeps. It is half way between two heights, which err
-/// alike. One is that at which the front stands out most from the chord between ribs and collar bones (a hanging breast
-/// or a muscle has that elsewhere). The other is that which proportions tell. It lies at most where the arms are still
-/// apart from the trunk.
+/// Level of the nipples, which leave no mark that a scan keeps. It is half way between two estimates with similar
+/// errors. One is the height at which the front stands out most from the chord between ribs and collar bones; a hanging
+/// breast or a muscle stands out elsewhere. The other follows from proportions. The level is at most the highest at
+/// which the arms are apart from the trunk.
 pub(crate) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let trunk = Slices::new(mesh, low, high);
-    // Front of the trunk, and whether the arms are apart from it.
+    // Front of the trunk, and true if the arms are apart from it.
     let section = |z: f64| {
         let outlines = trunk.slice(z);
         let apart = outlines.iter().any(|outline| tape::is_right_limb(outline, middle));
@@ -250,7 +252,7 @@ pub(crate) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64,
     Some(level.min(highest))
 }
 
-/// The level below the chest where the girth stops falling.
+/// Under-bust level: below the chest, where the girth stops falling.
 pub(crate) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: f64) -> f64 {
     let trunk = Slices::new(mesh, chest - 0.075 * stature, chest);
     let girth = |z: f64| tape::trunk_girth(&trunk, z, middle);
@@ -260,13 +262,13 @@ pub(crate) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     let falls: Vec<f64> = falling.windows(2).map(|pair| pair[0].1 - pair[1].1).collect();
     let steepest = falls.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
     let Some((at, &most)) = steepest else { return chest - 0.05 * stature };
-    // Falling has stopped where it is less than half as steep as at its steepest.
+    // The fall has stopped where it is less than half as steep as at its steepest.
     let stop = (at..falls.len()).find(|&i| falls[i] < 0.5 * most).unwrap_or(falls.len());
     falling[stop].0
 }
 
-/// Middle of the right upper arm and the arm's direction, from the outlines of the hanging arm.
-fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<(V3, V3)> {
+/// Middle of the right upper arm and the arm's direction, from sections of the hanging arm.
+fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<AxisPoint> {
     let centre = |share: f64| {
         let z = floor + share * stature;
         let limbs = tape::right_limbs(mesh, z, middle + 0.08 * stature);
@@ -278,7 +280,7 @@ fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64
     let along = (low - high).normalize();
     let joint = shoulder.z - 0.03 * stature;
     let root = high + along * ((joint - high.z) / along.z);
-    Some((root + along * 0.088 * stature, along))
+    Some(AxisPoint { place: root + along * 0.088 * stature, along })
 }
 
 #[cfg(test)]

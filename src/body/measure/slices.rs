@@ -1,11 +1,11 @@
-//! Horizontal sections of a mesh at many heights: its triangles sorted by height beforehand.
+//! Horizontal sections of a mesh at many heights, with its triangles sorted by height.
 
 use geom::TriMesh;
 use geom::section::{Outline, Plane, section, section_of};
 
-/// What horizontal planes cut.
+/// A mesh that can be cut by horizontal planes.
 pub(crate) trait Sliced {
-    /// The outlines at height `z`, metres.
+    /// Outlines at height `z`, metres.
     fn slice(&self, z: f64) -> Vec<Outline>;
 }
 
@@ -15,27 +15,28 @@ impl Sliced for TriMesh {
     }
 }
 
-/// Height of a layer, metres: about half of a triangle's.
+/// Height of a layer, metres: about half of that of a triangle.
 const LAYER: f64 = 0.006;
 
-/// A mesh between two heights, sorted into layers. Planes outside cut nothing.
+/// Part of a mesh between two heights, sorted into layers. Planes outside this range give no outlines.
 pub(super) struct Slices<'a> {
     mesh: &'a TriMesh,
     low: f64,
-    /// Triangles that reach into each layer, and where those of a layer start.
+    /// Triangles that reach into each layer, and the first of each layer.
     triangles: Vec<[usize; 3]>,
     starts: Vec<usize>,
 }
 
 impl<'a> Slices<'a> {
-    /// Sorts the triangles that reach into the heights between `low` and `high`.
+    /// Sorts the triangles between the heights `low` and `high` into layers.
     pub fn new(mesh: &'a TriMesh, low: f64, high: f64) -> Self {
         let count = ((high - low) / LAYER).max(0.0) as usize + 1;
         let layers = |triangle: &[usize; 3]| {
             let heights = triangle.map(|vertex| (mesh.positions[vertex].z - low) / LAYER);
             let least = heights.into_iter().fold(f64::INFINITY, f64::min);
             let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // A height that rounding puts on the other side of a layer's edge is in both; casts stop at zero.
+            // A height near the border of two layers counts for both, since rounding might decide otherwise later.
+            // Casts saturate at zero.
             let first = (least - 1e-6) as usize;
             if most < -1e-6 || first >= count { 0..0 } else { first..((most + 1e-6) as usize + 1).min(count) }
         };

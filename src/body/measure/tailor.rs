@@ -1,5 +1,5 @@
-//! What a tailor takes beyond girths: armscye, bust points, shoulder slope, widths and rise. Each with the line along which it is
-//! read, so that it can be drawn.
+//! Tailor's measurements beyond girths: armscye, bust points, shoulder slope, widths and rise. Each has the line along
+//! which it is read, to be drawn.
 
 use super::arm::Arm;
 use super::landmarks::{self, Side, median_point};
@@ -12,18 +12,18 @@ use geom::section::{Outline, Plane, section};
 use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 
-/// A measure as it was taken.
+/// A measurement with its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taken {
-    /// Key with the unit in which it is written: `armscye_depth_mm`, `shoulder_slope_deg`.
+    /// Key with its unit: `armscye_depth_mm`, `shoulder_slope_deg`.
     pub key: &'static str,
-    /// Millimetres or degrees, as the key says; absent where the body does not show it.
+    /// Value in millimetres or degrees, as the key says. `None` where the body does not show it.
     pub written: Option<f64>,
-    /// The line on the skin, metres: it is drawn.
+    /// Line on the skin along which it is read, metres.
     pub path: Vec<V3>,
 }
 
-/// The points and levels of a body from which a tailor measures, those of limbs for the right side; metres.
+/// Landmarks and levels by which a tailor measures, those of limbs for the right side; metres.
 pub(super) struct Marks {
     pub stature: f64,
     pub floor: f64,
@@ -39,7 +39,7 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Found on a bare mesh.
+    /// Finds them on a bare mesh.
     pub fn of_mesh(mesh: &TriMesh, sites: &Sites, sex: Sex) -> Self {
         let stature = sites.crown - sites.floor;
         let shoulder = sites.shoulder[0];
@@ -62,7 +62,7 @@ impl Marks {
         }
     }
 
-    /// Those of a body that is described.
+    /// Takes them from a body with known landmarks.
     fn of_body(body: &Body) -> Self {
         let (low, high) = body.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
         let stature = high.z - low.z;
@@ -83,13 +83,13 @@ impl Marks {
     }
 }
 
-/// What a tailor takes on a body beside its girths.
+/// Tailor's measurements of a body.
 #[must_use]
 pub(crate) fn of_body(body: &Body) -> Vec<Taken> {
     take(&body.mesh, &Marks::of_body(body))
 }
 
-/// Takes every measure.
+/// Takes every measurement.
 pub(super) fn take(mesh: &TriMesh, marks: &Marks) -> Vec<Taken> {
     let length = |key, path: Option<Vec<V3>>| {
         let path = path.unwrap_or_default();
@@ -124,9 +124,10 @@ fn length_of(path: &[V3]) -> f64 {
     path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// The taut tape between two points of the skin, bulging to the side of `out`: the hull of the section in that plane.
+/// Taut tape between two points of the skin: the convex hull of the section in the plane of both points and `out`, on
+/// the side of `out`.
 fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
-    /// How far an end may lie off the outline that the tape follows, metres.
+    /// Greatest distance of an end from the outline that the tape follows, metres. Judgement.
     const NEAR: f64 = 0.02;
     let along = (to - from).try_normalize(1e-9)?;
     let up = (out - along * out.dot(&along)).try_normalize(1e-9)?;
@@ -138,22 +139,22 @@ fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
     let outlines = section(mesh, &plane).into_iter().filter(near);
     let mut points: Vec<V2> = outlines.flat_map(|outline| outline.points).filter(between).collect();
     points.extend(ends);
-    // Counter-clockwise from the first end: straight to the other, and back over the skin.
+    // The hull runs counter-clockwise from the first end straight to the other, and back over the skin.
     let mut path: Vec<V2> = hull::convex_hull(&points);
     path.rotate_left(1);
     path.reverse();
     Some(path.into_iter().map(|p| plane.lift(p)).collect())
 }
 
-/// From the nape down the centre back to the level of the armpit.
+/// Armscye depth: from the back neck point down the centre back to the level of the armpit.
 fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
 }
 
-/// How far outside the armpit the armscye runs, metres.
+/// Distance of the armscye outside the armpit, metres. Judgement.
 const OUTSIDE: f64 = 0.006;
 
-/// The tape round the root of the arm: through the shoulder point, just outside the armpit.
+/// Armscye girth: the tape through the shoulder point and just outside the armpit.
 fn armscye(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     let armpit = marks.armpit? + V3::new(2.0 * OUTSIDE, 0.0, 0.0);
     let up = V3::new(marks.shoulder.x - armpit.x, 0.0, marks.shoulder.z - armpit.z).try_normalize(1e-9)?;
@@ -166,14 +167,14 @@ fn armscye(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     Some(ring)
 }
 
-/// The line from the hindmost to the foremost height of a ring, through its middle.
+/// Line from the hindmost to the foremost extent of a ring, through its centroid.
 fn depth_of(ring: &[V3]) -> Vec<V3> {
     let centre = ring.iter().sum::<V3>() / ring.len() as f64;
     let ends = ring.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p.y), high.max(p.y)]);
     ends.map(|y| V3::new(centre.x, y, centre.z)).to_vec()
 }
 
-/// From the nape over the side neck and the bust point straight down to the waist.
+/// From the back neck point over the side neck point and the bust point straight down to the waist.
 fn over_bust(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     let (neck, [bust, _]) = (marks.side_neck?, marks.bust?);
     let waist = tape::trunk_outline(mesh, marks.waist, marks.middle)?;
@@ -187,7 +188,7 @@ fn over_bust(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     Some(parts.concat())
 }
 
-/// Across the front (`side` 1) or the back (-1) from armscye to armscye, half way between armpit and shoulder point.
+/// Front (`side` 1) or back (-1) width: from armscye to armscye, half way between armpit and shoulder point.
 fn width(mesh: &TriMesh, marks: &Marks, side: f64) -> Option<Vec<V3>> {
     let half = marks.shoulder.lerp(&marks.armpit?, 0.5) + V3::new(OUTSIDE, 0.0, 0.0);
     let outline = tape::trunk_outline(mesh, half.z, marks.middle)?;
@@ -195,8 +196,8 @@ fn width(mesh: &TriMesh, marks: &Marks, side: f64) -> Option<Vec<V3>> {
     taut(mesh, end(half.x)?, end(2.0 * marks.middle - half.x)?, V3::y() * side)
 }
 
-/// Knee level: the mean of what stature and crotch say (200 model bodies; 30 mm remain, as the knee cap is not told from skin
-/// alone).
+/// Estimates of the knee level as shares of the stature and of the crotch's height, of which the mean is taken. Fitted
+/// to 200 model bodies, with a residual of 30 mm, as the skin alone does not show the knee cap.
 const KNEE: [f64; 2] = [0.299, 0.630];
 
 /// Height of the middle of the knee.
@@ -204,9 +205,9 @@ pub(super) fn knee_level(marks: &Marks) -> f64 {
     marks.floor + (KNEE[0] * marks.stature + KNEE[1] * (marks.crotch - marks.floor)) / 2.0
 }
 
-/// Girths round elbow and the thickest forearm.
+/// Girth of the elbow and greatest girth of the forearm.
 pub(super) fn elbow_and_forearm(mesh: &TriMesh, arm: &Arm) -> [Option<f64>; 2] {
-    /// Where the forearm is thickest, between elbow and wrist.
+    /// Range between elbow and wrist in which the forearm is thickest. Judgement.
     const THICKEST: [f64; 2] = [0.08, 0.45];
     let girth = |share: f64| {
         let plane = arm.across(share);

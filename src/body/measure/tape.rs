@@ -4,15 +4,15 @@ use super::slices::{Sliced, Slices};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3, hull};
 
-/// Outlines shorter than this are jewellery, navels and folds, metres.
+/// Least length of an outline that is a body part, metres. Shorter ones are jewellery, navels and folds.
 const SMALLEST_PART: f64 = 0.10;
 
-/// The outline of the trunk (or neck, or head) at height `z`: the longest across the plane `x = middle`.
+/// Outline of the trunk (or neck, or head) at height `z`: the longest across the plane `x = middle`.
 pub(crate) fn trunk_outline(mesh: &impl Sliced, z: f64, middle: f64) -> Option<Outline> {
     trunk_among(mesh.slice(z), middle)
 }
 
-/// The outline of the trunk among those at a height.
+/// Outline of the trunk among the outlines at a height.
 pub(super) fn trunk_among(outlines: Vec<Outline>, middle: f64) -> Option<Outline> {
     let across = |outline: &Outline| {
         let (low, high) = outline.bounds();
@@ -32,7 +32,7 @@ pub(crate) fn trunk_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64
     trunk_outline(mesh, z, middle).map(|outline| girth(&outline))
 }
 
-/// The outlines of limb size at height `z` whose middle lies to the right of `x`.
+/// Outlines of limb size at height `z` that lie to the right of `x`.
 pub(crate) fn right_limbs(mesh: &impl Sliced, z: f64, x: f64) -> Vec<Outline> {
     mesh.slice(z).into_iter().filter(|outline| is_right_limb(outline, x)).collect()
 }
@@ -43,7 +43,7 @@ pub(crate) fn leg_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> 
     legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x)).map(girth)
 }
 
-/// The foremost (`side` 1) or hindmost (-1) place of an outline at a distance from the median plane.
+/// Foremost (`side` 1) or hindmost (-1) point of an outline at the position `x`.
 pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
     let next = outline.points.iter().cycle().skip(1);
     let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
@@ -51,32 +51,33 @@ pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
     places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
 }
 
-/// Whether an outline is of limb size and lies to the right of `x`.
+/// True if an outline has the size of a limb and lies to the right of `x`.
 pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
     outline.bounds().0.x > x && hull::perimeter(&outline.points) > SMALLEST_PART
 }
 
-/// Girth of the outline round `point` in the plane through it with `normal`, metres: the largest outline that holds
-/// the point (inner ones are throats and other cavities).
+/// Girth of the outline round `point` in the plane through it with `normal`, metres. Of several outlines the largest
+/// counts, since inner ones are the throat and other cavities.
 pub(crate) fn girth_round(mesh: &TriMesh, point: V3, normal: V3) -> Option<f64> {
     outline_round(mesh, &Plane::normal_to(point, normal)).map(|outline| girth(&outline))
 }
 
-/// The largest outline that holds the origin of the plane.
+/// Largest outline round the origin of the plane.
 fn outline_round(mesh: &TriMesh, plane: &Plane) -> Option<Outline> {
     let holds = |outline: &Outline| outline.contains(V2::zeros());
     section(mesh, plane).into_iter().filter(holds).max_by(|a, b| girth(a).total_cmp(&girth(b)))
 }
 
-/// The taut tape from `start` over `middle` to `end`, along the convex hull of the section through the three points:
-/// the part of the hull on the side of `middle`, metres.
+/// Length of the taut tape from `start` over `middle` to `end`, metres: the part of the convex hull of the section
+/// through the three points that lies on the side of `middle`.
 pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Option<f64> {
     let normal = (middle - start).cross(&(end - start)).try_normalize(1e-9)?;
     let along = (end - start).normalize();
     let plane = Plane { origin: start, u: along, v: normal.cross(&along) };
     let reach = plane.project(end).x;
     let top = plane.project(middle).y;
-    // Beyond the middle point the plane may cut other parts (the head behind the nape): the tape does not go there.
+    // Beyond the middle point the plane may cut other parts, such as the head behind the nape. The tape does not go
+    // there.
     let between = |p: &V2| p.x > 0.0 && p.x < reach && p.y * top > 0.0 && p.y.abs() <= top.abs();
     let mut points: Vec<V2> =
         section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(between).collect();
@@ -87,36 +88,38 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
 /// The narrowest girth round the neck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neck {
-    /// What the tape reads, metres.
+    /// Girth, metres.
     pub girth: f64,
-    /// Middle of the tape, metres.
+    /// Centre of the tape, metres.
     pub centre: V3,
     /// Height of the tape at the spine, metres.
     pub height: f64,
-    /// Lean of the neck forward from the vertical, radians.
+    /// Forward lean of the neck from the vertical, radians.
     pub lean: f64,
 }
 
 impl Neck {
-    /// Unit direction of the neck, upward: normal of the tape's plane.
+    /// Unit direction of the neck, upward: the normal of the tape's plane.
     pub fn along(&self) -> V3 {
         V3::new(0.0, self.lean.sin(), self.lean.cos())
     }
 }
 
-/// How far behind the middle of the neck the spine runs, as a share of its depth: the height of a leaning tape is read there.
+/// Distance of the spine behind the middle of the neck, as a share of its depth. The height of a leaning tape is read
+/// there. Judgement.
 const SPINE: f64 = 0.14;
 
-/// Greatest lean of the neck that is tried, radians, and the number of coarse heights and leans.
+/// Greatest lean of the neck that is tried, radians, and the numbers of heights and leans of the coarse grid.
+/// Judgement.
 const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const HEIGHTS: usize = 13;
 const LEANS: usize = 7;
 
-/// How often the steps of the search are halved.
+/// Number of times that the steps of the search are halved. Judgement.
 const HALVINGS: usize = 3;
 
-/// Finds the narrowest girth round the neck, over heights between `low` and `high` and leans of up to 30 degrees: a coarse grid,
-/// from whose best place the search walks with ever smaller steps.
+/// Finds the narrowest girth of the neck, over heights between `low` and `high` and leans of up to 30 degrees. The best
+/// point of a coarse grid is refined by a pattern search with ever smaller steps.
 pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<Neck> {
     let upper = mesh.part(|p| p.z > low - 0.12 && p.z < high + 0.12);
     let slices = Slices::new(&upper, low, high);
@@ -144,7 +147,8 @@ pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
         let around_lean = around_lean.map(|lean| lean.clamp(0.0, GREATEST_LEAN));
         best = around.into_iter().flat_map(|height| row(height, &around_lean)).chain([best]).min_by(least)?;
     }
-    // The horizontal outline, by which the search goes, reaches under the chin: the tape's own middle lies farther back.
+    // The horizontal outline, by which the search goes, reaches under the chin. The centre of the tape itself lies
+    // farther back.
     let plane = plane(best.centre, best.lean);
     let (low, high) = outline_round(&upper, &plane)?.bounds();
     let centre = plane.lift((low + high) / 2.0);
@@ -152,7 +156,7 @@ pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     Some(Neck { girth: best.girth, centre, height: spine.z, lean: best.lean })
 }
 
-/// A tape tried round the neck.
+/// A trial of the search.
 #[derive(Clone, Copy)]
 struct Tried {
     centre: V3,
@@ -160,10 +164,10 @@ struct Tried {
     girth: f64,
 }
 
-/// Half of a drawn tape's breadth and how far it lies off the skin, metres.
+/// Half breadth of a drawn tape and its distance from the skin, metres. Judgement.
 const TAPE: [f64; 2] = [0.004, 0.003];
 
-/// Taut tapes round the trunk at some heights, as bands to be drawn.
+/// Bands that show taut tapes round the trunk at some heights.
 pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
     let [half, off] = TAPE;
     let mut bands = TriMesh::default();
@@ -185,7 +189,7 @@ pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
     bands
 }
 
-/// Adds a band along a line on the skin, to be drawn: upright where the line runs level, else across its direction.
+/// Adds bands that show a line on the skin, in two planes through it.
 pub(crate) fn draw(bands: &mut TriMesh, path: &[V3]) {
     let [half, _] = TAPE;
     for pair in path.windows(2) {
@@ -203,13 +207,13 @@ pub(crate) fn draw(bands: &mut TriMesh, path: &[V3]) {
     }
 }
 
-/// Front and back extent of an outline.
+/// Greatest and least extent of an outline, to the front and to the back.
 pub(crate) fn depth_range(outline: &Outline) -> (f64, f64) {
     let (low, high) = outline.bounds();
     (high.y, low.y)
 }
 
-/// The triangles that reach above the height `z`: sections above it are those of the whole mesh.
+/// The triangles that reach above the height `z`. Sections above it are those of the whole mesh.
 pub(crate) fn above(mesh: &TriMesh, z: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| mesh.positions[vertex].z > z);
     TriMesh { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().filter(reaches).copied().collect() }

@@ -1,26 +1,26 @@
-//! From measurements to a mannequin: figure, skin, the fit of its girths, and what is known of it.
+//! Mannequin from measurements: figure, skin, fit of its girths, landmarks and control mesh.
 
 use super::control_cut::{Cuts, control_mesh};
 use super::fit::{self, Fit};
 use crate::measure::landmarks::{self, Side};
-use crate::measure::sites::{self, Sites};
-use crate::measure::tape::{self, Neck};
+use crate::measure::sites::Sites;
+use crate::measure::tape;
 use crate::people::profile::Profile;
 use crate::shape::figure::Figure;
 use crate::shape::limbs::UPPER_ARM;
-use crate::{Body, BodyError, Dimension, Landmarks, Measurements};
+use crate::{Body, BodyError, Landmarks, Measurements};
 use geom::section::Plane;
 use geom::units::mm;
 use geom::{TriMesh, V3};
 
 /// Builds a closed, measured mannequin.
 ///
-/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads every
-/// given measurement on the fine mesh, which has the same topology for everybody of a sex.
+/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads
+/// every given measurement on the fine mesh. The mesh has the same topology for all bodies of a sex.
 ///
 /// # Errors
-/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and [`BodyError::Inconsistent`]
-/// for those that are not of one body.
+/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and
+/// [`BodyError::Inconsistent`] for those that do not belong to one body.
 ///
 /// # Examples
 /// ```
@@ -40,80 +40,7 @@ pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     })
 }
 
-/// Where the tape is laid on a figure's skin. Chest, hip and neck are found on the mesh, as on anybody's, so that whoever
-/// measures the mesh reads what was fitted; shoulder and waist are known from the figure.
-pub(super) fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
-    let (atlas, h) = (figure.atlas, figure.stature());
-    let crotch = crotch(mesh, figure)?;
-    let trunk = mesh.part(|p| p.z > 0.63 * h && p.z < 0.82 * h);
-    let chest = sites::chest_level(&trunk, 0.0, h, crotch, 0.0).unwrap_or(atlas.chest * h);
-    let pelvis = mesh.part(|p| p.z > crotch && p.z < crotch + 0.11 * h);
-    let upper = mesh.part(|p| p.z > 0.75 * h);
-    let neck = tape::neck(&upper, 0.83 * h, 0.90 * h, 0.0).ok_or_else(|| missing("neck", 0.87 * h))?;
-    let level = Sites {
-        floor: 0.0,
-        crown: h,
-        middle: 0.0,
-        crotch,
-        hip: sites::hip_level(&pelvis, crotch, h, 0.0).unwrap_or_else(|| figure.hip()),
-        waist: atlas.waist * h,
-        underbust: underbust(&trunk, chest, figure),
-        chest,
-        neck,
-        shoulder: [V3::zeros(); 2],
-        back_neck: V3::zeros(),
-        upper_sd: [0.0; 2],
-        upper_arm: None,
-    };
-    held_sites(mesh, figure, &level)
-}
-
-/// How far off the section of the figure that makes room for it the under-bust level lies at most, over stature.
-const UNDERBUST_OFF: f64 = 0.012;
-
-/// The level under the bust; where its girth is given, near the section that is fitted to it.
-fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
-    let found = sites::underbust_level(trunk, chest, figure.stature(), 0.0);
-    if !figure.profile.is_given(Dimension::UnderbustGirth) {
-        return found;
-    }
-    let (meant, off) = (figure.underbust(), UNDERBUST_OFF * figure.stature());
-    found.clamp(meant - off, meant + off)
-}
-
-fn missing(part: &'static str, height: f64) -> BodyError {
-    BodyError::MissingPart { part, height_m: height }
-}
-
-/// Height of the crotch, near where the figure has it.
-fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
-    let (meant, h) = (figure.crotch(), figure.stature());
-    let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);
-    let groin = mesh.part(|p| p.z > low && p.z < high);
-    landmarks::crotch(&groin, low, high, 0.0).ok_or_else(|| missing("crotch", meant))
-}
-
-/// The sites on a changed skin: the levels of chest, hip and neck as they were, the rest found anew.
-pub(super) fn held_sites(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
-    let h = figure.stature();
-    let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.95 * h);
-    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
-    let shoulder = |sign: f64| {
-        landmarks::shoulder_top(&upper, sign * figure.shoulder_x(), 0.86 * h)
-            .ok_or_else(|| missing("shoulder", figure.atlas.shoulder * h))
-    };
-    let girth = tape::girth_round(&upper, before.neck.centre, before.neck.along());
-    Ok(Sites {
-        crotch: crotch(mesh, figure)?,
-        neck: Neck { girth: girth.ok_or_else(|| missing("neck", before.neck.height))?, ..before.neck },
-        shoulder: [shoulder(1.0)?, shoulder(-1.0)?],
-        back_neck: back_neck.ok_or_else(|| missing("nape", figure.back_neck_height()))?,
-        upper_arm: Some(figure.upper_arm()),
-        ..before.clone()
-    })
-}
-
-/// Puts together what is known of a finished skin.
+/// Finds landmarks, control mesh and joints of a fitted skin.
 fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
     let Fit { figure, mesh, sites, girths } = fit;
     let landmarks = find_landmarks(&mesh, &figure, &sites)?;
@@ -148,7 +75,7 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
     })
 }
 
-/// The planes of the control mesh.
+/// Planes that cut the rings of the control mesh.
 fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
     let (atlas, h) = (figure.atlas, figure.stature());
     let [elbow, wrist, tip] = figure.arm_lengths();
@@ -157,7 +84,7 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
     let [knee, calf] = figure.knee_and_calf();
     let across_arm = |t: f64| Plane { origin: joint + along * t, u: forward, v: outward };
     let (shoulder, armpit) = (landmarks.shoulder[0], landmarks.armpit[0]);
-    // The armscye: through the shoulder point, passing outside the armpit.
+    // The armscye passes through the shoulder point and just outside the armpit.
     let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
     let armscye = Plane {
         origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, joint.y, (shoulder.z + armpit.z) / 2.0),
@@ -199,12 +126,12 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
     }
 }
 
-/// The highest vertex.
+/// Highest vertex.
 fn highest(mesh: &TriMesh) -> V3 {
     mesh.positions.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_else(V3::zeros)
 }
 
-/// The vertex of the right hand that reaches farthest along the arm.
+/// Vertex of the right hand that lies farthest along the arm.
 fn farthest_along(mesh: &TriMesh, joint: V3, along: V3, tip: f64) -> V3 {
     let near_axis = |p: &&V3| {
         let t = (*p - joint).dot(&along);

@@ -5,7 +5,8 @@ use crate::{ControlMesh, Dimension, Joint, Layer, RING, Sex};
 use geom::{V2, crossing, winding};
 use std::sync::LazyLock;
 
-/// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
+/// The subjects of the study [T, tables 6-1 to 6-4]: stature, mass, chest, waist, hip, across shoulder, neck; cm and
+/// kg.
 const SUBJECTS: [(Sex, [f64; 7]); 12] = [
     (Sex::Male, [169.0, 62.0, 93.1, 89.0, 97.5, 42.4, 38.2]),
     (Sex::Male, [169.0, 53.0, 86.3, 78.2, 91.4, 42.9, 37.8]),
@@ -54,14 +55,14 @@ fn the_study_subjects_measure_as_asked() {
     }
 }
 
-/// The next repeatable number, evenly spread from 0 to 1.
+/// Next pseudo-random number, uniform from 0 to 1.
 fn share(state: &mut u64) -> f64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 33) as f64 / (1_u64 << 31) as f64
 }
 
-/// A person drawn from the whole range of adults: stature, mass index, and now and then more measurements, each off what the
-/// survey's people alike have by up to two standard deviations.
+/// A random person from the whole range of adults: stature, mass index, and sometimes further measurements. Each lies
+/// up to two standard deviations from the expectation of the survey.
 fn anybody(state: &mut u64) -> Measurements {
     let mut share = || share(state);
     let sex = if share() < 0.5 { Sex::Male } else { Sex::Female };
@@ -79,8 +80,8 @@ fn anybody(state: &mut u64) -> Measurements {
     known
 }
 
-/// Somebody whom hardly anybody resembles, but whom the builder does not refuse at once: one or two girths far off what people of
-/// that stature have, as a large waist over small hips.
+/// A person whom hardly anybody resembles but whom the builder does not refuse at once: one or two girths lie far from
+/// those of people of the same stature, such as a large waist over small hips.
 fn an_odd_body(state: &mut u64) -> Measurements {
     const GIRTHS: [Dimension; 6] = [
         Dimension::ChestGirth,
@@ -104,8 +105,8 @@ fn an_odd_body(state: &mut u64) -> Measurements {
     }
 }
 
-/// Everybody is closed, of one piece without handles, free of crossings, with all joints inside, of one topology, and measures
-/// as asked.
+/// Every body is closed, in one piece without handles and without self-intersections, contains its joints, has the same
+/// topology, and measures as requested.
 #[test]
 fn anybody_can_be_built() {
     let mut state = 1_u64;
@@ -117,7 +118,7 @@ fn anybody_can_be_built() {
     assert!(wrong.is_empty(), "{} faults\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Odd people are built as soundly as others, or refused with what cannot be had.
+/// Odd people are built as soundly as others, or refused with the measurement that cannot be reached.
 #[test]
 fn odd_people_are_whole_or_refused() {
     let mut state = 2_u64;
@@ -138,7 +139,7 @@ fn odd_people_are_whole_or_refused() {
 
 const ODD: usize = 40;
 
-/// What a check finds wrong with people, each complaint with its person; on as many threads as there are processors.
+/// Complaints of a check about people, each with its person, found on as many threads as there are processors.
 fn of_all(people: &[Measurements], check: impl Fn(&Measurements) -> Vec<String> + Sync) -> Vec<String> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let complaints = |(number, asked): (usize, &Measurements)| {
@@ -152,7 +153,7 @@ fn of_all(people: &[Measurements], check: impl Fn(&Measurements) -> Vec<String> 
     })
 }
 
-/// What is wrong with a body.
+/// Faults of a body.
 fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
     let mesh = &body.mesh;
     let mut faults = Vec::new();

@@ -1,23 +1,23 @@
-//! The control mesh (thesis 3.2.2): rings of 24 vertices on the planes of the critical girths, joined by quadrilaterals.
+//! Control mesh [T 3.2.2]: rings of 24 vertices in the planes of the critical girths, joined by quadrilaterals.
 //! Topology and vertex order are the same for every body.
 
 use crate::{Joint, Landmarks, Skeleton};
 use geom::{TriMesh, V3};
 
-/// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and 6 in front; in those of the arms 4 is
-/// below and 10 in front.
+/// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and vertex 6 in front. In those of the
+/// arms vertex 4 is below and vertex 10 in front.
 pub const RING: usize = 24;
 
 /// Vertices of each row of the yoke (front or back).
 pub(super) const YOKE: usize = 5;
 
-/// Rows of the yoke between armpit and neck base: they make the edge of the armhole a ring.
+/// Rows of the yoke between armpit and neck base. With them the edge of the armhole has as many vertices as a ring.
 pub(super) const YOKE_ROWS: usize = 3;
 
 /// First vertex of the front and of the back yoke within a horizontal ring.
 pub(super) const YOKE_START: [usize; 2] = [4, 16];
 
-/// The 14 regions of the body (thesis figure 3-10).
+/// The 14 regions of the body [T, figure 3-10].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[allow(missing_docs)]
 pub enum Region {
@@ -37,7 +37,7 @@ pub enum Region {
     ShankLeft,
 }
 
-/// The critical girths, in the order of their rings in the vertex list: legs, trunk, arms.
+/// The critical girths in the order of their rings: legs, trunk, arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[allow(missing_docs)]
 pub enum Layer {
@@ -116,34 +116,34 @@ impl Layer {
     };
 }
 
-/// A layered coarse mesh on the skin. Vertices: the rings of [`Layer::ALL`], the yoke's rows (front, then back, from
-/// below), the ends (right and left sole, crown, right and left hand).
+/// A coarse mesh of rings on the skin. Its vertices are the rings of [`Layer::ALL`], the rows of the yoke (front, then
+/// back, from below), and the ends (right and left sole, crown, right and left hand).
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlMesh {
     /// Vertex positions on the fine mesh, metres.
     pub positions: Vec<V3>,
-    /// Vertex indices of each face (four, or three at ends and crotch), counter-clockwise from outside.
+    /// Vertex indices of each face, counter-clockwise from outside: four, or three at ends and crotch.
     pub faces: Vec<Vec<usize>>,
     /// Region of each face.
     pub regions: Vec<Region>,
 }
 
 impl ControlMesh {
-    /// The same surface in triangles.
+    /// Triangulates the faces.
     #[must_use]
     pub fn triangulated(&self) -> TriMesh {
         let fans = self.faces.iter().flat_map(|face| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
         TriMesh { positions: self.positions.clone(), triangles: fans.collect() }
     }
 
-    /// Vertex indices of a girth, in ring order.
+    /// Vertex indices of a girth's ring, in order.
     #[must_use]
     pub fn ring(&self, layer: Layer) -> std::ops::Range<usize> {
         let start = layer as usize * RING;
         start..start + RING
     }
 
-    /// Index of vertex `i` (taken round the ring) of a girth.
+    /// Index of vertex `i`, taken modulo the ring, of a girth.
     #[must_use]
     pub fn ring_vertex(&self, layer: Layer, i: usize) -> usize {
         layer as usize * RING + i % RING
@@ -155,7 +155,7 @@ impl ControlMesh {
         self.positions[self.ring(layer)].iter().sum::<V3>() / RING as f64
     }
 
-    /// The feature points: name and vertex index.
+    /// Feature points: name and vertex index.
     #[must_use]
     pub fn feature_points(&self) -> Vec<(&'static str, usize)> {
         use Layer::*;
@@ -183,7 +183,7 @@ impl ControlMesh {
         points
     }
 
-    /// Moves the vertices that stand for landmarks onto them.
+    /// Moves the vertices that represent landmarks onto them.
     pub(crate) fn snap(&mut self, landmarks: &Landmarks) {
         use Layer::*;
         let exact = [
@@ -204,7 +204,7 @@ impl ControlMesh {
         }
     }
 
-    /// The feature lines that run along the body: name and vertex indices from above. Girths are the rings.
+    /// Feature lines along the body: name and vertex indices from above. The girths are the rings.
     #[must_use]
     pub fn feature_lines(&self) -> Vec<(&'static str, Vec<usize>)> {
         use Layer::*;
@@ -226,7 +226,7 @@ impl ControlMesh {
         ]
     }
 
-    /// The joints [T 3.1]: centres of the rings between regions, and of the last girths of head, hands and feet.
+    /// Joints [T 3.1]: centres of the rings between regions, and of the last rings of head, hands and feet.
     #[must_use]
     pub fn skeleton(&self) -> Skeleton {
         use Layer::*;
@@ -256,7 +256,7 @@ impl ControlMesh {
         Skeleton { joints }
     }
 
-    /// Index of a yoke vertex: side 0 front, 1 back; row from below; place along the row.
+    /// Index of a yoke vertex: `side` 0 front, 1 back; `row` from below; `place` along the row.
     pub(super) fn yoke(side: usize, row: usize, place: usize) -> usize {
         Layer::ALL.len() * RING + (side * YOKE_ROWS + row) * YOKE + place
     }

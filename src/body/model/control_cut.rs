@@ -1,4 +1,4 @@
-//! Cutting the control mesh out of a fine mesh: rings by plane sections, and the faces between them.
+//! Control mesh cut out of a fine mesh: rings by plane sections, and the faces between them.
 
 use super::control::{ControlMesh, Layer, RING, Region, YOKE, YOKE_ROWS, YOKE_START};
 use crate::BodyError;
@@ -6,7 +6,7 @@ use crate::measure::tape;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3, hull};
 
-/// Heights and frames at which the rings are cut, metres.
+/// Heights and planes at which the rings are cut, metres.
 #[derive(Clone, Debug)]
 pub(crate) struct Cuts {
     /// Foot, ankle, calf, knee, middle of the thigh, thigh.
@@ -17,8 +17,8 @@ pub(crate) struct Cuts {
     pub neck: [Plane; 2],
     /// Mouth, head girth.
     pub head: [f64; 2],
-    /// Right armscye, upper arm, elbow, forearm, wrist: a point inside and the plane, its first axis forward and its
-    /// second upward.
+    /// Right armscye, upper arm, elbow, forearm, wrist: planes with the origin inside the arm, the first axis forward
+    /// and the second upward.
     pub arm: [Plane; 5],
     pub crown: V3,
     /// Tip of the right hand.
@@ -33,7 +33,8 @@ pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     };
     let legs = cuts.leg.iter().map(|&z| leg_ring(mesh, z)).collect::<Result<Vec<_>, _>>()?;
     positions.extend(legs.iter().flatten());
-    // A mirrored horizontal ring starts on its other side, so that 0 stays on the subject's right.
+    // A mirrored horizontal ring would start on the other side. Its vertices are renumbered, so that 0 stays on the
+    // subject's right.
     positions.extend(legs.iter().flat_map(|ring| mirror(ring, &|i| RING + RING / 2 - i)));
     let horizontal = |&z: &f64| ring(mesh, &trunk_plane(mesh, z), 0.0, "trunk");
     for z in &cuts.trunk {
@@ -59,10 +60,10 @@ pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     Ok(control)
 }
 
-/// The ring in which `plane` cuts the part round its origin; vertex 0 lies at the angle `start` in the plane.
+/// Ring in which `plane` cuts the part round its origin. Vertex 0 lies at the angle `start` in the plane.
 fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result<Vec<V3>, BodyError> {
     let outlines = section(mesh, plane);
-    // Round the point as a tape goes: the point may lie in an open mouth.
+    // The hull is what counts, as for a tape: the point may lie in an open mouth.
     let round =
         |outline: &&Outline| Outline { points: hull::convex_hull(&outline.points), closed: true }.contains(V2::zeros());
     let outline = outlines.iter().filter(round).max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
@@ -70,7 +71,8 @@ fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result
     Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
 }
 
-/// The horizontal plane at height `z` about the middle of the trunk's (or head's) outline: a head may be wholly before the body's axis.
+/// Horizontal plane at height `z`, with its origin in the middle of the trunk's (or head's) outline. A head may lie
+/// wholly in front of the body's axis.
 fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     let middle = tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
         let (front, back) = tape::depth_range(&outline);
@@ -79,7 +81,7 @@ fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     Plane { origin: V3::new(0.0, middle, z), ..Plane::horizontal(z) }
 }
 
-/// The right leg's ring at height `z`, about the middle of its outline.
+/// Ring of the right leg at height `z`, about the middle of its outline.
 fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     let legs = tape::right_limbs(mesh, z, 0.0);
     let leg = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x));
@@ -88,7 +90,7 @@ fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     ring(mesh, &Plane { origin: centre, ..Plane::horizontal(z) }, 0.0, "leg")
 }
 
-/// Where 24 rays from the origin of the plane leave an outline.
+/// Points at which 24 rays from the plane's origin leave an outline.
 fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
     let hit = |i: usize| {
         let (sin, cos) = (start + i as f64 / RING as f64 * std::f64::consts::TAU).sin_cos();
@@ -104,7 +106,7 @@ fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
     (0..RING).map(hit).collect()
 }
 
-/// The yoke's rows: between armpit and neck base on the front and back skin.
+/// Adds the rows of the yoke, between armpit and neck base on the front and the back.
 fn add_yoke(mesh: &TriMesh, positions: &mut Vec<V3>) {
     for start in YOKE_START {
         for row in 1..=YOKE_ROWS {
@@ -119,7 +121,7 @@ fn add_yoke(mesh: &TriMesh, positions: &mut Vec<V3>) {
     }
 }
 
-/// The skin in front of (`side` 1) or behind (-1) a point.
+/// Point of the skin in front of (`side` 1) or behind (-1) a point.
 fn on_skin(mesh: &TriMesh, point: V3, side: f64) -> V3 {
     let plane = Plane { origin: point, u: V3::y() * side, v: V3::z() };
     let crossings = section(mesh, &plane).into_iter().flat_map(|outline| {
@@ -164,8 +166,8 @@ fn join_rings(control: &mut ControlMesh) {
     ];
     for (below, above, region) in tubes {
         for i in 0..RING {
-            let at = |layer, i| control.ring_vertex(layer, i);
-            let quad = vec![at(below, i), at(below, i + 1), at(above, i + 1), at(above, i)];
+            let vertex = |layer, i| control.ring_vertex(layer, i);
+            let quad = vec![vertex(below, i), vertex(below, i + 1), vertex(above, i + 1), vertex(above, i)];
             add(control, quad, region);
         }
     }
@@ -179,7 +181,7 @@ fn add(control: &mut ControlMesh, face: Vec<usize>, region: Region) {
     control.regions.push(region);
 }
 
-/// Thighs to hip outside, to each other across the crotch.
+/// Joins the thighs to the hip on the outside, and to each other across the crotch.
 fn join_legs(control: &mut ControlMesh) {
     use Layer::{Hip, ThighLeft, ThighRight};
     let right = |i: usize| ThighRight as usize * RING + i % RING;
@@ -197,7 +199,7 @@ fn join_legs(control: &mut ControlMesh) {
     add(control, vec![hip(18), left(18), right(18)], Region::Pelvis);
 }
 
-/// The yoke between armpit and neck base, and the tops of the shoulders round the armholes.
+/// Joins the yoke between armpit and neck base, and the tops of the shoulders round the armholes.
 fn join_shoulders(control: &mut ControlMesh) {
     for (side, start) in YOKE_START.into_iter().enumerate() {
         let row = |row: usize, place: usize| match row {
@@ -227,7 +229,7 @@ fn join_shoulders(control: &mut ControlMesh) {
 
 /// The 24 vertices of an armhole's edge: from the back below through the front and over the shoulder.
 fn armhole(right: bool) -> Vec<usize> {
-    // On the right the rings are run through from 20 over 0 to 4; on the left mirrored, from 16 over 12 to 8.
+    // On the right the rings are traversed from 20 over 0 to 4; on the left, mirrored, from 16 over 12 to 8.
     let place = |i: usize| if right { (20 + i) % RING } else { 16 - i };
     let (front, back) = if right { (0, YOKE - 1) } else { (YOKE - 1, 0) };
     let axilla = (0..9).map(|i| Layer::Axilla as usize * RING + place(i));
@@ -237,7 +239,7 @@ fn armhole(right: bool) -> Vec<usize> {
     axilla.chain(up).chain(neck).chain(down).collect()
 }
 
-/// Fans that close soles, crown and hands.
+/// Adds the fans that close soles, crown and hands.
 fn close_ends(control: &mut ControlMesh) {
     let ends = [
         (Layer::FootRight, Region::ShankRight, false),

@@ -1,10 +1,10 @@
-//! The control mesh on disk: OBJ for other programs, JSON with everything that is known of its vertices.
+//! Files of the control mesh: OBJ for other programs, and JSON with all properties of its vertices.
 
 use crate::{Body, ControlMesh, Layer, RING, Skeleton};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// What the JSON file holds; lengths in metres, vertices counted from zero.
+/// Content of the JSON file. Lengths are in metres, vertices are counted from zero.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlFile {
     /// Vertices, faces and the region of each face.
@@ -15,14 +15,11 @@ pub struct ControlFile {
     pub feature_points: BTreeMap<String, usize>,
     /// Vertices of each feature line, from above.
     pub feature_lines: BTreeMap<String, Vec<usize>>,
-    /// Each girth with its first vertex; the others of its ring follow.
+    /// Each girth with the first vertex of its ring. The others follow.
     pub girths: Vec<(Layer, usize)>,
 }
 
-/// The control mesh of a body as JSON text.
-///
-/// # Errors
-/// [`serde_json::Error`] when a number cannot be written.
+/// Writes the control mesh of a body as JSON.
 pub fn write_control(body: &Body) -> Result<String, serde_json::Error> {
     let control = &body.control;
     let named = |(name, vertex): (&str, usize)| (name.to_owned(), vertex);
@@ -52,7 +49,7 @@ pub fn read_control(text: &str) -> Result<ControlFile, serde_json::Error> {
 }
 
 impl ControlMesh {
-    /// The mesh as Wavefront OBJ text, metres, its faces grouped by region.
+    /// Writes the mesh as Wavefront OBJ, metres, with faces grouped by region.
     #[must_use]
     pub fn write_obj(&self) -> String {
         let mut text = "# control mesh, metres; x to the subject's right, y to the front, z up\n".to_owned();

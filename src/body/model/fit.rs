@@ -1,6 +1,6 @@
-//! Fitting a figure until the tape reads on its skin what was asked.
+//! Fit of a figure: its dimensions are corrected until the tape reads the requested measurements on its skin.
 
-use super::build;
+use super::figure_sites;
 use super::limb_tape::LimbSites;
 use super::template::Template;
 use crate::measure::girths::Girths;
@@ -13,19 +13,20 @@ use crate::{BodyError, Sex};
 use geom::TriMesh;
 use std::sync::LazyLock;
 
-/// Most rounds of the fit, and corrections in each. The levels of the tape are held in a round and found anew after it.
+/// Greatest number of rounds, and of corrections in each. The levels of the tape are fixed within a round and found
+/// again after it. Judgement.
 const ROUNDS: usize = 6;
 const CORRECTIONS: usize = 6;
 
-/// Error at which the corrections of a round stop, and error with levels found anew at which the fit does, metres.
+/// Error at which the corrections of a round stop, and error with new levels at which the fit stops, metres. Judgement.
 const CORRECTED: f64 = 3e-4;
 const FITTED: f64 = 8e-4;
 
-/// Greatest accepted difference of a girth, and of a length, from what was asked, metres.
+/// Greatest accepted deviation of a girth, and of a length, from the request, metres. Judgement.
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 
-/// A skin with what the tape reads on it.
+/// A skin with its sites and girths.
 #[derive(Clone)]
 pub(super) struct Fit<'a> {
     pub figure: Figure<'a>,
@@ -34,11 +35,7 @@ pub(super) struct Fit<'a> {
     pub girths: Girths,
 }
 
-/// Makes the skin of a profile and fits it to the tape.
-///
-/// # Errors
-/// [`BodyError::MissingPart`] where the skin has no such part, [`BodyError::Inconsistent`] for a given measurement that
-/// is not reached.
+/// Makes the skin of a profile and fits it to the requested measurements.
 pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
     static MALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Male));
     static FEMALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Female));
@@ -49,7 +46,8 @@ pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
     fit_from(profile, **factors)
 }
 
-/// Factors with which the template's own person measures as asked: what the skin adds to a figure differs little between people.
+/// Factors for which the template's own person measures as requested. They are a good start for others, since the
+/// difference between skin and figure varies little.
 fn start(sex: Sex) -> Factors {
     let person = Template::person(sex);
     fit_from(&person, [1.0; COUNT]).map_or([1.0; COUNT], |fit| fit.figure.factors)
@@ -59,7 +57,7 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
     let template = Template::of(profile.sex);
     let figure = Figure { factors, ..Figure::new(profile) };
     let mesh = template.dress(&figure);
-    let sites = build::sites(&mesh, &figure)?;
+    let sites = figure_sites::find(&mesh, &figure)?;
     let girths = read(&mesh, &figure, &sites)?;
     let mut fit = Fit { figure, mesh, sites, girths };
     for round in 0..ROUNDS {
@@ -69,13 +67,13 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
             }
             fit.correct(profile, template)?;
         }
-        let found = build::sites(&fit.mesh, &fit.figure)?;
+        let found = figure_sites::find(&fit.mesh, &fit.figure)?;
         let girths = read(&fit.mesh, &fit.figure, &found)?;
         let anew = Fit { sites: found, girths, ..fit.clone() };
         if anew.worst(profile).is_none_or(|worst| worst.off().abs() < FITTED) {
             return Ok(anew);
         }
-        // Levels that swing with what they are corrected by come to rest half way.
+        // Levels that oscillate with the correction are set half way.
         let sites = if round == 0 { anew.sites } else { half_way(&fit.sites, anew.sites) };
         fit.hold(sites)?;
     }
@@ -88,13 +86,13 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
 }
 
 impl Fit<'_> {
-    /// The asked measurement that is farthest off.
+    /// The requested measurement with the greatest error.
     fn worst(&self, profile: &Profile) -> Option<Fitted> {
         let asked = errors(profile, &self.girths).into_iter().filter(|error| error.is_asked(profile));
         asked.max_by(|a, b| a.off().abs().total_cmp(&b.off().abs()))
     }
 
-    /// Corrects every dimension by what the tape reads, the levels held.
+    /// Corrects every dimension by the ratio of requested and read value, with fixed levels.
     fn correct(&mut self, profile: &Profile, template: &Template) -> Result<(), BodyError> {
         for error in errors(profile, &self.girths) {
             self.figure.adjust(error.dimension, error.asked / error.read);
@@ -103,15 +101,15 @@ impl Fit<'_> {
         self.hold(self.sites.clone())
     }
 
-    /// Lays the tape at levels.
+    /// Reads the girths at fixed levels.
     fn hold(&mut self, levels: Sites) -> Result<(), BodyError> {
-        self.sites = build::held_sites(&self.mesh, &self.figure, &levels)?;
+        self.sites = figure_sites::hold(&self.mesh, &self.figure, &levels)?;
         self.girths = read(&self.mesh, &self.figure, &self.sites)?;
         Ok(())
     }
 }
 
-/// Sites with levels in the middle between those of two.
+/// Sites with levels half way between those of two.
 fn half_way(a: &Sites, b: Sites) -> Sites {
     let middle = |a: f64, b: f64| (a + b) / 2.0;
     Sites {
@@ -128,7 +126,7 @@ fn half_way(a: &Sites, b: Sites) -> Sites {
     }
 }
 
-/// What is fitted whether given or not.
+/// Dimensions that are fitted whether given or not.
 const MAIN: [Dimension; 5] = [
     Dimension::NeckGirth,
     Dimension::ChestGirth,
@@ -137,14 +135,14 @@ const MAIN: [Dimension; 5] = [
     Dimension::AcrossShoulder,
 ];
 
-/// What the tape reads, limbs included.
+/// Girths that the tape reads, including those of the limbs.
 fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyError> {
     let mut girths = sites::girths_at(mesh, sites)?;
     LimbSites::of(figure, sites).read(mesh, &mut girths);
     Ok(girths)
 }
 
-/// A fitted measurement: asked for, and read by the tape; metres.
+/// A fitted measurement: requested and read value, metres.
 struct Fitted {
     dimension: Dimension,
     asked: f64,
@@ -156,7 +154,7 @@ impl Fitted {
         self.read - self.asked
     }
 
-    /// Whether it has to be met: it is given, or one of the main ones.
+    /// True if it has to be met: it is given, or one of the main ones.
     fn is_asked(&self, profile: &Profile) -> bool {
         profile.is_given(self.dimension) || MAIN.contains(&self.dimension)
     }
@@ -181,7 +179,7 @@ impl Fitted {
     }
 }
 
-/// What a figure is corrected by, in the order in which what is not reached is told.
+/// Dimensions by which a figure is corrected, in the order in which one that is not reached is reported.
 const CORRECTED_BY: [Dimension; 15] = {
     use Dimension::*;
     [
@@ -203,7 +201,7 @@ const CORRECTED_BY: [Dimension; 15] = {
     ]
 };
 
-/// Every dimension that the tape reads, but for an under-bust girth that nobody asked for.
+/// Requested and read value of all these dimensions, without an under-bust girth that is not given.
 fn errors(profile: &Profile, read: &Girths) -> Vec<Fitted> {
     let counts = |dimension: &Dimension| *dimension != Dimension::UnderbustGirth || profile.is_given(*dimension);
     let fitted = |dimension| Some(Fitted { dimension, asked: profile.at(dimension), read: read.get(dimension)? });

@@ -1,4 +1,4 @@
-//! The tape on limbs whose axes are known.
+//! The tape on limbs with known axes.
 
 use crate::measure::sites::Sites;
 use crate::measure::slices::steps;
@@ -8,14 +8,15 @@ use crate::{Dimension, Girths};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Half of the heights over stature among which the greatest calf and the smallest ankle are looked for.
+/// Half of the range of heights over stature in which the greatest calf girth and the least ankle girth are sought.
+/// Judgement.
 const CALF_REACH: f64 = 0.03;
 const ANKLE_REACH: f64 = 0.012;
 
-/// Height of the ankle girth over stature.
+/// Height of the ankle girth over stature. Judgement.
 const ANKLE: f64 = 0.072;
 
-/// Where the tape is laid on the right arm and leg, metres.
+/// Sites of the tape on the right arm and leg, metres.
 pub(super) struct LimbSites {
     stature: f64,
     knee: f64,
@@ -30,7 +31,7 @@ pub(super) struct LimbSites {
 }
 
 impl LimbSites {
-    /// The places on a figure.
+    /// Sites on a figure.
     pub fn of(figure: &Figure, sites: &Sites) -> Self {
         let [elbow, wrist, _] = figure.arm_lengths();
         let axes = figure.arm_axes();
@@ -42,7 +43,7 @@ impl LimbSites {
         Self { stature: figure.stature(), knee, calf, shoulder: sites.shoulder[0], forearm, elbow, wrist, axes }
     }
 
-    /// Adds what the tape reads on the limbs of a mesh.
+    /// Reads the girths of the limbs on a mesh.
     pub fn read(&self, mesh: &TriMesh, girths: &mut Girths) {
         let h = self.stature;
         let shank = mesh.part(|p| p.z < self.knee + 0.03 * h && p.x > 0.0);
@@ -59,7 +60,7 @@ impl LimbSites {
         girths.set(Dimension::ArmLength, self.arm_length(&arm));
     }
 
-    /// From the shoulder point over the outside of the elbow to that of the wrist, metres.
+    /// Arm length: from the shoulder point over the outside of the elbow to that of the wrist, metres.
     fn arm_length(&self, arm: &TriMesh) -> Option<f64> {
         let outside = |centre: V3| {
             let plane = Plane { origin: centre, u: self.axes[1], v: self.axes[0] };

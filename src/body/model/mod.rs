@@ -1,9 +1,10 @@
-//! The mannequin: the template dressed on a figure, fitted to the tape, with its control mesh.
+//! The mannequin: the template skin carried to a figure, fitted to the tape, with its control mesh.
 
 pub mod build;
 pub mod control;
 pub mod control_cut;
 pub mod control_file;
+mod figure_sites;
 mod fit;
 mod limb_tape;
 mod template;

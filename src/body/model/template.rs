@@ -1,57 +1,68 @@
-//! One skin for everybody of a sex: polygonised once on an average figure, then carried over to any other.
+//! Template skin of a sex: polygonised once on an average figure, then carried to any other.
 //!
-//! Every vertex is tied to the body parts near it by its place in them (share of the way between two sections, direction,
-//! distance off the outline). On another figure the same places give it another position; where parts meet, the positions
-//! that they give are mixed. Topology and vertex order are thus the same for all bodies of a sex.
+//! Every vertex is bound to the body parts near it by coordinates in them: the position between two sections, the
+//! direction, the distance from the outline. On another figure the same coordinates give another position. Where parts
+//! meet, the positions that they give are blended. Topology and vertex order are thus the same for all bodies of a sex.
 
 use crate::people::profile::Profile;
 use crate::shape::field::{NEAR, Parts};
 use crate::shape::figure::Figure;
-use crate::shape::loft::{Loft, Part, Ring, column};
+use crate::shape::loft::{Loft, Part, Place, Ring, column};
 use crate::shape::surface::Skin;
 use crate::{Dimension, Measurements, Sex};
 use geom::contour::Grid;
 use geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
 
-/// Stature and body mass index of the figure whose skin it is, m and kg/m^2: amid the adults it is carried to.
+/// Stature (m) and body mass index (kg/m2) of the template's figure. Judgement: in the middle of the adults whom it is
+/// carried to.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
-/// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
+/// Grid spacing of the skin over stature: of the body, and of arms (along x) and feet (along z). Judgement.
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
-/// Height of the ankles over stature.
+/// Height of the ankles over stature. Judgement.
 const ANKLE: f64 = 0.045;
 
-/// Difference of the distances of two parts up to which a vertex belongs to both, metres.
+/// Difference of the distances from two parts up to which a vertex is bound to both, metres. Judgement.
 const MIXING: f64 = 0.08;
 
-/// Passes of the evening out where trunk and limbs meet, and its step.
+/// Passes of the smoothing where trunk and limbs meet, and its step. Judgement.
 const EVENING_PASSES: usize = 30;
 const EVENING_STEP: f64 = 0.6;
 
-/// Vertices nearer to the floor than this are the sole, and nearer to the median plane lie on it, metres.
+/// Distance from the floor below which vertices belong to the sole, and from the median plane below which they lie on
+/// it, metres. Judgement.
 const SOLE: f64 = 1.5e-3;
 const MEDIAN: f64 = 1e-3;
 
-/// Greatest difference in height of a vertex and its mirror image, metres: rounding, carried on by the fairing.
+/// Greatest difference in height between a vertex and its mirror image, metres. It is caused by rounding, amplified by
+/// the fairing.
 const PAIRED: f64 = 5e-3;
 
-/// A vertex's place in one part.
+/// A vertex of the right half, or its mirror image.
+#[derive(Clone, Copy, Debug)]
+struct Image {
+    /// Index among the vertices of the right half and the median plane.
+    vertex: usize,
+    is_mirrored: bool,
+}
+
+/// Coordinates of a vertex in one part.
 #[derive(Clone, Debug)]
 struct Tie {
-    /// Number of the part, and whether it is the one of the left side.
+    /// Index of the part, and true for that of the left side.
     part: usize,
     left: bool,
     weight: f64,
-    /// Tabulated section below, and the share of the way to the next.
+    /// Index of the tabulated section below, and the share of the way to the next.
     ring: usize,
     share: f64,
-    /// Direction in the section, as a vector and in units of the tabulated directions.
+    /// Direction in the section, as a vector and in units of the tabulated directions' spacing.
     direction: V2,
     column: f64,
-    /// Distance off the outline, and along the axis past the part's end, metres.
+    /// Distance from the outline, and along the axis beyond the part's end, metres.
     off: f64,
     past: f64,
 }
@@ -62,12 +73,12 @@ struct Vertex {
     ties: Vec<Tie>,
     median: bool,
     sole: bool,
-    /// Where it is on the template's own figure, metres.
+    /// Position on the template's own figure, metres.
     home: V3,
-    /// How much what its parts make of it is evened out with its neighbours: 1 where trunk and limb meet, 0 away from there.
+    /// Weight of the smoothing of its displacement: 1 where trunk and limb meet, 0 away from there.
     evened: f64,
-    /// The vertices around it: number, and whether it is the mirror image.
-    around: Vec<(usize, bool)>,
+    /// The adjacent vertices.
+    around: Vec<Image>,
 }
 
 /// The skin of a sex.
@@ -77,13 +88,13 @@ pub(super) struct Template {
     parts: [Part; 5],
     rings: [Vec<Ring>; 5],
     vertices: Vec<Vertex>,
-    /// For every vertex of the mesh its number in `vertices`, and whether it is the mirror image.
-    images: Vec<(usize, bool)>,
+    /// Vertex of the right half for each vertex of the mesh.
+    images: Vec<Image>,
     triangles: Vec<[usize; 3]>,
 }
 
 impl Template {
-    /// The template of a sex, made on first use.
+    /// Template of a sex, made on first use.
     pub fn of(sex: Sex) -> &'static Self {
         static MALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Male));
         static FEMALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Female));
@@ -112,8 +123,8 @@ impl Template {
         let images = images(&mesh.positions, &right);
         for [a, b] in mesh.edges() {
             for (from, to) in [(a, b), (b, a)] {
-                if let (from, false) = images[from] {
-                    vertices[from].around.push(images[to]);
+                if let Image { vertex, is_mirrored: false } = images[from] {
+                    vertices[vertex].around.push(images[to]);
                 }
             }
         }
@@ -121,12 +132,12 @@ impl Template {
         Self { stature, parts: figure.parts(), rings, vertices, images, triangles: mesh.triangles }
     }
 
-    /// The skin on a figure, stretched in height so that it stands on the floor and is as tall as asked.
+    /// Carries the skin to a figure, stretched in height so that it stands on the floor and has the requested stature.
     pub fn dress(&self, figure: &Figure) -> TriMesh {
         let parts = figure.parts();
         let rings: [Vec<Ring>; 5] = std::array::from_fn(|i| parts[i].like(&self.parts[i], &self.rings[i]));
         let scale = figure.stature() / self.stature;
-        let at = |tie: &Tie| {
+        let weighted_place = |tie: &Tie| {
             let (low, high) = (&rings[tie.part][tie.ring], &rings[tie.part][tie.ring + 1]);
             let mix = |a: f64, b: f64| a + (b - a) * tie.share;
             let radius = mix(low.radius(tie.column), high.radius(tie.column)) + tie.off * scale;
@@ -136,7 +147,7 @@ impl Template {
             V3::new(side * point.x, point.y, point.z) * tie.weight
         };
         let place = |vertex: &Vertex| {
-            let p: V3 = vertex.ties.iter().map(at).sum();
+            let p: V3 = vertex.ties.iter().map(weighted_place).sum();
             V3::new(if vertex.median { 0.0 } else { p.x }, p.y, p.z)
         };
         let mut right = self.evened(self.vertices.iter().map(place).collect(), scale);
@@ -145,25 +156,26 @@ impl Template {
         }
         let crown = right.iter().map(|p| p.z).fold(0.0, f64::max);
         let stretch = figure.stature() / crown;
-        let image = |&(i, mirrored): &(usize, bool)| {
-            let p: V3 = right[i];
-            V3::new(if mirrored { -p.x } else { p.x }, p.y, p.z * stretch)
+        let image = |&Image { vertex, is_mirrored }: &Image| {
+            let p: V3 = right[vertex];
+            V3::new(if is_mirrored { -p.x } else { p.x }, p.y, p.z * stretch)
         };
         TriMesh { positions: self.images.iter().map(image).collect(), triangles: self.triangles.clone() }
     }
 }
 
 impl Template {
-    /// Evens out, where trunk and limbs meet, how far the vertices were moved: what two parts make of neighbours differs there.
+    /// Smooths the displacements of the vertices where trunk and limbs meet. Two parts displace neighbouring vertices
+    /// differently there.
     fn evened(&self, mut right: Vec<V3>, scale: f64) -> Vec<V3> {
         let mut moved: Vec<V3> = right.iter().zip(&self.vertices).map(|(p, vertex)| p - vertex.home * scale).collect();
         let joints: Vec<usize> = (0..right.len()).filter(|&i| self.vertices[i].evened > 0.0).collect();
         for _ in 0..EVENING_PASSES {
             for &i in &joints {
                 let vertex = &self.vertices[i];
-                let step = |&(j, mirrored): &(usize, bool)| {
-                    let m: V3 = moved[j];
-                    if mirrored { V3::new(-m.x, m.y, m.z) } else { m }
+                let step = |&Image { vertex, is_mirrored }: &Image| {
+                    let m: V3 = moved[vertex];
+                    if is_mirrored { V3::new(-m.x, m.y, m.z) } else { m }
                 };
                 let mean = vertex.around.iter().map(step).sum::<V3>() / vertex.around.len() as f64;
                 moved[i] = moved[i].lerp(&mean, EVENING_STEP * vertex.evened);
@@ -207,7 +219,7 @@ impl Vertex {
 
 impl Tie {
     fn new(loft: &Loft, part: usize, left: bool, weight: f64, point: V3) -> Self {
-        let (place, past, local) = loft.locate(point);
+        let Place { ring: place, past, local } = loft.locate(point);
         let rings = loft.rings();
         let ring = (place as usize).min(rings.len() - 2);
         let share = place - ring as f64;
@@ -220,13 +232,13 @@ impl Tie {
     }
 }
 
-/// For every vertex its number among the `right` ones, and whether it is the mirror image of that.
-fn images(positions: &[V3], right: &[usize]) -> Vec<(usize, bool)> {
+/// Vertex of the right half (the indices `right`) for each vertex of the mesh.
+fn images(positions: &[V3], right: &[usize]) -> Vec<Image> {
     let mut by_height: Vec<usize> = (0..right.len()).collect();
     by_height.sort_by(|&a, &b| positions[right[a]].z.total_cmp(&positions[right[b]].z));
-    let mut images: Vec<Option<(usize, bool)>> = vec![None; positions.len()];
-    for (i, &vertex) in right.iter().enumerate() {
-        images[vertex] = Some((i, false));
+    let mut images: Vec<Option<Image>> = vec![None; positions.len()];
+    for (vertex, &i) in right.iter().enumerate() {
+        images[i] = Some(Image { vertex, is_mirrored: false });
     }
     let nearest = |p: V3| {
         let mirrored = V3::new(-p.x, p.y, p.z);
@@ -235,11 +247,11 @@ fn images(positions: &[V3], right: &[usize]) -> Vec<(usize, bool)> {
         let off = |&&i: &&usize| (positions[right[i]] - mirrored).norm_squared();
         *level.min_by(|a, b| off(a).total_cmp(&off(b))).expect("the grid is its own mirror image, and so is the skin")
     };
-    let image = |i: usize| images[i].unwrap_or_else(|| (nearest(positions[i]), true));
+    let image = |i: usize| images[i].unwrap_or_else(|| Image { vertex: nearest(positions[i]), is_mirrored: true });
     (0..positions.len()).map(image).collect()
 }
 
-/// The grid on which the skin of a figure is polygonised: finer beyond the shoulders and below the ankles.
+/// Grid on which the skin of a figure is polygonised. It is finer beyond the shoulders and below the ankles.
 fn grid(figure: &Figure) -> Grid {
     let stature = figure.stature();
     let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {

@@ -1,10 +1,10 @@
-//! The measurements by which a subject is known, named after ISO 8559-1.
+//! Body dimensions of a subject, named after ISO 8559-1.
 
 use std::collections::BTreeMap;
 
 use crate::Sex;
 
-/// A body dimension. The order is that of the tables of the survey.
+/// A body dimension. The order is that of the survey's tables (`survey.rs`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Dimension {
@@ -18,9 +18,9 @@ pub enum Dimension {
     WaistGirth,
     /// Girth at the greatest protrusion of the buttocks.
     HipGirth,
-    /// Least girth round the neck, the tape square to it.
+    /// Least girth of the neck, the tape perpendicular to it.
     NeckGirth,
-    /// Tape over the back neck point from shoulder point to shoulder point.
+    /// Length of the tape from shoulder point to shoulder point over the back neck point.
     AcrossShoulder,
     /// Girth of the thigh just below the crotch.
     ThighGirth,
@@ -38,11 +38,11 @@ pub enum Dimension {
     WristGirth,
     /// Inside leg height: floor to crotch.
     Inseam,
-    /// Shoulder point over the elbow to the wrist.
+    /// Distance from the shoulder point over the elbow to the wrist.
     ArmLength,
     /// Length of the foot, from the heel to the tip of the longest toe.
     FootLength,
-    /// Breadth over the upper arms (bideltoid, ISO 7250-1); always estimated.
+    /// Breadth over the upper arms (bideltoid, ISO 7250-1). It is always estimated.
     ShoulderBreadth,
     /// Girth of the trunk under the bust.
     UnderbustGirth,
@@ -51,8 +51,21 @@ pub enum Dimension {
 /// Number of dimensions.
 pub(crate) const COUNT: usize = 19;
 
+/// Names and accepted range of a dimension.
+struct Facts {
+    key: &'static str,
+    name: &'static str,
+    words: &'static str,
+    /// Least and greatest accepted value, m or kg.
+    range: [f64; 2],
+}
+
+const fn facts(key: &'static str, name: &'static str, words: &'static str, range: [f64; 2]) -> Facts {
+    Facts { key, name, words, range }
+}
+
 impl Dimension {
-    /// Every dimension that a subject may be known by, the most asked for first.
+    /// All dimensions that may be given for a subject, the most usual first.
     pub const ALL: [Self; COUNT - 1] = {
         use Dimension::*;
         [
@@ -77,31 +90,31 @@ impl Dimension {
         ]
     };
 
-    /// Key in study files, tables and JSON, with the unit in which it is written there.
+    /// Key in study files, tables and JSON, with its unit.
     #[must_use]
     pub const fn key(self) -> &'static str {
-        self.facts().0
+        self.facts().key
     }
 
-    /// Name for people to read.
+    /// Name for readers.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        self.facts().1
+        self.facts().name
     }
 
-    /// What is measured, in words, where the name alone would not do.
+    /// Description, where the name alone does not suffice.
     #[must_use]
     pub const fn words(self) -> &'static str {
-        self.facts().2
+        self.facts().words
     }
 
-    /// Least and greatest accepted value, m or kg: wider than the range of the adults of the survey.
+    /// Least and greatest accepted value, m or kg. Judgement: wider than the range of the adults of the survey.
     #[must_use]
     pub fn range(self) -> [f64; 2] {
-        self.facts().3
+        self.facts().range
     }
 
-    /// How many of the unit of the key make one SI unit.
+    /// Units of the key in one SI unit.
     #[must_use]
     pub fn per_si(self) -> f64 {
         if self == Self::Weight { 1.0 } else { 1e3 }
@@ -113,87 +126,91 @@ impl Dimension {
         if self == Self::Weight { "kg" } else { "mm" }
     }
 
-    /// Key, name, what it is in words, and accepted range.
-    const fn facts(self) -> (&'static str, &'static str, &'static str, [f64; 2]) {
+    /// Key, name, description and accepted range.
+    const fn facts(self) -> Facts {
         match self {
-            Self::Stature => ("stature_mm", "stature", "Stature", [1.30, 2.20]),
-            Self::Weight => ("weight_kg", "weight", "Body mass", [30.0, 220.0]),
-            Self::ChestGirth => ("chest_girth_mm", "chest girth", "Chest or bust girth", [0.60, 1.70]),
-            Self::WaistGirth => ("waist_girth_mm", "waist girth", "Waist girth", [0.45, 1.70]),
-            Self::HipGirth => ("hip_girth_mm", "hip girth", "Hip girth", [0.65, 1.75]),
-            Self::NeckGirth => ("neck_girth_mm", "neck girth", "Neck girth", [0.25, 0.58]),
+            Self::Stature => facts("stature_mm", "stature", "Stature", [1.30, 2.20]),
+            Self::Weight => facts("weight_kg", "weight", "Body mass", [30.0, 220.0]),
+            Self::ChestGirth => facts("chest_girth_mm", "chest girth", "Chest or bust girth", [0.60, 1.70]),
+            Self::WaistGirth => facts("waist_girth_mm", "waist girth", "Waist girth", [0.45, 1.70]),
+            Self::HipGirth => facts("hip_girth_mm", "hip girth", "Hip girth", [0.65, 1.75]),
+            Self::NeckGirth => facts("neck_girth_mm", "neck girth", "Neck girth", [0.25, 0.58]),
             Self::AcrossShoulder => {
-                ("across_shoulder_mm", "across shoulder", "Width across the shoulders", [0.30, 0.60])
+                facts("across_shoulder_mm", "across shoulder", "Width across the shoulders", [0.30, 0.60])
             }
-            Self::ThighGirth => ("thigh_girth_mm", "thigh girth", "Thigh girth, just below the crotch", [0.32, 1.05]),
-            Self::KneeGirth => ("knee_girth_mm", "knee girth", "Knee girth", [0.22, 0.66]),
-            Self::CalfGirth => ("calf_girth_mm", "calf girth", "Calf girth", [0.22, 0.62]),
-            Self::AnkleGirth => ("ankle_girth_mm", "ankle girth", "Ankle girth", [0.15, 0.38]),
-            Self::UpperArmGirth => ("upper_arm_girth_mm", "upper arm girth", "Upper arm girth, relaxed", [0.16, 0.60]),
-            Self::ForearmGirth => ("forearm_girth_mm", "forearm girth", "Forearm girth, relaxed", [0.16, 0.45]),
-            Self::WristGirth => ("wrist_girth_mm", "wrist girth", "Wrist girth", [0.11, 0.25]),
-            Self::Inseam => ("inseam_mm", "inseam", "Inside leg height", [0.50, 1.10]),
+            Self::ThighGirth => {
+                facts("thigh_girth_mm", "thigh girth", "Thigh girth, just below the crotch", [0.32, 1.05])
+            }
+            Self::KneeGirth => facts("knee_girth_mm", "knee girth", "Knee girth", [0.22, 0.66]),
+            Self::CalfGirth => facts("calf_girth_mm", "calf girth", "Calf girth", [0.22, 0.62]),
+            Self::AnkleGirth => facts("ankle_girth_mm", "ankle girth", "Ankle girth", [0.15, 0.38]),
+            Self::UpperArmGirth => {
+                facts("upper_arm_girth_mm", "upper arm girth", "Upper arm girth, relaxed", [0.16, 0.60])
+            }
+            Self::ForearmGirth => facts("forearm_girth_mm", "forearm girth", "Forearm girth, relaxed", [0.16, 0.45]),
+            Self::WristGirth => facts("wrist_girth_mm", "wrist girth", "Wrist girth", [0.11, 0.25]),
+            Self::Inseam => facts("inseam_mm", "inseam", "Inside leg height", [0.50, 1.10]),
             Self::ArmLength => {
-                ("arm_length_mm", "arm length", "Shoulder point over the elbow to the wrist", [0.38, 0.80])
+                facts("arm_length_mm", "arm length", "Shoulder point over the elbow to the wrist", [0.38, 0.80])
             }
-            Self::FootLength => ("foot_length_mm", "foot length", "Foot length", [0.18, 0.36]),
+            Self::FootLength => facts("foot_length_mm", "foot length", "Foot length", [0.18, 0.36]),
             Self::ShoulderBreadth => {
-                ("shoulder_breadth_mm", "shoulder breadth", "Breadth over the upper arms", [0.30, 0.80])
+                facts("shoulder_breadth_mm", "shoulder breadth", "Breadth over the upper arms", [0.30, 0.80])
             }
-            Self::UnderbustGirth => ("underbust_girth_mm", "under-bust girth", "Under-bust girth", [0.50, 1.60]),
+            Self::UnderbustGirth => facts("underbust_girth_mm", "under-bust girth", "Under-bust girth", [0.50, 1.60]),
         }
     }
 }
 
-/// What is known of a subject: the sex, and the dimensions that were measured, m or kg.
+/// Sex and measured dimensions of a subject, m or kg.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "Written", try_from = "Written")]
 pub struct Measurements {
-    /// Sex, which decides the tables that fill in what was not measured.
+    /// Sex, which decides the survey's table that estimates what was not measured.
     pub sex: Sex,
     values: [Option<f64>; COUNT],
 }
 
 impl Measurements {
-    /// A subject of whom only sex and stature (m) are known.
+    /// A subject of whom only the sex and the stature (m) are known.
     #[must_use]
     pub fn of(sex: Sex, stature_m: f64) -> Self {
         Self { sex, values: [None; COUNT] }.with(Dimension::Stature, stature_m)
     }
 
-    /// The same subject with a dimension known, m or kg, or not known.
+    /// Returns the subject with a dimension set, m or kg, or removed.
     #[must_use]
     pub fn with(mut self, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
         self.set(dimension, value);
         self
     }
 
-    /// A dimension where it is known, m or kg.
+    /// Value of a dimension, m or kg, where it is known.
     #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize]
     }
 
-    /// Makes a dimension known, m or kg, or not known. The breadth over the upper arms cannot be given and is left out.
+    /// Sets a dimension, m or kg, or removes it. The breadth over the upper arms cannot be given and is ignored.
     pub fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
         if dimension != Dimension::ShoulderBreadth {
             self.values[dimension as usize] = value.into();
         }
     }
 
-    /// Stature, m; not a number where it is not known.
+    /// Stature, m. Not a number where it is not known.
     #[must_use]
     pub fn stature_m(&self) -> f64 {
         self.get(Dimension::Stature).unwrap_or(f64::NAN)
     }
 
-    /// Every known dimension with its value, m or kg.
+    /// All known dimensions with their values, m or kg.
     pub fn known(&self) -> impl Iterator<Item = (Dimension, f64)> + '_ {
         Dimension::ALL.into_iter().filter_map(|dimension| self.get(dimension).map(|value| (dimension, value)))
     }
 }
 
-/// [`Measurements`] in files of jobs: SI values by key, such as `chest_girth_m`.
+/// [`Measurements`] as they are serialised: SI values by key, such as `chest_girth_m`.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Written {
     sex: Sex,

@@ -1,10 +1,11 @@
-//! People as the survey has them: drawn from normal scores, and compared by them.
+//! People by their normal scores in the survey: drawn, and compared.
 
 use super::survey::Survey;
 use crate::{Dimension, Measurements, Sex};
 
-/// The person whose first dimension lies so many standard deviations from the median, whose second does so among people with
-/// that first one, and so on: independent normal scores give people as frequent as in the survey [Gordon 2014].
+/// Person with given normal scores. The first dimension lies so many standard deviations from the median. Each further
+/// one does so among the people who share the dimensions before it. Independent normal scores give people as frequently
+/// as the survey has them [Gordon 2014].
 #[must_use]
 pub fn person(sex: Sex, scores: &[(Dimension, f64)]) -> Measurements {
     let survey = Survey::of(sex);
@@ -18,7 +19,7 @@ pub fn person(sex: Sex, scores: &[(Dimension, f64)]) -> Measurements {
     person
 }
 
-/// Each known dimension of a subject in standard deviations from the survey's median.
+/// Normal scores of the known dimensions of a subject, each among all people of the survey.
 #[must_use]
 pub fn scores(subject: &Measurements) -> Vec<(Dimension, f64)> {
     let survey = Survey::of(subject.sex);

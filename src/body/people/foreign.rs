@@ -1,11 +1,11 @@
-//! Measurements as other programs keep them: SeamlyMe and Valentina (XML), GarmentCode (YAML or JSON).
+//! Measurement files of other programs: SeamlyMe and Valentina (XML), GarmentCode (YAML or JSON).
 //!
-//! Only what is measured as here is taken; a value of zero is one that was not measured.
+//! Only measurements with the definitions used here are taken. A value of zero means that it was not measured.
 
 use super::dimension::{Dimension, Measurements};
 use crate::{BodyError, Sex};
 
-/// What other programs call the dimensions; where two are one, the first that is there counts.
+/// Names of the dimensions in other programs. Of several names for one dimension, the first that is present counts.
 const NAMES: [(Dimension, &[&str]); 18] = [
     (Dimension::Stature, &["height"]),
     (Dimension::Weight, &["weight"]),
@@ -27,30 +27,28 @@ const NAMES: [(Dimension, &[&str]); 18] = [
     (Dimension::FootLength, &["foot_length"]),
 ];
 
-/// Measurements of a file of another program, in whatever it writes them; `sex` where its file does not say.
-///
-/// # Errors
-/// [`BodyError::Measurements`] where it is none of them, or stature or sex is not known.
+/// Reads the measurements of a file in any of these formats. `sex` is used where the file does not state it.
 pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, BodyError> {
     let text = std::str::from_utf8(bytes).map_err(|error| refused(error.to_string(), "a text file in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
     let told = if text.starts_with('<') { of_xml(text)? } else { of_garmentcode(text)? };
-    let value = |name: &str| told.values.iter().find(|(of, value)| of == name && *value > 0.0).map(|(_, value)| *value);
-    let of = |dimension: Dimension| {
-        let (_, names) = NAMES.iter().find(|(of, _)| *of == dimension)?;
+    let value =
+        |name: &str| told.values.iter().find(|(key, value)| key == name && *value > 0.0).map(|(_, value)| *value);
+    let value_of = |dimension: Dimension| {
+        let (_, names) = NAMES.iter().find(|(named, _)| *named == dimension)?;
         let unit = if dimension == Dimension::Weight { 1.0 } else { told.metres };
         names.iter().find_map(|name| value(name)).map(|value| value * unit)
     };
-    let stature = of(Dimension::Stature).ok_or_else(|| refused("no height".to_owned(), "`height` above 0"))?;
+    let stature = value_of(Dimension::Stature).ok_or_else(|| refused("no height".to_owned(), "`height` above 0"))?;
     let sex = sex.or(told.sex).ok_or_else(|| refused("no sex".to_owned(), "--sex m or --sex f"))?;
-    let others = NAMES.iter().filter_map(|&(dimension, _)| Some((dimension, of(dimension)?)));
+    let others = NAMES.iter().filter_map(|&(dimension, _)| Some((dimension, value_of(dimension)?)));
     Ok(others.fold(Measurements::of(sex, stature), |all, (dimension, value)| all.with(dimension, value)))
 }
 
-/// What a file says.
+/// Content of a file.
 struct Told {
     sex: Option<Sex>,
-    /// Length of its unit, m.
+    /// Length of the file's unit, m.
     metres: f64,
     values: Vec<(String, f64)>,
 }
@@ -79,14 +77,14 @@ fn of_xml(text: &str) -> Result<Told, BodyError> {
         _ => None,
     };
     let measures = document.descendants().filter(|node| node.has_tag_name("m"));
-    // A value may be a formula of others: then it was not measured.
+    // A value may be a formula of other measurements. It was then not measured.
     let value = |node: roxmltree::Node<'_, '_>| {
         Some((node.attribute("name")?.to_owned(), node.attribute("value")?.trim().parse().ok()?))
     };
     Ok(Told { sex, metres, values: measures.filter_map(value).collect() })
 }
 
-/// The body of GarmentCode: names and numbers in centimetres, as YAML or as JSON.
+/// Body of GarmentCode: names and numbers in centimetres, as YAML or JSON.
 fn of_garmentcode(text: &str) -> Result<Told, BodyError> {
     let accepted = "measurements of SeamlyMe (.smis), Valentina (.vit) or GarmentCode (.yaml, .json)";
     let values: Vec<(String, f64)> = if text.starts_with('{') {

@@ -1,5 +1,4 @@
-//! What somebody's dimensions probably are, given readings that err: the survey as what is known beforehand, the readings as what is
-//! seen [Gordon 2014].
+//! Posterior distribution of a person's dimensions, given readings with errors: the survey is the prior [Gordon 2014].
 
 use super::dimension::{COUNT, Dimension};
 use super::profile::Profile;
@@ -7,17 +6,18 @@ use super::survey::Survey;
 use crate::{BodyError, Measurements, Sex};
 use nalgebra::{DMatrix, DVector};
 
-/// Standard deviation of one reading by somebody trained, m: lengths, small girths and heights; large girths; feet. They are the mean
-/// differences that ISO 20685-1 accepts between a scan and a trained hand [ISO 20685-1; Kouchi 2020].
+/// Standard deviations of one reading by a trained measurer, m: of small girths and heights, of large girths, of
+/// lengths, of the foot. They are the mean differences that ISO 20685-1 accepts between a scan and a trained measurer
+/// [ISO 20685-1; Kouchi 2020].
 const SMALL_M: f64 = 4e-3;
 const LARGE_M: f64 = 9e-3;
 const LENGTH_M: f64 = 5e-3;
 const FOOT_M: f64 = 2e-3;
-/// And of a weight, kg.
+/// Standard deviation of a weight, kg.
 const WEIGHT_KG: f64 = 0.5;
 
 impl Dimension {
-    /// Standard deviation of a reading by somebody trained, by tape or on a scan, m or kg [ISO 20685-1].
+    /// Standard deviation of a reading by a trained measurer, by tape or on a scan, m or kg [ISO 20685-1].
     #[must_use]
     pub fn reading_error(self) -> f64 {
         use Dimension::*;
@@ -32,60 +32,67 @@ impl Dimension {
     }
 }
 
-/// The distribution of somebody's true dimensions: normal in their logarithms.
+/// Distribution of a person's true dimensions: normal in their logarithms.
 #[derive(Clone, Debug)]
 pub struct Likely {
     sex: Sex,
     mean: DVector<f64>,
-    /// A square root of the covariance.
+    /// Symmetric square root of the covariance.
     root: DMatrix<f64>,
 }
 
+/// A measured value with the standard deviation of its error, m or kg.
+#[derive(Clone, Copy)]
+struct Reading {
+    dimension: Dimension,
+    value: f64,
+    error: f64,
+}
+
 impl Likely {
-    /// Normal scores that a person is drawn from.
+    /// Number of normal scores that determine a person.
     pub const SCORES: usize = COUNT;
 
-    /// Of somebody of the survey of whom nothing is known but the sex.
+    /// Distribution of a person of whom only the sex is known.
     #[must_use]
     pub fn anybody(sex: Sex) -> Self {
         Self::seen(sex, &[])
     }
 
-    /// Of somebody with these readings, each with the standard deviation of its error (m, kg): between the reading and what people
-    /// with the other readings have, as far from either as they are uncertain.
-    ///
-    /// # Errors
-    /// As [`build`](crate::build) for readings that no adult has, or that are not of one body.
+    /// Distribution of a person with these readings, given the standard deviation of the error of each (m, kg). The
+    /// posterior mean lies between a reading and its expectation from the other readings, in proportion to their
+    /// uncertainties.
     pub fn of(readings: &Measurements, error: impl Fn(Dimension) -> f64) -> Result<Self, BodyError> {
         Profile::new(readings)?;
-        let seen: Vec<_> = readings.known().map(|(dimension, value)| (dimension, value, error(dimension))).collect();
+        let reading = |(dimension, value)| Reading { dimension, value, error: error(dimension) };
+        let seen: Vec<Reading> = readings.known().map(reading).collect();
         Ok(Self::seen(readings.sex, &seen))
     }
 
-    fn seen(sex: Sex, seen: &[(Dimension, f64, f64)]) -> Self {
+    fn seen(sex: Sex, seen: &[Reading]) -> Self {
         let (before, covariance) = Survey::of(sex).logarithms();
-        let row = |k: usize| covariance.row(seen[k].0 as usize);
-        // The error of a logarithm is the relative error.
+        let row = |k: usize| covariance.row(seen[k].dimension as usize);
+        // The standard error of a logarithm is the relative error.
         let of_readings = DMatrix::from_fn(seen.len(), seen.len(), |i, j| {
-            let own = if i == j { (seen[i].2 / seen[i].1).powi(2) } else { 0.0 };
-            row(i)[seen[j].0 as usize] + own
+            let own = if i == j { (seen[i].error / seen[i].value).powi(2) } else { 0.0 };
+            row(i)[seen[j].dimension as usize] + own
         });
         let solver =
             of_readings.cholesky().expect("the survey's covariance is positive definite, and each is seen once");
         let with = DMatrix::from_fn(seen.len(), COUNT, |i, j| row(i)[j]);
-        let off = DVector::from_fn(seen.len(), |i, _| seen[i].1.ln() - before[seen[i].0 as usize]);
+        let off = DVector::from_fn(seen.len(), |i, _| seen[i].value.ln() - before[seen[i].dimension as usize]);
         let mean = before + with.transpose() * solver.solve(&off);
         let left = covariance - with.transpose() * solver.solve(&with);
         Self { sex, mean, root: root(left) }
     }
 
-    /// The person in the middle.
+    /// The person with the median of every dimension.
     #[must_use]
     pub fn median(&self) -> Measurements {
         self.person(&[0.0; COUNT])
     }
 
-    /// The person of independent normal scores.
+    /// The person with independent normal scores.
     #[must_use]
     pub fn person(&self, scores: &[f64; Self::SCORES]) -> Measurements {
         let off = &self.root * DVector::from_column_slice(scores);
@@ -104,7 +111,7 @@ impl Likely {
     }
 }
 
-/// The symmetric root of a covariance; what rounding made negative counts as nothing.
+/// Symmetric square root of a covariance. Eigenvalues that rounding made negative count as zero.
 fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
     let turned = (0.5 * (&covariance + covariance.transpose())).symmetric_eigen();
     let lengths = DMatrix::from_diagonal(&turned.eigenvalues.map(|value| value.max(0.0).sqrt()));
@@ -128,7 +135,7 @@ mod tests {
         let profile = Profile::new(&man()).expect("a person");
         for dimension in Dimension::ALL {
             let found = median.get(dimension).expect("every dimension");
-            // A thousandth of the survey's variance is nobody's but the dimension's own.
+            // A thousandth of each variance of the survey is independent.
             assert!(
                 (found / profile.at(dimension) - 1.0).abs() < 2e-3,
                 "{dimension:?} {found} {}",
@@ -154,8 +161,8 @@ mod tests {
         assert!(exact.1 < taped.1 && taped.1 < guessed.1);
     }
 
-    /// Share of planted people whose hip lies in the 80 % interval that is told from readings, whose errors are so many times what they
-    /// are taken for.
+    /// Share of random people whose hip girth lies in the 80 % interval from readings, whose errors are so many times
+    /// those that are assumed.
     fn held(read: &[Dimension], error_factor: f64) -> f64 {
         let mut noise = Noise(7);
         let mut normal = || noise.normal();
@@ -166,9 +173,9 @@ mod tests {
             let value = |dimension: Dimension| person.get(dimension).expect("every dimension");
             let seen: Vec<_> = read
                 .iter()
-                .map(|&one| {
-                    let error = one.reading_error();
-                    (one, value(one) + error_factor * error * normal(), error)
+                .map(|&dimension| {
+                    let error = dimension.reading_error();
+                    Reading { dimension, value: value(dimension) + error_factor * error * normal(), error }
                 })
                 .collect();
             let likely = Likely::seen(sex, &seen);
@@ -191,7 +198,7 @@ mod tests {
 
     #[test]
     fn one_dimension_is_weighed_as_a_textbook_weighs_it() {
-        // Of stature alone: precisions add.
+        // With a reading of the stature alone, precisions add.
         let (sd, error) = (0.0390_f64, 0.02_f64);
         let likely = Likely::of(&Measurements::of(Sex::Male, 1.9), |_| error).expect("a person");
         let relative = error / 1.9;

@@ -1,4 +1,4 @@
-//! What is known of people: their dimensions, the survey of adults, and the person behind some measurements.
+//! People: their dimensions, the survey of adults, and estimates of what was not measured.
 
 pub mod dimension;
 pub mod draw;

@@ -1,17 +1,19 @@
-//! From what is known of a subject to every dimension of the figure, and whether the known goes together.
+//! All dimensions of a figure from those that were measured, and whether the measurements are consistent.
 
 use super::dimension::{COUNT, Dimension};
 use super::survey::{Expected, Survey};
 use crate::{BodyError, Measurements, Sex};
 
-/// Standard deviations (of people alike) beyond which girths, and lengths, do not go together.
+/// Judgement: deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are
+/// refused.
 const IMPOSSIBLE_GIRTH: f64 = 8.0;
 const IMPOSSIBLE_LENGTH: f64 = 5.0;
 
-/// Standard deviations beyond which a measurement is doubtful: one person of a hundred.
+/// Two-sided 99 % quantile of the normal distribution. Beyond it a measurement is doubtful: one person in a hundred has
+/// it.
 const DOUBTFUL: f64 = 2.576;
 
-/// Every dimension the figure is made from, SI units: measured where known, estimated elsewhere.
+/// All dimensions that a figure is made from, in SI units: measured where known, estimated elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Profile {
     pub sex: Sex,
@@ -20,11 +22,8 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Checks the measurements and fills in the missing ones: each the survey's median among people with all that is known.
-    ///
-    /// # Errors
-    /// [`BodyError::OutOfRange`] names the first measurement that no adult has, [`BodyError::Contradiction`] the two that
-    /// go together worst.
+    /// Checks the measurements and estimates the missing ones. Each estimate is the median among the people of the
+    /// survey who share all that is known.
     pub fn new(known: &Measurements) -> Result<Self, BodyError> {
         check_ranges(known)?;
         check_pairs(known)?;
@@ -44,7 +43,7 @@ impl Profile {
         self.values[dimension as usize]
     }
 
-    /// Whether a dimension was measured.
+    /// True if a dimension was measured.
     pub fn is_given(&self, dimension: Dimension) -> bool {
         self.given[dimension as usize]
     }
@@ -61,23 +60,32 @@ fn check_ranges(known: &Measurements) -> Result<(), BodyError> {
     Err(BodyError::OutOfRange { name, value: value * dimension.per_si(), least, greatest, unit })
 }
 
-/// Refuses measurements of which two do not go together at this stature, or one with the stature itself.
+/// A measurement that is inconsistent with another.
+struct Misfit {
+    /// Deviation from the expectation over the accepted deviation.
+    excess: f64,
+    dimension: Dimension,
+    partner: Dimension,
+    expected: Expected,
+}
+
+/// Refuses two measurements that are inconsistent at this stature, or one that is inconsistent with the stature itself.
 fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     let survey = Survey::of(known.sex);
     let stature = (Dimension::Stature, known.stature_m());
     let others: Vec<(Dimension, f64)> = known.known().filter(|(dimension, _)| *dimension != stature.0).collect();
-    let mut worst: Option<(f64, Dimension, Dimension, Expected)> = None;
+    let mut worst: Option<Misfit> = None;
     for &(dimension, value) in &others {
         for &partner in std::iter::once(&stature).chain(others.iter().filter(|other| other.0 != dimension)) {
             let given = if partner == stature { vec![stature] } else { vec![stature, partner] };
             let expected = survey.expect(&[dimension], &given)[0];
             let excess = expected.score(value).abs() / limit(dimension);
-            if excess > worst.as_ref().map_or(1.0, |worst| worst.0) {
-                worst = Some((excess, dimension, partner.0, expected));
+            if excess > worst.as_ref().map_or(1.0, |worst| worst.excess) {
+                worst = Some(Misfit { excess, dimension, partner: partner.0, expected });
             }
         }
     }
-    let Some((_, dimension, partner, expected)) = worst else { return Ok(()) };
+    let Some(Misfit { dimension, partner, expected, .. }) = worst else { return Ok(()) };
     let shown = |dimension: Dimension, value: f64| {
         format!("{} {:.0} {}", dimension.name(), value * dimension.per_si(), dimension.unit())
     };
@@ -91,7 +99,7 @@ fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     Err(BodyError::Contradiction { found: told(dimension), with, least, greatest, unit: dimension.unit() })
 }
 
-/// Standard deviations beyond which a dimension is impossible.
+/// Standard deviations beyond which a dimension is refused.
 fn limit(dimension: Dimension) -> f64 {
     match dimension {
         Dimension::Inseam | Dimension::ArmLength | Dimension::FootLength | Dimension::AcrossShoulder => {
@@ -104,15 +112,15 @@ fn limit(dimension: Dimension) -> f64 {
 /// A measurement that few people have.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Doubt {
-    /// What was measured.
+    /// Key of the measurement.
     pub measurement: &'static str,
-    /// As given, mm or kg.
+    /// Given value, mm or kg.
     pub value: f64,
     /// Percentile among all adults of the sex.
     pub percentile: f64,
-    /// Percentile among those of the same stature and, where known, weight.
+    /// Percentile among people of the same stature and, where known, weight.
     pub percentile_alike: f64,
-    /// What 98 of 100 such people have, mm or kg.
+    /// Range that holds 98 % of such people, mm or kg.
     pub usual: [f64; 2],
 }
 
@@ -127,7 +135,8 @@ impl std::fmt::Display for Doubt {
     }
 }
 
-/// The measurements of a subject that are possible, but that fewer than one of a hundred alike have.
+/// Measurements of a subject that are possible, but that fewer than one in a hundred people of the same stature and
+/// weight have.
 #[must_use]
 pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
     let finite = known.known().all(|(_, value)| value.is_finite() && value > 0.0);
@@ -148,25 +157,25 @@ pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
     known.known().filter_map(doubt).collect()
 }
 
-/// Density of a body with half-filled lungs, kg/l.
+/// Mean density of a body with half-filled lungs, kg/l.
 const DENSITY: f64 = 1.01;
 
-/// Relative difference of a mass from the volume that is explained.
+/// Greatest relative difference between weight and mass from volume that is not reported. Judgement.
 const UNEXPLAINED: f64 = 0.10;
 
-/// The mass that a body's volume suggests, beside its weight.
+/// Mass that follows from a body's volume, beside its weight.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Mass {
     /// Volume times 1.01 kg/l.
     pub mass_from_volume_kg: f64,
-    /// The asked weight.
+    /// Requested weight, kg.
     pub weight_asked_kg: Option<f64>,
-    /// Mass from the volume over the asked weight, minus one, per cent.
+    /// Relative difference of the mass from the requested weight, per cent.
     pub mass_off_percent: Option<f64>,
 }
 
 impl Mass {
-    /// The mass of a volume in litres.
+    /// Mass of a volume in litres.
     #[must_use]
     pub fn of(volume_l: f64, weight_kg: Option<f64>) -> Self {
         let mass = DENSITY * volume_l;
@@ -191,14 +200,14 @@ impl std::fmt::Display for Mass {
     }
 }
 
-/// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], of a stature (m) and a weight (kg) where
-/// these are given.
+/// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], and of a stature (m) and a
+/// weight (kg) where these are given.
 #[must_use]
 pub fn percentile(sex: Sex, dimension: Dimension, value: f64, stature_m: Option<f64>, weight_kg: Option<f64>) -> f64 {
     100.0 * share_below(alike(sex, dimension, stature_m, weight_kg).score(value))
 }
 
-/// The distribution of a dimension among people of a stature and weight.
+/// Distribution of a dimension among people of a stature and a weight.
 fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Option<f64>) -> Expected {
     let given: Vec<(Dimension, f64)> = [(Dimension::Stature, stature_m), (Dimension::Weight, weight_kg)]
         .into_iter()
@@ -208,7 +217,7 @@ fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Opti
     Survey::of(sex).expect(&[dimension], &given)[0]
 }
 
-/// Standard normal distribution function [Abramowitz & Stegun 7.1.26], to 1e-7.
+/// Standard normal distribution function [Abramowitz & Stegun 7.1.26], with an error below 1e-7.
 fn share_below(score: f64) -> f64 {
     let x = score.abs() / std::f64::consts::SQRT_2;
     let t = 1.0 / (1.0 + 0.327_591_1 * x);

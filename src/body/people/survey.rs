@@ -1,25 +1,27 @@
-//! What a body probably measures where it was not measured: the joint distribution of dimensions in the ANSUR II survey.
+//! Joint distribution of body dimensions in the ANSUR II survey, from which missing ones are estimated.
 
 use super::dimension::{COUNT, Dimension};
 use crate::Sex;
 use nalgebra::{DMatrix, DVector};
 
-/// Natural logarithms of the dimensions (m, kg) of one sex as a normal distribution: a dimension given others follows from it
-/// by conditioning. Logarithms, since girths then grow with the root of the mass and never turn negative.
+/// Joint normal distribution of the natural logarithms of the dimensions (m, kg) of one sex. The distribution of some
+/// dimensions given others follows by conditioning. Girths grow with the root of the mass and never turn negative,
+/// which logarithms reproduce.
 ///
 /// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. The survey's own dimensions
-/// were turned into those of ISO 8559-1 by constant factors. They are 0.997 (men) and 0.968 (women) from waist at the
-/// navel, 0.92 and 0.95 from flexed upper arm and forearm to relaxed, 0.93 from lower thigh to knee. From biacromial
-/// breadth to tape over the nape they are 1.066 and 1.115 (means of three reference bodies of each sex). Under-bust
-/// from chest and waist: least squares over 80 model bodies of each sex (MakeHuman, CC0-1.0).
+/// are converted into those of ISO 8559-1 by constant factors for men and women. From the waist at the navel they are
+/// 0.997 and 0.968, from flexed upper arm and forearm to relaxed 0.92 and 0.95, from lower thigh to knee 0.93. From
+/// biacromial breadth to tape over the back neck point they are 1.066 and 1.115 (means of three reference bodies of
+/// each sex). The under-bust follows from chest and waist, by least squares over 80 model bodies of each sex
+/// (MakeHuman, CC0-1.0).
 pub(crate) struct Survey {
     mean: [f64; COUNT],
     sd: [f64; COUNT],
-    /// Below the diagonal, row by row.
+    /// Correlations below the diagonal, row by row.
     correlation: [f64; COUNT * (COUNT - 1) / 2],
 }
 
-/// A normal distribution of the logarithm of a dimension.
+/// Normal distribution of the logarithm of a dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Expected {
     mean: f64,
@@ -32,19 +34,19 @@ impl Expected {
         self.mean.exp()
     }
 
-    /// Deviation of a value from the median in standard deviations.
+    /// Normal score of a value: its deviation from the median, in standard deviations.
     pub fn score(self, value: f64) -> f64 {
         (value.ln() - self.mean) / self.sd
     }
 
-    /// The value so many standard deviations from the median.
+    /// Value with a normal score.
     pub fn at(self, score: f64) -> f64 {
         (self.mean + score * self.sd).exp()
     }
 }
 
 impl Survey {
-    /// The survey's men or women.
+    /// Men or women of the survey.
     pub fn of(sex: Sex) -> &'static Self {
         match sex {
             Sex::Male => &MALE,
@@ -58,7 +60,7 @@ impl Survey {
         correlation * self.sd[low] * self.sd[high]
     }
 
-    /// Means and covariance of the logarithms of all dimensions, in the order of the tables.
+    /// Means and covariance of the logarithms of all dimensions, in the order of [`Dimension`].
     pub fn logarithms(&self) -> (DVector<f64>, DMatrix<f64>) {
         let every = || Dimension::ALL.into_iter().chain([Dimension::ShoulderBreadth]);
         let mut covariance = DMatrix::zeros(COUNT, COUNT);
@@ -68,13 +70,15 @@ impl Survey {
         (DVector::from_column_slice(&self.mean), covariance)
     }
 
-    /// Covariance. Printed to three places the correlations are not quite a covariance any more: a thousandth makes them one.
+    /// Covariance with a ridge. Correlations that are rounded to three places need not be positive definite; a
+    /// thousandth of each variance, taken as independent, makes them so.
     fn ridged(&self, a: Dimension, b: Dimension) -> f64 {
         let covariance = self.covariance(a, b);
         covariance * (1.0 - RIDGE) + if a == b { RIDGE * covariance } else { 0.0 }
     }
 
-    /// Distribution of each of the `wanted` dimensions among people with the `given` values (m, kg; each dimension once).
+    /// Distribution of each of the `wanted` dimensions among people with the `given` values (m, kg; each dimension
+    /// once).
     pub fn expect(&self, wanted: &[Dimension], given: &[(Dimension, f64)]) -> Vec<Expected> {
         let count = given.len();
         let covariance = DMatrix::from_fn(count, count, |i, j| self.ridged(given[i].0, given[j].0));
@@ -83,20 +87,20 @@ impl Survey {
             .expect("correlations of a survey are positive definite, and each dimension is given once");
         let off = DVector::from_fn(count, |i, _| given[i].1.ln() - self.mean[given[i].0 as usize]);
         let weights = solver.solve(&off);
-        let one = |&dimension: &Dimension| {
+        let conditional = |&dimension: &Dimension| {
             let with = DVector::from_fn(count, |i, _| self.covariance(given[i].0, dimension));
             let variance = self.covariance(dimension, dimension);
             let left = (variance - with.dot(&solver.solve(&with))).max(LEAST_SHARE * variance);
             Expected { mean: self.mean[dimension as usize] + with.dot(&weights), sd: left.sqrt() }
         };
-        wanted.iter().map(one).collect()
+        wanted.iter().map(conditional).collect()
     }
 }
 
-/// Share of the variance that is taken to be independent of everything else, against rounding.
+/// Share of each variance that is taken as independent of all other dimensions, against rounding.
 const RIDGE: f64 = 1e-3;
 
-/// Share of the variance that is left at least, however much is given.
+/// Least share of the variance that is left, however much is given. Judgement.
 const LEAST_SHARE: f64 = 0.02;
 
 static MALE: Survey = Survey {

@@ -1,23 +1,25 @@
-//! Which way a side picture faces. Front cameras mirror pictures, and people turn either way.
+//! Direction that the subject of a side picture faces. Front cameras of phones mirror pictures, and people may turn
+//! either way.
 
 use super::sections::{LOWEST, SIDES, STEP};
 use super::silhouette::Mask;
 use super::trunk;
 use crate::Sex;
 
-/// Heights over that of the figure up to which feet are seen, and between which ankles are. Seen from above, insteps reach up to 0.08.
+/// Ranges of height over that of the figure in which the feet and the ankles are seen. From above, insteps reach up to
+/// 0.08. Judgement.
 const FEET: [f64; 2] = [0.0, 0.05];
 const ANKLES: [f64; 2] = [0.10, 0.14];
 
-/// Toes reach about 0.08 of the stature before the ankle, heels 0.02 behind it: the middle of the feet lies 0.03 before that of the
-/// ankles. A third of it tells the direction.
+/// Least distance between the middles of feet and ankles that tells the direction, over stature. Toes reach about 0.08
+/// in front of the ankle, heels 0.02 behind it, so the distance is about 0.03. This is a third of it.
 const FORWARD: f64 = 0.01;
 
-/// Correlation of the line through the middle of a trunk, from thigh to shoulders, with that of people, from which it tells the direction:
-/// the two then share a quarter of what they vary by.
+/// Least correlation that tells the direction, between the line through the middle of the trunk, from thigh to
+/// shoulders, and that of people. The two then share a quarter of their variance.
 const ALIKE: f64 = 0.5;
 
-/// A side silhouette that faces its right, and what is to be said of it.
+/// Turns a side silhouette to face its right. Returns a note for the user if it was turned or is undecided.
 pub(super) fn to_the_right(mask: Mask, sex: Sex) -> (Mask, Option<String>) {
     let Some(rows) = mask.rows() else { return (mask, None) };
     let told = by_toes(&mask, rows) + by_trunk(&mask, rows, sex);
@@ -33,13 +35,13 @@ pub(super) fn to_the_right(mask: Mask, sex: Sex) -> (Mask, Option<String>) {
     }
 }
 
-/// 1 where the toes point to the right, -1 to the left, 0 where that is not seen.
+/// Direction of the toes: 1 to the right, -1 to the left, 0 undecided.
 fn by_toes(mask: &Mask, rows: (usize, usize)) -> i32 {
     let forward = middle(mask, rows, FEET).zip(middle(mask, rows, ANKLES)).map_or(0.0, |(feet, ankles)| feet - ankles);
     sign(forward / (rows.1 + 1 - rows.0) as f64, FORWARD)
 }
 
-/// Middle column of what is seen between two heights over that of the figure.
+/// Middle column of the silhouette between two heights over that of the figure.
 fn middle(mask: &Mask, rows: (usize, usize), heights: [f64; 2]) -> Option<f64> {
     let [low, high] = heights.map(|height| row(rows, height));
     let runs: Vec<_> = (high..=low).flat_map(|row| mask.runs(row)).collect();
@@ -47,14 +49,14 @@ fn middle(mask: &Mask, rows: (usize, usize), heights: [f64; 2]) -> Option<f64> {
     Some((left + right) as f64 / 2.0)
 }
 
-/// As [`by_toes`], by belly, buttocks and the bend of the back.
+/// Direction by belly, buttocks and the bend of the back, as [`by_toes`].
 fn by_trunk(mask: &Mask, rows: (usize, usize), sex: Sex) -> i32 {
     let widest = |height: f64| mask.runs(row(rows, height)).into_iter().max_by_key(|(start, end)| end - start);
     by_middles(|height| widest(height).map(|(start, end)| (start + end) as f64 / 2.0), sex)
 }
 
-/// 1 where the middle of a trunk, half way from its back to its front at heights over stature, runs as that of people, -1 where it runs the
-/// other way, 0 where neither is seen.
+/// Direction by the middle of a trunk, half way from its back to its front, at heights over stature: 1 where it varies
+/// as that of people, -1 where it varies the other way, 0 undecided.
 pub(crate) fn by_middles(middle: impl Fn(f64) -> Option<f64>, sex: Sex) -> i32 {
     let usual = trunk::usual_middles(sex);
     let both = (0..SIDES).filter_map(|i| Some((middle(LOWEST + STEP * i as f64)?, usual[i])));

@@ -1,5 +1,6 @@
-//! Bodies from pictures: the person in them, silhouettes, and the girths between two views.
+//! Bodies from pictures: segmentation, silhouettes, and girths from two views.
 
+pub mod camera;
 pub mod facing;
 mod outline;
 pub mod pictures;
@@ -7,3 +8,10 @@ mod sections;
 mod segment;
 mod silhouette;
 mod trunk;
+
+use crate::BodyError;
+
+/// Error of a picture that cannot be used.
+fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {
+    BodyError::Picture { view, problem: problem.into() }
+}

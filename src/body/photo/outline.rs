@@ -1,6 +1,7 @@
 //! Heights, widths and depths of a body from its front and side silhouettes.
 
-use super::pictures::{Camera, refused};
+use super::camera::Camera;
+use super::refused;
 use super::sections::{LOWEST, Level, Profile, STEP, Section};
 use super::silhouette::{Mask, Run};
 use crate::measure::sites::{CHEST, usual_chest};
@@ -10,40 +11,51 @@ use crate::{BodyError, Sex};
 /// Height of the ISO 8559-1 waist over stature, men and women [Gordon 2014].
 const WAIST: [f64; 2] = [0.6212, 0.6299];
 
-/// What bulges towards the camera at chest (breasts) and hip (buttocks) stands nearer to it than the median plane, by this
-/// share of the half width.
+/// Distance of breasts and buttocks from the median plane towards the camera, as a share of half the width. Their
+/// outline in the side view is nearer to the camera by as much. Judgement.
 const NEARER: f64 = 0.4;
 
-/// Height of a neck's narrowest place over stature, from and to.
+/// Range of height over stature of the narrowest section of the neck. Judgement.
 const NECK: [f64; 2] = [0.83, 0.90];
 
-/// Least width or depth of a neck over stature; those of model bodies are from 0.045 on.
+/// Least width or depth of a neck over stature. Those of model bodies are at least 0.045.
 const LEAST_NECK: f64 = 0.03;
 
-/// Mean height of that place over stature: of the 160 model bodies of [`crate::shape::atlas`].
+/// Mean height of the narrowest section over stature, of the 160 model bodies of [`crate::shape::atlas`].
 const USUAL_NECK: f64 = 0.8714;
 
-/// Radius of the crown over stature: seen from below or above, the head's edge is not its highest point.
+/// Radius of the crown over stature. Seen from below or above, the edge of the head is not its highest point.
+/// Judgement.
 const CROWN: f64 = 0.05;
 
-/// How far before the subject's axis the soles' nearest edge stands, over stature: it is seen below the floor under the axis.
+/// Distance over stature by which the nearest edge of the soles lies in front of the subject's axis. It is seen below
+/// the floor under the axis. Judgement.
 const SOLES_NEARER: f64 = 0.09;
 
-/// What the crown counts against the soles where they tell the height of the camera, in the front and in the side view. Hair lies on
-/// the crown. In the side view the nearer foot stands on the side of the camera by an unknown step. The parts leave the least scatter
-/// among 700 pictures of model bodies: 4 and 6 mm.
+/// Weight of the crown against the soles in the estimate of the camera's height, in the front and in the side view.
+/// Hair lies on the crown. In the side view the nearer foot is nearer to the camera by an unknown step. These weights
+/// leave the least standard deviation over 700 pictures of model bodies: 4 and 6 mm.
 const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 
-/// Share by which a person's height in a picture may differ from what stature, distance and focal length say.
+/// Greatest relative difference between a person's height in a picture and the height that follows from stature,
+/// distance and focal length. Judgement.
 const MISFIT: f64 = 0.03;
 
-/// Heights over stature, from thigh to waist, at which the side view tells where the subject's axis is, and how many.
+/// Range of heights over stature, from thigh to waist, at which the subject's axis is found in the side view, and their
+/// number. Judgement.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
 const UPRIGHTS: u32 = 33;
 
-/// How far before the axis, which goes through the pelvis, the middle of thigh and trunk lies there, over stature: of 80 model bodies,
-/// among whom it varies by 0.0023.
+/// Distance over stature by which the middle of thigh and trunk lies in front of the axis, which passes through the
+/// pelvis. Mean of 80 model bodies, with a standard deviation of 0.0023.
 const MIDDLE_BEFORE_AXIS: f64 = 0.012;
+
+/// Focal length in pixels of a picture, and distance of its camera in metres.
+#[derive(Clone, Copy, Debug)]
+struct Lens {
+    focal_px: f64,
+    distance_m: f64,
+}
 
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
@@ -51,24 +63,27 @@ pub(super) struct View {
     mask: Mask,
     /// First and last row of the person.
     rows: (usize, usize),
-    /// Focal length in pixels and distance in metres; absent when seen from far away.
-    camera: Option<(f64, f64)>,
-    /// Height of the camera, metres; 0 when seen from far away.
+    /// Lens and distance. `None` for an orthographic view.
+    camera: Option<Lens>,
+    /// Height of the camera, metres. 0 for an orthographic view.
     camera_height: f64,
 }
 
 impl View {
     pub fn new(name: &'static str, mask: Mask, camera: Option<&Camera>) -> Result<Self, BodyError> {
         let rows = mask.rows().ok_or_else(|| refused(name, "no person is seen"))?;
-        let camera = camera.map(|camera| (camera.focal_over_height * mask.height as f64, camera.distance_m));
-        let sound = |(focal, distance): (f64, f64)| (1.0..1e7).contains(&focal) && (0.8..100.0).contains(&distance);
-        if camera.is_some_and(|camera| !sound(camera)) {
+        let camera = camera.map(|camera| Lens {
+            focal_px: camera.focal_over_height * mask.height as f64,
+            distance_m: camera.distance_m,
+        });
+        let is_sound = |lens: Lens| (1.0..1e7).contains(&lens.focal_px) && (0.8..100.0).contains(&lens.distance_m);
+        if camera.is_some_and(|lens| !is_sound(lens)) {
             return Err(refused(name, "the camera given is impossible (distance 0.8 to 100 m)"));
         }
         Ok(Self { mask, rows, camera, camera_height: 0.0 })
     }
 
-    /// Whether two parts of leg size are seen side by side over most of the height of the legs.
+    /// True if two parts of the size of legs are seen side by side over most of the legs' height.
     fn shows_two_legs(&self) -> bool {
         let (top, bottom) = self.rows;
         let height = bottom - top + 1;
@@ -80,9 +95,10 @@ impl View {
         rows.filter(|row| apart(*row)).count() > 10
     }
 
-    /// The view with the height of its camera, from the rows of crown and soles. `crown_counts` is the crown's part in it.
+    /// Returns the view with the height of its camera, from the rows of crown and soles. `crown_counts` is the weight
+    /// of the crown.
     fn of_stature(mut self, stature: f64, crown_counts: f64) -> Self {
-        let Some((focal, distance)) = self.camera else { return self };
+        let Some(Lens { focal_px: focal, distance_m: distance }) = self.camera else { return self };
         let middle = self.mask.height as f64 / 2.0;
         let rise = (middle - self.rows.0 as f64) / focal;
         let by_crown = stature - distance * rise + CROWN * stature * (rise.hypot(1.0) - 1.0);
@@ -97,7 +113,7 @@ impl View {
     }
 }
 
-/// Both silhouettes in metres.
+/// Both silhouettes, measured in metres.
 #[derive(Clone, Debug)]
 pub(super) struct Outlines {
     front: View,
@@ -122,11 +138,12 @@ impl Outlines {
         Ok(outlines)
     }
 
-    /// What does not go together in a view: a camera that looked up or down shortens or lengthens the person, as a wrong distance or
-    /// focal length does, and one picture cannot tell which it was.
+    /// Note for the user on a view whose person is too tall or too small for stature, distance and focal length. A
+    /// camera that looks up or down shortens or lengthens the person as a wrong distance or focal length does. One
+    /// picture cannot tell them apart.
     pub fn doubt(&self, name: &str, side: bool) -> Option<String> {
         let view = if side { &self.side } else { &self.front };
-        let (focal, distance) = view.camera?;
+        let Lens { focal_px: focal, distance_m: distance } = view.camera?;
         let seen = (view.rows.1 + 1 - view.rows.0) as f64 * distance / focal;
         let nearer = SOLES_NEARER * self.stature;
         let rise = (self.stature - view.camera_height) / distance;
@@ -143,7 +160,7 @@ impl Outlines {
         })
     }
 
-    /// Neck, chest, waist and hip, and whether the arms hide the sides of the chest.
+    /// Sections at neck, chest, waist and hip, and true if the arms hide the sides of the chest.
     pub fn sections(&self, sex: Sex, notes: &mut Vec<String>) -> Result<([Section; 4], bool), BodyError> {
         let waist = WAIST[usize::from(sex == Sex::Female)] * self.stature;
         self.check_arms(waist)?;
@@ -166,25 +183,26 @@ impl Outlines {
         Ok((sections, hidden.is_some()))
     }
 
-    /// Outlines of the trunk at equal steps upwards. What is not seen apart from arms or legs is missing.
+    /// Outlines of the trunk at equal steps upwards. A width is missing where the trunk is not seen apart from arms or
+    /// legs.
     pub fn trunk(&self) -> Profile {
         let height = |i: usize| (LOWEST + STEP * i as f64) * self.stature;
-        // One leg may reach over the middle, too: it is not there that the trunk begins.
+        // A leg may cross the middle, too. The trunk does not begin there.
         let is_trunk = |h: f64| self.trunk_run(h, self.middle_depth(h)).is_some_and(|run| self.is_central(run));
         let seen =
             |i: usize| (self.arms_apart(height(i)) && is_trunk(height(i))).then(|| self.width(height(i))).flatten();
         Profile { widths: std::array::from_fn(seen), sides: std::array::from_fn(|i| self.profile(height(i), [0.0; 2])) }
     }
 
-    /// Metres of a pixel at a depth towards the camera.
+    /// Metres per pixel at a depth towards the camera.
     fn scale(&self, view: &View, nearer: f64) -> f64 {
         view.camera.map_or_else(
             || self.stature / (view.rows.1 + 1 - view.rows.0) as f64,
-            |(focal, distance)| (distance - nearer) / focal,
+            |lens| (lens.distance_m - nearer) / lens.focal_px,
         )
     }
 
-    /// Row of a view in which points at a height are seen that stand `nearer` than the subject's axis.
+    /// Row of a view in which a point at a height is seen that lies `nearer` than the subject's axis.
     fn row(&self, view: &View, height: f64, nearer: f64) -> Option<usize> {
         let scale = self.scale(view, nearer);
         let row = match view.camera {
@@ -204,7 +222,7 @@ impl Outlines {
         Some([edge(nearer[0], true)?, edge(nearer[1], false)?])
     }
 
-    /// Column of the subject's axis in the side view, wherever the subject stands in it.
+    /// Finds the column of the subject's axis in the side view.
     fn find_axis(&self) -> Option<f64> {
         let middle = |height: f64| {
             let (back, front) = self.side.widest(self.row(&self.side, height, 0.0)?)?;
@@ -217,7 +235,7 @@ impl Outlines {
         middles.get(middles.len() / 2).map(|column| column - before)
     }
 
-    /// The trunk's run at a height in the front view: the one nearest to the head's middle.
+    /// Run of the trunk at a height in the front view: the one nearest to the middle of the head.
     fn trunk_run(&self, height: f64, nearer: f64) -> Option<Run> {
         let middle = self.head_column()?;
         let off = |&(start, end): &Run| ((start + end) as f64 / 2.0 - middle).abs();
@@ -227,7 +245,7 @@ impl Outlines {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
-    /// Whether the head's middle stands over the middle half of a run.
+    /// True if the middle of the head lies above the middle half of a run.
     fn is_central(&self, (start, end): Run) -> bool {
         let quarter = (end - start) as f64 / 4.0;
         self.head_column().is_some_and(|middle| middle > start as f64 + quarter && middle < end as f64 - quarter)
@@ -239,10 +257,11 @@ impl Outlines {
         Some((start + end) as f64 / 2.0)
     }
 
-    /// Depth of the trunk's middle towards the camera of the front view; unknown without a camera, where nothing depends on it.
+    /// Depth of the trunk's middle towards the camera of the front view. Without a camera it is 0, since nothing
+    /// depends on it.
     fn middle_depth(&self, height: f64) -> f64 {
         let depth = |h: f64| self.profile(h, [0.0; 2]).map(|[front, back]| (front + back) / 2.0);
-        // The subject stands on the ankles' axis, wherever the side picture has it.
+        // The subject stands on the axis of the ankles, wherever the side picture shows it.
         if self.front.camera.is_none() { 0.0 } else { depth(height).unwrap_or(0.0) }
     }
 
@@ -260,7 +279,7 @@ impl Outlines {
         Ok(Section { level, height, width, depth: front - back })
     }
 
-    /// Where the gap between the legs ends.
+    /// Height at which the gap between the legs ends.
     fn find_crotch(&self) -> Option<f64> {
         let gap = |height: f64| {
             let middle = self.head_column()?;
@@ -268,12 +287,12 @@ impl Outlines {
             Some(!runs.iter().any(|(start, end)| (*start as f64) < middle && (*end as f64) > middle))
         };
         let heights: Vec<f64> = steps(0.30 * self.stature, 0.60 * self.stature, 300).collect();
-        // The highest gap: below it a shadow may join the legs.
+        // The highest gap counts, since a shadow may join the legs below it.
         let last = heights.iter().rposition(|&height| gap(height) == Some(true))?;
         heights.get(last + 1).copied()
     }
 
-    /// The level of the greatest buttock protrusion.
+    /// Level of the greatest protrusion of the buttocks.
     fn hip_level(&self) -> Option<f64> {
         let heights = steps(self.crotch + 0.01 * self.stature, self.crotch + 0.10 * self.stature, 48);
         let back = |z: f64| Some((z, self.profile(z, [0.0, NEARER * 0.1 * self.stature])?[1]));
@@ -282,8 +301,8 @@ impl Outlines {
         middle_of(lows.iter().filter(|(_, y)| *y < least + 1e-3).map(|(z, _)| *z))
     }
 
-    /// The level of the nipples: half way between where the front stands out most from the chord between ribs and collar
-    /// bones, and where proportions have them.
+    /// Level of the nipples: half way between the height at which the front stands out most from the chord between ribs
+    /// and collar bones, and the expected height by proportion.
     fn chest_level(&self) -> Option<f64> {
         let (low, high) = (0.66 * self.stature, 0.80 * self.stature);
         let front = |z: f64| Some(self.profile(z, [0.0; 2])?[0]);
@@ -296,7 +315,8 @@ impl Outlines {
         Some((foremost + usual_chest(self.stature, self.crotch)) / 2.0)
     }
 
-    /// The narrowest place of the neck: width seen from the front, depth the shortest way through it seen from the side.
+    /// Narrowest section of the neck: its width from the front, and the least distance between its front and back
+    /// outline from the side.
     fn neck(&self) -> Result<Section, BodyError> {
         let heights: Vec<f64> = steps(NECK[0] * self.stature, NECK[1] * self.stature, 40).collect();
         let width = heights.iter().filter_map(|&z| Some((z, self.width(z)?))).min_by(|a, b| a.1.total_cmp(&b.1));
@@ -315,12 +335,13 @@ impl Outlines {
             );
             return Err(refused(view, problem));
         }
-        // A neck is nearly as narrow over some centimetres: its level is steadied by where necks usually have it.
+        // A neck is nearly as narrow over some centimetres. The mean with the usual height makes its level more
+        // certain.
         let height = (height + USUAL_NECK * self.stature) / 2.0;
         Ok(Section { level: Level::Neck, height, width, depth })
     }
 
-    /// Whether both arms are seen apart from the trunk at a height, in the front view.
+    /// True if both arms are seen apart from the trunk at a height in the front view.
     fn arms_apart(&self, height: f64) -> bool {
         let nearer = self.middle_depth(height);
         let (Some(row), Some((start, end))) = (self.row(&self.front, height, nearer), self.trunk_run(height, nearer))
@@ -331,7 +352,8 @@ impl Outlines {
         runs.iter().any(|run| run.1 <= start) && runs.iter().any(|run| run.0 >= end)
     }
 
-    /// Width of a chest whose sides the arms hide: that of the nearest height below at which they are clear.
+    /// Width of a chest whose sides the arms hide: that at the nearest height below at which they are clear. `None`
+    /// where they do not hide it.
     fn hidden_chest_width(&self, chest: f64) -> Option<f64> {
         if self.arms_apart(chest) {
             return None;
@@ -341,7 +363,8 @@ impl Outlines {
         self.width(clear - 2.0 * step)
     }
 
-    /// Refuses arms that touch the trunk at the waist: stretched out they are far from it, hanging they are apart.
+    /// Refuses arms that touch the trunk at the waist. Arms that are stretched out are far from it, hanging ones must
+    /// be apart.
     fn check_arms(&self, waist: f64) -> Result<(), BodyError> {
         let missing = || refused("front", "no waist is found in its outline");
         let width = self.width(waist).ok_or_else(missing)?;
@@ -360,12 +383,12 @@ impl Outlines {
     }
 }
 
-/// Whether front and back of a level bulge beside the median plane.
+/// True for front and back of a level if they bulge beside the median plane.
 fn bulges(level: Level) -> [bool; 2] {
     [level == Level::Chest, level == Level::Hip]
 }
 
-/// Middle between the least and the greatest.
+/// Middle between the least and the greatest value.
 fn middle_of(values: impl Iterator<Item = f64> + Clone) -> Option<f64> {
     let (low, high) = (values.clone().min_by(f64::total_cmp)?, values.max_by(f64::total_cmp)?);
     Some((low + high) / 2.0)

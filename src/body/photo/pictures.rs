@@ -1,7 +1,9 @@
-//! Bodies from a front and a side picture: silhouettes, their camera, widths and depths at the girth levels, girths.
+//! Bodies from a front and a side picture: silhouettes, camera, widths and depths at the girth levels, girths.
 
+use super::camera::Camera;
 use super::facing;
 use super::outline::{Outlines, View};
+use super::refused;
 use super::segment;
 use super::silhouette::Mask;
 use super::trunk;
@@ -9,52 +11,30 @@ use crate::{BodyError, Dimension, Measurements, Sex};
 use image::DynamicImage;
 use std::io::Cursor;
 
-/// Most pixels of a picture, and of the longer side in which it is worked on.
+/// Greatest number of pixels of a picture, and of its longer side at the working size. Judgement.
 const MOST_PIXELS: u64 = 120_000_000;
 const WORKING: u32 = 2400;
 
-/// Least height of a person, pixels of the working size.
+/// Least height of a person at the working size, pixels. Judgement.
 const LEAST_HEIGHT: usize = 250;
 
-/// Most lean of the figure in the front and in the side view, where posture leans it too, degrees.
+/// Greatest lean of the figure in the front and in the side view, degrees. In the side view posture leans it, too.
+/// Judgement.
 const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
 
-/// Gray levels up to the first and from the second are those of a mask.
+/// Greatest dark and least bright gray level of a mask. Judgement.
 const MASK_LEVELS: [u8; 2] = [40, 215];
 
-/// A camera at the level of the ground, looking horizontally at the subject; the picture's middle is on its axis.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Camera {
-    /// Focal length over the height of the picture.
-    pub focal_over_height: f64,
-    /// Distance from the vertical axis of the subject, metres.
-    pub distance_m: f64,
-}
-
-impl Camera {
-    /// A camera of a given focal length in pixels of a picture `height_px` high.
-    #[must_use]
-    pub fn of_focal(focal_px: f64, height_px: u32, distance_m: f64) -> Self {
-        Self { focal_over_height: focal_px / f64::from(height_px.max(1)), distance_m }
-    }
-
-    /// A camera of a given vertical field of view.
-    #[must_use]
-    pub fn of_field(field_deg: f64, distance_m: f64) -> Self {
-        Self { focal_over_height: 0.5 / (field_deg.to_radians() / 2.0).tan(), distance_m }
-    }
-}
-
-/// What two pictures tell of a body: heights, widths and depths of its girth levels, and its girths.
+/// Measurements of a body from two pictures: height, width, depth and girth of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
-    /// Sex, stature and the girths found, ready for [`crate::build`].
+    /// Sex, stature and the girths, ready for [`crate::build`].
     pub measurements: Measurements,
     /// Neck, chest, waist and hip: height, width, depth and girth.
     pub levels: Vec<PicturedLevel>,
     /// Height of the crotch, m.
     pub crotch_level_m: f64,
-    /// What had to be assumed, as sentences for the user.
+    /// Assumptions, as sentences for the user.
     pub notes: Vec<String>,
 }
 
@@ -67,15 +47,12 @@ pub struct PicturedLevel {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
-    /// Four girths in five lie so near to the one read.
+    /// Half width of the interval of the girth that holds four people in five.
     pub within_m: f64,
 }
 
-/// Reads a body from a front and a side picture (PNG or JPEG: photographs against a plain background, or black and
-/// white masks), calibrated by the stature. Without a camera the pictures are taken as seen from far away.
-///
-/// # Errors
-/// [`BodyError::Picture`] says which picture cannot be used, why, and what would be accepted.
+/// Measures a body in a front and a side picture, scaled by the stature. The pictures are PNG or JPEG: photographs
+/// against a plain background, or black and white masks. Without a camera they are treated as orthographic.
 pub fn from_pictures(
     front: &[u8],
     side: &[u8],
@@ -102,14 +79,14 @@ pub fn from_pictures(
         is_chest_hidden,
         is_near: camera.is_some(),
     });
-    let girths = read.map(|of| of.girth_m);
-    let levels = sections.iter().zip(&read).map(|(section, of)| PicturedLevel {
+    let girths = read.map(|level| level.girth_m);
+    let levels = sections.iter().zip(&read).map(|(section, level)| PicturedLevel {
         name: section.level.name(),
         level_m: section.height,
-        width_m: of.width_m,
-        depth_m: of.depth_m,
-        girth_m: of.girth_m,
-        within_m: of.within_m,
+        width_m: level.width_m,
+        depth_m: level.depth_m,
+        girth_m: level.girth_m,
+        within_m: level.within_m,
     });
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
@@ -119,10 +96,6 @@ pub fn from_pictures(
         .with(Dimension::HipGirth, hip)
         .with(Dimension::NeckGirth, neck);
     Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, notes })
-}
-
-pub(super) fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {
-    BodyError::Picture { view, problem: problem.into() }
 }
 
 fn unreadable(view: &'static str, error: &dyn std::fmt::Display) -> BodyError {
@@ -146,7 +119,7 @@ pub fn picture_height(front: &[u8]) -> Result<u32, BodyError> {
     size("front", front).map(|(_, height)| height)
 }
 
-/// The person in a picture: read from a mask, segmented from a photograph.
+/// Mask of the person in a picture, which is read from a mask or segmented from a photograph.
 fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     let (width, height) = size(view, bytes)?;
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
@@ -165,7 +138,7 @@ fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     Ok(found.cleaned())
 }
 
-/// A black and white picture as a mask; the colour of its border is the background's.
+/// Mask of a black and white picture. The colour of its border is that of the background. `None` for a photograph.
 fn mask(picture: &DynamicImage) -> Option<Mask> {
     let gray = picture.to_luma8();
     let (width, height) = (gray.width() as usize, gray.height() as usize);
@@ -188,7 +161,7 @@ fn is_colourless(picture: &DynamicImage) -> bool {
     rgb.pixels().step_by(97).all(|p| p.0.iter().max().zip(p.0.iter().min()).is_none_or(|(a, b)| a - b < 24))
 }
 
-/// Refuses what is no single standing person, wholly in the picture.
+/// Refuses all but one standing person who is wholly in the picture.
 fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
     let pieces = mask.pieces();
     let Some(person) = pieces.first().filter(|piece| piece.len() * 400 > mask.bits.len()) else {
@@ -223,15 +196,15 @@ fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
     Ok(())
 }
 
-/// Angle of the long axis of a figure from the vertical, clockwise positive, degrees.
+/// Angle of the figure's long axis from the vertical, clockwise positive, degrees.
 fn lean_deg(mask: &Mask, person: &[usize]) -> f64 {
     let place = |i: &usize| [(i % mask.width) as f64, (i / mask.width) as f64];
     let count = person.len().max(1) as f64;
-    let sum = |of: &dyn Fn([f64; 2]) -> f64| person.iter().map(|i| of(place(i))).sum::<f64>() / count;
-    let (x, y) = (sum(&|p| p[0]), sum(&|p| p[1]));
-    let (xx, yy) = (sum(&|p| (p[0] - x).powi(2)), sum(&|p| (p[1] - y).powi(2)));
-    let xy = sum(&|p| (p[0] - x) * (p[1] - y));
-    // Principal axis of the second moments; rows run downwards.
+    let mean = |value: &dyn Fn([f64; 2]) -> f64| person.iter().map(|i| value(place(i))).sum::<f64>() / count;
+    let (x, y) = (mean(&|p| p[0]), mean(&|p| p[1]));
+    let (xx, yy) = (mean(&|p| (p[0] - x).powi(2)), mean(&|p| (p[1] - y).powi(2)));
+    let xy = mean(&|p| (p[0] - x) * (p[1] - y));
+    // Principal axis of the second moments. Rows run downwards.
     -((2.0 * xy).atan2(yy - xx) / 2.0).to_degrees()
 }
 

@@ -3,7 +3,7 @@ use crate::Dimension;
 use crate::testing::{Taken, in_mm, placed, png, silhouette};
 use geom::V3;
 
-/// The reference bodies beside the project, where they are.
+/// Folder of the reference bodies beside the project, if it is there.
 fn reference() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())
@@ -101,7 +101,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
     }
 }
 
-/// The girths of the levels, mm, and whether it is said that the side picture was turned.
+/// Girths of the levels, mm, and true if a note says that the side picture was turned.
 fn read_girths(front: &[u8], side: &[u8], sex: Sex, stature_m: f64) -> ([f64; 4], bool) {
     let found = from_pictures(front, side, None, sex, stature_m).expect("a person");
     assert!(!found.notes.iter().any(|note| note.contains("do not tell")), "{:?}", found.notes);
@@ -198,7 +198,7 @@ fn tilted_and_mistaken_views_are_refused() {
 fn a_camera_that_looks_down_or_stands_elsewhere_is_doubted() {
     let body = crate::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
     let (focal, distance, size) = (1900.0, 3.0, [1200, 1800]);
-    // The camera of the silhouettes is 0.9 m high: what it turns by, the body turns about it the other way.
+    // The camera of the silhouettes is 0.9 m high. The body is turned about it in place of the camera, the other way.
     let notes = |pitch_deg: f64, higher: f64, said_distance: f64| {
         let seen = |side: bool| {
             let eye = if side { V3::new(distance, 0.0, 0.9) } else { V3::new(0.0, distance, 0.9) };

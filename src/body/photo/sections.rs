@@ -1,9 +1,9 @@
-//! What pictures show of a trunk: its outlines, its girth levels, and the ellipse that a section is compared with.
+//! Trunk as pictures show it: its outlines, its girth levels, and the ellipse that a section is compared with.
 
 use geom::{V2, hull};
 
-/// Heights over stature at which the trunk's outlines are read: the lowest, the way from one to the next, and at how many of them
-/// the width and the front and back are.
+/// Heights over stature at which the outlines of the trunk are read: the lowest, their spacing, the number of widths,
+/// and the number of fronts and backs. Judgement.
 pub(super) const LOWEST: f64 = 0.48;
 pub(super) const STEP: f64 = 0.02;
 pub(super) const WIDTHS: usize = 12;
@@ -29,7 +29,7 @@ impl Level {
     }
 }
 
-/// A section read from both views, metres.
+/// A horizontal section measured in both views, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
     pub level: Level,
@@ -41,13 +41,13 @@ pub(super) struct Section {
 /// Outlines of the trunk in two pictures, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
-    /// From side to side.
+    /// Widths from side to side.
     pub widths: [Option<f64>; WIDTHS],
-    /// Front and back, from the subject's axis.
+    /// Positions of front and back from the subject's axis.
     pub sides: [Option<[f64; 2]>; SIDES],
 }
 
-/// Length of the ellipse with the diameters `width` and `depth`.
+/// Perimeter of the ellipse with the diameters `width` and `depth`.
 pub fn ellipse(width: f64, depth: f64) -> f64 {
     const SIDES: u32 = 720;
     let point = |i: u32| {

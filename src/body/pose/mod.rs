@@ -1,9 +1,9 @@
-//! Another pose of a body: arms raised or lowered and legs spread in the frontal plane, arms reaching forward and legs in a step in the
-//! sagittal one, all about their joints.
+//! Other poses of a body: arms raised or lowered and legs spread in the frontal plane, arms swung forward and legs in a
+//! step in the sagittal plane, all about their joints.
 //!
-//! Every vertex turns about the joint by its own share of the limb's angle. For one joint that is dual quaternion skinning
-//! [Kavan 2008]: no point comes nearer to the axis, so that nothing collapses as under linear blending. The shares rise
-//! smoothly from the trunk into the limb, and are nought at the girth levels of the trunk.
+//! Every vertex turns about the joint by its own share of the limb's angle. For one joint that is dual quaternion
+//! skinning [Kavan 2008]. No point comes nearer to the axis, so the skin does not collapse as under linear blending.
+//! The shares rise smoothly from the trunk into the limb, and are zero at the girth levels of the trunk.
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,17 +12,18 @@ use crate::{Body, BodyError, Joint, Landmarks};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3, hull};
 
-/// Angles of the limbs, degrees; `None` leaves them as they are. Written `arms_45`, `legs_10`, `arms_15+forward_40`, `step_15`.
+/// Angles of the limbs, degrees. `None` leaves a limb as it is. Written `arms_45`, `legs_10`, `arms_15+forward_40`,
+/// `step_15`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
-    /// Of both arms from the vertical in the frontal plane, shoulder to elbow.
+    /// Angle of both arms from the vertical in the frontal plane, shoulder to elbow.
     pub arm_deg: Option<f64>,
-    /// Of both legs likewise, hip to knee.
+    /// Angle of both legs from the vertical in the frontal plane, hip to knee.
     pub leg_deg: Option<f64>,
-    /// By how much both arms, once they are at `arm_deg`, swing forward.
+    /// Angle by which both arms swing forward from `arm_deg`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forward_deg: Option<f64>,
-    /// By how much the right leg swings forward and the left one back.
+    /// Angle by which the right leg swings forward and the left one back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step_deg: Option<f64>,
 }
@@ -63,7 +64,7 @@ impl FromStr for Pose {
 }
 
 impl Pose {
-    /// The pose after a movement into another: what that does not name stays.
+    /// Pose after a movement to `to`. Limbs that it does not name stay as they are.
     #[must_use]
     pub fn then(self, to: Self) -> Self {
         Self {
@@ -75,50 +76,50 @@ impl Pose {
     }
 }
 
-/// Axes of the planes in which limbs turn.
+/// Coordinate axes of the planes in which limbs turn.
 const FRONTAL: [usize; 2] = [0, 2];
 const SAGITTAL: [usize; 2] = [1, 2];
 
-/// Accepted angles of arms and legs, degrees.
+/// Accepted angles of arms and legs, degrees. Judgement.
 const ARM_DEG: [f64; 2] = [5.0, 90.0];
 const LEG_DEG: [f64; 2] = [0.0, 30.0];
 const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
 const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
-/// How far the arm's turn reaches from the armscye into the shoulder and into the arm, over stature.
+/// Distances over which the arm's rotation fades from the armscye into the shoulder and into the arm, over stature.
+/// Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
-/// Where the leg's turn begins below the hip level, is complete below the crotch, and how far from the crotch's lowest point
-/// the skin keeps between the legs, over stature.
+/// The leg's rotation: where it begins below the hip level, where it is complete below the crotch, and the distance
+/// from the lowest point of the crotch over which it fades between the legs, over stature. Judgement.
 const LEG_BEGINS: f64 = 0.006;
 const LEG_COMPLETE: f64 = 0.10;
 const BETWEEN_LEGS: f64 = 0.075;
 
-/// How far beyond the armscye skin must lie to be the arm's own: nearer skin may be the trunk's below the armpit, metres.
+/// Least distance beyond the armscye of skin that belongs to the arm, metres. Nearer skin may be the trunk's below the
+/// armpit. Judgement.
 const APART: f64 = 0.008;
 
-/// Over how much more of the distance the arm's skin below the armpit comes to move as the arm does, metres.
+/// Distance over which, beyond that, the arm's skin below the armpit begins to move with the arm, metres. Judgement.
 const PARTING: f64 = 0.03;
 
-/// Room between the trunk's girth levels and the skin that moves, metres.
+/// Clearance between the trunk's girth levels and the skin that moves, metres. Judgement.
 const KEPT: f64 = 0.004;
 
-/// A body in another pose: fine mesh, control mesh, joints and feature points moved alike, its feet on the floor.
-///
-/// # Errors
-/// [`BodyError::Pose`] for angles beyond what the limbs reach, or at which they would run into the trunk or each other.
+/// Puts a body into another pose. Fine mesh, control mesh, joints and landmarks are moved alike, and the feet are set
+/// on the floor.
 pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     let mut posed = body.clone();
     for side in [1.0, -1.0] {
         if let Some(asked) = pose.arm_deg {
             let turn = turn("arms", asked, ARM_DEG, arm_angle(body, side))?;
             let arm = Arm::new(body, side);
-            apply(body, &mut posed, arm.joint, (FRONTAL, -side * turn), |mesh| arm.shares(mesh));
+            apply(body, &mut posed, arm.joint, Turn { plane: FRONTAL, angle: -side * turn }, |mesh| arm.shares(mesh));
         }
         if let Some(asked) = pose.leg_deg {
             let turn = turn("legs", asked, LEG_DEG, leg_angle(body, side))?;
             let leg = Leg::new(body, side);
-            apply(body, &mut posed, leg.joint, (FRONTAL, -side * turn), |mesh| leg.shares(mesh));
+            apply(body, &mut posed, leg.joint, Turn { plane: FRONTAL, angle: -side * turn }, |mesh| leg.shares(mesh));
         }
     }
     posed.skeleton = posed.control.skeleton();
@@ -127,12 +128,14 @@ pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
         if let Some(asked) = pose.forward_deg {
             let turn = turn("forward", asked, FORWARD_DEG, 0.0)?;
             let arm = Arm::new(&upright, side);
-            apply(&upright, &mut posed, arm.joint, (SAGITTAL, -turn), |mesh| arm.shares(mesh));
+            apply(&upright, &mut posed, arm.joint, Turn { plane: SAGITTAL, angle: -turn }, |mesh| arm.shares(mesh));
         }
         if let Some(asked) = pose.step_deg {
             let turn = turn("step", asked, STEP_DEG, 0.0)?;
             let leg = Leg::new(&upright, side);
-            apply(&upright, &mut posed, leg.joint, (SAGITTAL, -side * turn), |mesh| leg.shares(mesh));
+            apply(&upright, &mut posed, leg.joint, Turn { plane: SAGITTAL, angle: -side * turn }, |mesh| {
+                leg.shares(mesh)
+            });
         }
     }
     check(&posed)?;
@@ -141,11 +144,8 @@ pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     Ok(posed)
 }
 
-/// A body on its way from one pose to another, whose limbs turn by at most `step_deg` at a time: as it stands at first, and then turn by turn.
-/// What `to` does not name stays as in `from`; what neither names, as it is.
-///
-/// # Errors
-/// As [`pose`], anywhere on the way.
+/// Sequence of poses of a body on its way from one pose to another, from the first on, with limbs that turn by at most
+/// `step_deg` at a time. Limbs that `to` does not name stay as in `from`, those that neither names as they are.
 pub fn way(body: &Body, from: Pose, to: Pose, step_deg: f64) -> Result<Vec<Body>, BodyError> {
     let mean = |angle: fn(&Body, f64) -> f64| f64::midpoint(angle(body, 1.0), angle(body, -1.0)).to_degrees();
     let limbs = |pose: &Pose| [pose.arm_deg, pose.leg_deg, pose.forward_deg, pose.step_deg];
@@ -158,16 +158,16 @@ pub fn way(body: &Body, from: Pose, to: Pose, step_deg: f64) -> Result<Vec<Body>
         .collect();
     let greatest = turns.iter().flatten().map(|[from, to]| (to - from).abs()).fold(0.0, f64::max);
     let steps = (greatest / step_deg).ceil().max(1.0) as u32;
-    let at = |step: u32| {
+    let pose_at = |step: u32| {
         let share = f64::from(step) / f64::from(steps);
         let angle = |limb: usize| turns[limb].map(|[from, to]| from + (to - from) * share);
         Pose { arm_deg: angle(0), leg_deg: angle(1), forward_deg: angle(2), step_deg: angle(3) }
     };
     let first = pose(body, from);
-    std::iter::once(first).chain((1..=steps).map(|step| pose(body, at(step)))).collect()
+    std::iter::once(first).chain((1..=steps).map(|step| pose(body, pose_at(step)))).collect()
 }
 
-/// From the angle a limb has to the one asked for, radians.
+/// Difference between the requested angle of a limb and its present one, radians.
 fn turn(limb: &'static str, asked: f64, [least, greatest]: [f64; 2], has: f64) -> Result<f64, BodyError> {
     if (least..=greatest).contains(&asked) {
         return Ok(asked.to_radians() - has);
@@ -197,16 +197,16 @@ fn leg_angle(body: &Body, side: f64) -> f64 {
     angle(hip, knee, side)
 }
 
-/// Five-fold smooth step from 0 to 1.
+/// Quintic smooth step from 0 to 1, with zero first and second derivatives at both ends.
 fn smooth(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)
 }
 
-/// One arm: what of the body it moves, and how much.
+/// An arm, with the region of the skin that it moves.
 struct Arm {
     joint: V3,
-    /// The armscye: shoulder joint and unit normal outwards.
+    /// Unit normal of the armscye, outwards. Its plane passes through the joint.
     outward: V3,
     hand: V3,
     reach: [f64; 2],
@@ -232,12 +232,12 @@ impl Arm {
         }
     }
 
-    /// Distance beyond the armscye, metres.
+    /// Signed distance beyond the armscye, metres.
     fn beyond(&self, p: &V3) -> f64 {
         (p - self.joint).dot(&self.outward)
     }
 
-    /// The share of the turn of every vertex.
+    /// Share of the rotation of every vertex.
     fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
         let own = self.own(mesh);
         let [inside, outside] = self.reach;
@@ -251,7 +251,7 @@ impl Arm {
         mesh.positions.iter().zip(own).map(share).collect()
     }
 
-    /// The vertices beyond the armscye that are joined to the hand.
+    /// True for the vertices beyond the armscye that are connected to the hand there.
     fn own(&self, mesh: &TriMesh) -> Vec<bool> {
         let mut around = vec![Vec::new(); mesh.positions.len()];
         for [a, b] in mesh.edges() {
@@ -278,7 +278,7 @@ impl Arm {
 struct Leg {
     side: f64,
     joint: V3,
-    /// Heights between which the turn is complete, and begins.
+    /// Heights at which the rotation is complete, and at which it begins.
     heights: [f64; 2],
     crotch: f64,
     between: f64,
@@ -298,15 +298,15 @@ impl Leg {
         }
     }
 
-    /// The share of the turn of every vertex.
+    /// Share of the rotation of every vertex.
     fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
         mesh.positions.iter().map(|p| self.share(p)).collect()
     }
 
-    /// The share of the turn at a place of the skin.
+    /// Share of the rotation at a point of the skin.
     fn share(&self, p: &V3) -> f64 {
         let [low, high] = self.heights;
-        // Hands hang beside the thighs: they are farther out than any thigh.
+        // Hands that hang beside the thighs would move, too. They are farther out than any thigh.
         let out = self.side * p.x;
         if out <= 0.0 || p.z >= high {
             return 0.0;
@@ -320,12 +320,19 @@ fn crown(body: &Body) -> f64 {
     body.mesh.bounds().map_or(0.0, |(_, high)| high.z)
 }
 
-/// Turns what belongs to a limb about its joint, in a plane of two axes by an angle that takes the second to the first.
+/// A rotation in the plane of two coordinate axes, by an angle (radians) that takes the second towards the first.
+#[derive(Clone, Copy)]
+struct Turn {
+    plane: [usize; 2],
+    angle: f64,
+}
+
+/// Rotates the skin, control vertices and landmarks of a limb about its joint.
 fn apply(
     from: &Body,
     posed: &mut Body,
     joint: V3,
-    ([across, up], angle): ([usize; 2], f64),
+    Turn { plane: [across, up], angle }: Turn,
     shares: impl Fn(&TriMesh) -> Vec<f64>,
 ) {
     let shares = shares(&from.mesh);
@@ -354,7 +361,7 @@ fn apply(
     }
 }
 
-/// Gives the flesh back that the turn added or took: the skin that turns in part moves along its normal.
+/// Restores the volume that the rotation has added or removed, by moving the skin that turns in part along its normals.
 fn keep_volume(mesh: &mut TriMesh, volume: f64, shares: &[f64]) {
     let bent: Vec<f64> = shares.iter().map(|share| 4.0 * share * (1.0 - share)).collect();
     let areas = mesh.triangle_normals();
@@ -370,14 +377,14 @@ fn keep_volume(mesh: &mut TriMesh, volume: f64, shares: &[f64]) {
     }
 }
 
-/// All feature points.
+/// All landmarks.
 fn points(landmarks: &mut Landmarks) -> Vec<&mut V3> {
     let Landmarks { side_neck, shoulder, back_neck, front_neck, armpit, bust, crotch } = landmarks;
     let pairs = side_neck.iter_mut().chain(shoulder).chain(armpit).chain(bust);
     pairs.chain([back_neck, front_neck, crotch]).collect()
 }
 
-/// Refuses limbs that run into the trunk or each other, by horizontal sections.
+/// Refuses limbs that touch the trunk or each other, by horizontal sections.
 fn check(body: &Body) -> Result<(), BodyError> {
     let levels = &body.levels;
     let refuse = |what: &str| Err(BodyError::Pose { problem: format!("{what} would touch; accepted: limbs apart") });
@@ -408,7 +415,7 @@ fn check(body: &Body) -> Result<(), BodyError> {
     Ok(())
 }
 
-/// Sets a posed body on the floor.
+/// Lowers or raises a posed body onto the floor.
 fn stand(body: &mut Body) {
     let Some((low, _)) = body.mesh.bounds() else { return };
     let down = low.z;

@@ -9,7 +9,7 @@ fn bodies() -> Vec<Body> {
     all.iter().map(|known| build(known).expect("an ordinary body")).collect()
 }
 
-/// Triangles that face against the mean of the surface around them.
+/// Triangles whose normals oppose the mean normal of the surface around them.
 fn flipped(mesh: &TriMesh) -> usize {
     let normals = mesh.vertex_normals();
     let against =
@@ -55,7 +55,7 @@ fn limbs_turn_without_collapse_creases_or_a_changed_trunk() {
                 assert!((found - asked_deg).abs() < 5.0, "{asked:?}: {found:.1} for {asked_deg} forward");
             }
             for (angle, asked) in [(arm_angle(&posed, 1.0), asked.arm_deg), (leg_angle(&posed, -1.0), asked.leg_deg)] {
-                // What has swung forward is nearer to the horizontal.
+                // An arm that has swung forward is nearer to the horizontal.
                 if let Some(asked) = asked.filter(|_| is_frontal) {
                     assert!((angle.to_degrees() - asked).abs() < 4.0, "{:.1} for {asked}", angle.to_degrees());
                 }

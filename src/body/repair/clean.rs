@@ -1,28 +1,28 @@
-//! What of a scan is the body: stray pieces and the floor are left out.
+//! Removal of stray pieces and of the floor from a scan.
 
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// A piece of less than this share of the body's area is noise.
+/// Share of the body's area below which a piece is noise. Judgement.
 const LEAST_SHARE: f64 = 0.05;
 
-/// A second piece of more than this share of the body's area is another body.
+/// Share of the body's area above which a second piece is another body. Judgement.
 const SECOND_BODY: f64 = 0.5;
 
-/// A piece whose least spread is below this share of its greatest is flat: floor or wall.
+/// Ratio of the least to the greatest standard deviation below which a piece is flat: floor or wall. Judgement.
 const FLAT: f64 = 0.02;
 
-/// Greatest sine of the tilt of a floor triangle, and the thickness of a floor over stature.
+/// Greatest sine of the tilt of a floor triangle, and thickness of a floor over stature. Judgement.
 const FLOOR_TILT: f64 = 0.2;
 const FLOOR_THICKNESS: f64 = 0.008;
 
-/// Area over squared stature of flat ground that no two soles have.
+/// Least area of a floor over squared stature. The area of two soles is less.
 const FLOOR_AREA: f64 = 0.025;
 
-/// The body's pieces of a mesh, and what was left out, as sentences.
+/// Keeps the body's pieces of a mesh, and notes what was left out.
 ///
-/// The body is the piece of the greatest area that is not flat; other pieces stay when they are large and not flat (a
-/// head that a gap parts from its trunk).
+/// The body is the piece with the greatest area that is not flat. Other pieces stay if they are large and not flat,
+/// such as a head that a gap separates from its trunk.
 pub(crate) fn keep_body(mesh: &TriMesh, notes: &mut Vec<String>) -> TriMesh {
     let pieces = pieces(mesh);
     if pieces.len() == 1 {
@@ -40,7 +40,7 @@ pub(crate) fn keep_body(mesh: &TriMesh, notes: &mut Vec<String>) -> TriMesh {
     used_part(mesh, &triangles)
 }
 
-/// Whether a mesh has a second piece of nearly the size of the body, which is no floor.
+/// True if a mesh has a second piece of nearly the size of the body that is not flat.
 pub(crate) fn several(mesh: &TriMesh) -> bool {
     let mut areas: Vec<f64> =
         pieces(mesh).iter().filter(|piece| !is_flat(mesh, piece)).map(|piece| area(mesh, piece)).collect();
@@ -48,7 +48,7 @@ pub(crate) fn several(mesh: &TriMesh) -> bool {
     areas.get(1).is_some_and(|second| *second > SECOND_BODY * areas[0])
 }
 
-/// Removes the ground that an upright body stands on where it is joined to the feet.
+/// Removes the floor under an upright body where it is joined to the feet. `None` if there is none.
 pub(crate) fn drop_floor(mesh: &TriMesh, notes: &mut Vec<String>) -> Option<TriMesh> {
     let (low, high) = mesh.bounds()?;
     let stature = high.z - low.z;
@@ -67,7 +67,7 @@ pub(crate) fn drop_floor(mesh: &TriMesh, notes: &mut Vec<String>) -> Option<TriM
     Some(keep_body(&used_part(mesh, &rest), notes))
 }
 
-/// Triangles of a mesh by connected piece, in the order of their first vertex.
+/// Triangles of a mesh by connected piece, in the order of their first vertices.
 fn pieces(mesh: &TriMesh) -> Vec<Vec<[usize; 3]>> {
     let mut parent: Vec<usize> = (0..mesh.positions.len()).collect();
     for &[a, b, c] in &mesh.triangles {
@@ -89,7 +89,7 @@ fn pieces(mesh: &TriMesh) -> Vec<Vec<[usize; 3]>> {
     pieces
 }
 
-/// Representative of a vertex's piece; halves the path to it.
+/// Root of a vertex in the disjoint-set forest, with path halving.
 fn root(parent: &mut [usize], mut vertex: usize) -> usize {
     while parent[vertex] != vertex {
         parent[vertex] = parent[parent[vertex]];
@@ -111,7 +111,7 @@ fn is_flat(mesh: &TriMesh, triangles: &[[usize; 3]]) -> bool {
     spread.is_none_or(|spread| spread[2] < FLAT * spread[0])
 }
 
-/// Variances (greatest first) along the principal axes of a surface, and the axes; weighted by area.
+/// Principal axes of a surface and the variances along them, the greatest first, weighted by area.
 pub(crate) fn principal_axes(mesh: &TriMesh, triangles: &[[usize; 3]]) -> Option<([f64; 3], [V3; 3])> {
     let weighted: Vec<(f64, V3)> = triangles
         .iter()
@@ -134,7 +134,7 @@ pub(crate) fn principal_axes(mesh: &TriMesh, triangles: &[[usize; 3]]) -> Option
     Some((order.map(|i| eigen.eigenvalues[i].max(0.0)), order.map(axis)))
 }
 
-/// The mesh of some triangles, with only the vertices that they use.
+/// Mesh of some triangles, with only the vertices that they use.
 pub(crate) fn used_part(mesh: &TriMesh, triangles: &[[usize; 3]]) -> TriMesh {
     let mut number = vec![usize::MAX; mesh.positions.len()];
     let mut part = TriMesh::default();

@@ -1,25 +1,28 @@
-//! Whether a scan has its feet. Scanners lose them, and pipelines cut them off; what is left stands on its ankles as if on the floor.
+//! Detection of missing feet in a scan. Scanners lose them, and pipelines cut them off. The rest then stands on its
+//! ankles as if on the floor.
 //!
-//! A foot stretches forwards, farther than any part of the leg above it is deep. It is looked for at the lower end of each leg, before
-//! holes are closed.
+//! A foot is longer than any part of the leg above it is deep. It is sought at the lower end of each leg, before holes
+//! are closed.
 
 use geom::{TriMesh, V2, V3, hull};
 
-/// What a leg's end is looked at: so much of it, over the height of the mesh. An instep is no higher.
+/// Height of the end of a leg that is examined, over the height of the mesh. An instep is no higher.
 const END: f64 = 0.06;
 
-/// Least length of a foot over stature. That of people is 0.15, with a standard deviation of 0.005 [Gordon 2014], that of model bodies
-/// from 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
+/// Least length of a foot over stature. That of people is 0.15, with a standard deviation of 0.005 [Gordon 2014], that
+/// of model bodies at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
 const FOOT: f64 = 0.130;
 
-/// The same where the leg is closed: a shoe or a raised heel shortens what stands on the floor, and no hole says that something is lost.
+/// The same where the leg is closed. A shoe or a raised heel shortens what stands on the floor, and no hole suggests
+/// that something is lost. Judgement.
 const CLOSED_FOOT: f64 = 0.115;
 
-/// A hole is the end of a leg where it is as low as the leg, within this over the height, and not smaller than this share of its end.
+/// A hole is the end of a leg if it is as low as the leg, within this over the height, and at least as long as this
+/// share of its end. Judgement.
 const AS_LOW: f64 = 0.005;
 const WHOLE_END: f64 = 0.5;
 
-/// Which feet a body has.
+/// The feet that a body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Feet {
     pub right: bool,
@@ -27,10 +30,10 @@ pub(crate) struct Feet {
 }
 
 impl Feet {
-    /// Those of a whole body.
+    /// Feet of a whole body.
     pub const BOTH: Self = Self { right: true, left: true };
 
-    /// Those that an upright mesh stands on. `rims` are the rims of its holes.
+    /// Detects the feet of an upright mesh. `rims` are the rims of its holes.
     pub fn of(mesh: &TriMesh, rims: &[Vec<usize>]) -> Self {
         let Some((low, high)) = mesh.bounds() else { return Self::BOTH };
         let middle = (low.x + high.x) / 2.0;
@@ -38,12 +41,12 @@ impl Feet {
         Self { right: has(1.0), left: has(-1.0) }
     }
 
-    /// Whether the floor is known: one foot stands on it.
+    /// True if the floor is known, since at least one foot stands on it.
     pub fn stand(self) -> bool {
         self.right || self.left
     }
 
-    /// What is said of feet that are missing.
+    /// Note for the user on missing feet.
     pub fn note(self) -> Option<String> {
         let note = match (self.right, self.left) {
             (true, true) => return None,
@@ -60,7 +63,7 @@ impl Feet {
     }
 }
 
-/// Whether the leg of one side ends in a foot.
+/// True if the leg of one side ends in a foot.
 fn has_foot(mesh: &TriMesh, rims: &[Vec<usize>], height: f64, is_of: impl Fn(&V3) -> bool) -> bool {
     let side = || mesh.positions.iter().filter(|p| is_of(p));
     let low = side().map(|p| p.z).fold(f64::INFINITY, f64::min);

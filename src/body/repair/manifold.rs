@@ -1,9 +1,10 @@
-//! Making one orientable surface of what a scanner joined wrongly: turned, doubled and branching triangles, touching vertices.
+//! Orientable manifold from what a scanner joined wrongly: inverted, duplicate and branching triangles, touching
+//! vertices.
 
 use geom::TriMesh;
 
-/// Turns, drops and separates until every edge has at most two triangles, which run along it in opposite directions, and the
-/// triangles round every vertex form one fan; how many were dropped.
+/// Makes a mesh a manifold: every edge has at most two triangles, which traverse it in opposite directions, and the
+/// triangles round every vertex form one fan. Returns the number of triangles that were dropped.
 pub(super) fn make_manifold(mesh: &mut TriMesh) -> usize {
     let before = mesh.triangles.len();
     drop_doubles(mesh);
@@ -42,7 +43,7 @@ fn drop_doubles(mesh: &mut TriMesh) {
     keep(mesh, &kept);
 }
 
-/// Drops the triangles at edges where more than two meet; the holes they leave are closed like any others.
+/// Drops the triangles at edges where more than two meet. The holes are closed as others are.
 fn drop_branches(mesh: &mut TriMesh) {
     let mut kept = vec![true; mesh.triangles.len()];
     for group in edges(mesh).chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 2) {
@@ -51,7 +52,7 @@ fn drop_branches(mesh: &mut TriMesh) {
     keep(mesh, &kept);
 }
 
-/// Turns the triangles of each piece alike, the way most of them were.
+/// Orients the triangles of each piece alike, as most of them are.
 fn orient(mesh: &mut TriMesh) {
     let mut joined: Vec<Vec<(usize, bool)>> = vec![Vec::new(); mesh.triangles.len()];
     let runs = |triangle: usize, [a, b]: [usize; 2]| {
@@ -87,7 +88,7 @@ fn orient(mesh: &mut TriMesh) {
     }
 }
 
-/// Drops triangles that still run along an edge as another does: those of one-sided pieces.
+/// Drops triangles that still traverse an edge in the same direction as another. They belong to one-sided pieces.
 fn drop_twisted(mesh: &mut TriMesh) {
     let sides = |(i, &[a, b, c]): (usize, &[usize; 3])| [([a, b], i), ([b, c], i), ([c, a], i)];
     let mut directed: Vec<([usize; 2], usize)> = mesh.triangles.iter().enumerate().flat_map(sides).collect();

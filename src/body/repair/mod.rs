@@ -1,4 +1,4 @@
-//! Repairing a scan: noise is smoothed away and holes are closed, so that a tape can be laid round it.
+//! Repair of a scan: noise is smoothed and holes are closed, so that it can be measured.
 
 pub mod clean;
 pub mod feet;
@@ -9,30 +9,29 @@ use feet::Feet;
 use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of Taubin's low-pass filter, inwards and outwards, and how often [Taubin 1995].
+/// Steps of Taubin's low-pass filter, inwards and outwards, and the number of passes [Taubin 1995]. Judgement.
 const SMOOTHING: [f64; 2] = [0.5, -0.53];
 const PASSES: usize = 12;
 
-/// Roughness over the mean length of an edge above which a mesh is smoothed; facets alone are less rough.
+/// Roughness over the mean length of an edge above which a mesh is smoothed. That of the facets alone is less.
 const ROUGH: f64 = 0.022;
 
-/// A hole longer than this stays open (a half body, a missing limb), metres.
+/// Length of a hole's rim from which on it stays open, metres: half a body or a missing limb.
 const LONGEST_HOLE: f64 = 0.9;
 
-/// Rims below this height are those of soles, which are flat: their patches hang at most this far below the rim, metres.
+/// Height below which a rim is that of a sole, and greatest depth of its patch below the rim, metres. Soles are flat.
+/// Judgement.
 const SOLE_HEIGHT: f64 = 0.03;
 const SOLE_DEPTH: f64 = 0.007;
 
-/// How often what is still open after closing the holes is closed again.
+/// Greatest number of times that holes are sought and closed again. Judgement.
 const MENDED: usize = 3;
 
-/// Vertices of a patch that are still faired together; larger patches stay flat.
+/// Greatest number of vertices of a patch that is faired. Larger patches stay flat, since the solve is dense.
 const LARGEST_PATCH: usize = 900;
 
-/// Makes one surface of a mesh, smooths it where it is rough and closes its holes; says what was done, and returns the feet that it has.
-///
-/// # Errors
-/// [`BodyError::Open`] for a hole too long to be closed.
+/// Makes a mesh an orientable manifold, smooths it where it is rough and closes its holes. Adds notes for the user, and
+/// returns the feet that it has.
 pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet, BodyError> {
     let dropped = manifold::make_manifold(mesh);
     if dropped > 0 {
@@ -50,7 +49,7 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet
         if mesh.is_closed_manifold() {
             break;
         }
-        // A rim that touches itself leaves pieces of a hole, and patches that share an edge.
+        // A rim that touches itself leaves parts of a hole, and patches that share an edge.
         manifold::make_manifold(mesh);
         *mesh = clean::keep_body(mesh, &mut Vec::new());
         holes += close_holes(mesh);
@@ -86,7 +85,7 @@ fn neighbours(mesh: &TriMesh) -> Vec<Vec<usize>> {
     around
 }
 
-/// From a vertex to the mean of its neighbours.
+/// Vector from a vertex's value to the mean of its neighbours' (umbrella operator).
 fn to_mean(values: &[V3], around: &[usize], vertex: usize) -> V3 {
     if around.is_empty() {
         return V3::zeros();
@@ -94,7 +93,8 @@ fn to_mean(values: &[V3], around: &[usize], vertex: usize) -> V3 {
     around.iter().map(|&i| values[i]).sum::<V3>() / around.len() as f64 - values[vertex]
 }
 
-/// Median over the vertices of how far each stands off the bend of its surroundings, metres: the noise of a scan.
+/// Roughness of a mesh, metres, which measures the noise of a scan: the median over the vertices of the normal
+/// component of the second umbrella, halved.
 fn roughness(mesh: &TriMesh) -> f64 {
     let around = neighbours(mesh);
     let normals = mesh.vertex_normals();
@@ -107,7 +107,7 @@ fn roughness(mesh: &TriMesh) -> f64 {
     off.get(off.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Low-pass filter of the vertex positions that keeps the volume; the rims of holes stay.
+/// Taubin's low-pass filter of the vertex positions, which keeps the volume. The rims of holes stay.
 fn smooth(mesh: &mut TriMesh) {
     let around = neighbours(mesh);
     let mut free = vec![true; mesh.positions.len()];
@@ -123,7 +123,7 @@ fn smooth(mesh: &mut TriMesh) {
     }
 }
 
-/// Directed edges that no triangle on the other side answers, sorted.
+/// Directed edges without an opposite one, sorted.
 fn rim_edges(mesh: &TriMesh) -> Vec<[usize; 2]> {
     let mut edges: Vec<[usize; 2]> = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     edges.sort_unstable();
@@ -131,7 +131,7 @@ fn rim_edges(mesh: &TriMesh) -> Vec<[usize; 2]> {
     edges.iter().filter(|edge| open(edge)).copied().collect()
 }
 
-/// Closed rims of holes, in the order in which their patch runs round.
+/// Closed rims of holes, in the direction in which their patch is oriented.
 fn rims(mesh: &TriMesh) -> Vec<Vec<usize>> {
     let edges = rim_edges(mesh);
     let mut used = vec![false; edges.len()];
@@ -158,7 +158,7 @@ fn rims(mesh: &TriMesh) -> Vec<Vec<usize>> {
     rims
 }
 
-/// Closes every hole with a patch that continues the bend of its surroundings; how many.
+/// Closes every hole with a patch that continues the curvature around it. Returns their number.
 fn close_holes(mesh: &mut TriMesh) -> usize {
     let holes: Vec<(Vec<usize>, f64)> = rims(mesh)
         .into_iter()
@@ -184,7 +184,7 @@ fn close_holes(mesh: &mut TriMesh) -> usize {
     holes.len()
 }
 
-/// Fills a rim with rings that shrink towards its middle; the new vertices.
+/// Fills a rim with rings that shrink towards its middle. Returns the new vertices.
 fn patch(mesh: &mut TriMesh, rim: &[usize], length: f64) -> std::ops::Range<usize> {
     let first = mesh.positions.len();
     let sides = rim.len();
@@ -209,8 +209,7 @@ fn patch(mesh: &mut TriMesh, rim: &[usize], length: f64) -> std::ops::Range<usiz
     first..tip + 1
 }
 
-/// Places the vertices of a patch as a thin plate clamped at its rim: the mean bend of every vertex is that
-/// of its neighbours.
+/// Places the vertices of a patch as a thin plate clamped at its rim: the umbrella of the umbrella is zero at each.
 fn fair(mesh: &mut TriMesh, around: &[Vec<usize>], fresh: std::ops::Range<usize>) {
     let count = fresh.len();
     let mut matrix = DMatrix::<f64>::zeros(count, count);

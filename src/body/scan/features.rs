@@ -1,6 +1,6 @@
-//! A dressable body from a scan: features found on the skin alone, the control mesh cut through the scan's own sections.
+//! Body from a scan: landmarks found on the skin alone, and the control mesh cut through the scan's own sections.
 //!
-//! Left and right are found each for itself: the left side is that of the mirrored mesh.
+//! Left and right are found separately: the left side is the right one of the mirrored mesh.
 
 use crate::measure::arm::Arm;
 use crate::measure::sites::{self, Sites};
@@ -13,11 +13,7 @@ use crate::{Body, BodyError, Landmarks, Sex};
 use geom::section::Plane;
 use geom::{TriMesh, V3};
 
-/// Everything of a measured, closed scan in the world frame that a [`Body`] holds.
-///
-/// # Errors
-/// [`BodyError::MissingPart`] names the part that was not found: a body to be dressed needs arms apart from the trunk and legs
-/// apart from each other.
+/// Describes a measured, closed scan in the world frame as a [`Body`].
 pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let (sites, _) = sites::find_sites(&mesh, Some(sex), Feet::BOTH)?;
     let mut girths = sites::girths_at(&mesh, &sites)?;
@@ -35,7 +31,7 @@ pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
 }
 
-/// The features of one side, on the right of its mesh.
+/// Landmarks of one side, on the right of its mesh.
 struct Half {
     shoulder: V3,
     side_neck: V3,
@@ -63,7 +59,8 @@ fn mirror(p: V3) -> V3 {
     V3::new(-p.x, p.y, p.z)
 }
 
-/// Gives a control mesh the left limbs of that of the mirrored body (which are its right ones, mirrored back).
+/// Replaces the left limbs of a control mesh by those of `of_left`, whose right limbs were cut from the mirrored body
+/// and mirrored back.
 fn take_left(control: &mut ControlMesh, of_left: &ControlMesh) {
     use Layer::*;
     let layers = [
@@ -102,11 +99,11 @@ fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half)
     })
 }
 
-/// The planes of the control mesh, those of the limbs for the right side.
+/// Planes that cut the rings of the control mesh, those of the limbs for the right side.
 fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &Half) -> Cuts {
     let (atlas, h) = (Atlas::of(sex), sites.crown - sites.floor);
     let (shoulder, armpit, arm) = (half.shoulder, half.armpit, &half.arm);
-    // The armscye: through the shoulder point, passing outside the armpit.
+    // The armscye passes through the shoulder point and just outside the armpit.
     let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
     let armscye = Plane {
         origin: V3::new(

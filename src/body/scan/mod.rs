@@ -10,27 +10,24 @@ use crate::repair::feet::Feet;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
 use geom::{TriMesh, V3};
 
-/// A trunk farther before or behind the origin than this is moved over it, metres.
+/// Distance of the trunk from the origin to front or back beyond which it is moved over it, metres. Judgement.
 const OFF_AXIS: f64 = 0.04;
 
-/// A body scan in the world frame, with what the tape reads on it.
+/// A body scan in the world frame, with its girths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    /// The scan: upright, facing `y`, without strays and floor; smoothed where it was rough, its holes closed.
+    /// The scan: upright, facing `y`, without stray pieces and floor, smoothed where it was rough, its holes closed.
     pub imported: Imported,
-    /// Sex, given or told from neck, hip and waist girth.
+    /// Sex, given or estimated from neck, hip and waist girth.
     pub sex: Sex,
-    /// What the tape reads on it.
+    /// Girths that the tape reads on it.
     pub girths: Girths,
     /// The feet that it has.
     feet: Feet,
 }
 
-/// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation; the unit is given or told from the height, the
-/// sex places the waist.
-///
-/// # Errors
-/// Those of [`import`], and [`BodyError::MissingPart`] where a part of the body is not found.
+/// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation. The unit is given or inferred from the
+/// height. The sex places the waist.
 pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
     let mut imported = import(bytes, unit)?;
     let feet = repair::repair(&mut imported.mesh, &mut imported.notes)?;
@@ -52,7 +49,7 @@ pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Re
     Ok(Scan { imported, sex: told, girths, feet })
 }
 
-/// Turns a body without feet to the front, by its trunk; what is said of it.
+/// Turns a body without feet to the front, by its trunk. Returns a note for the user.
 fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
     let (low, high) = mesh.bounds()?;
     let floor = sites::usual_floor(mesh, [low, high])?;
@@ -61,7 +58,7 @@ fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
         let (front, back) = tape::depth_range(&outline);
         Some((front + back) / 2.0)
     };
-    let sexes = [Sex::Male, Sex::Female].into_iter().filter(|of| sex.is_none_or(|sex| sex == *of));
+    let sexes = [Sex::Male, Sex::Female].into_iter().filter(|candidate| sex.is_none_or(|sex| sex == *candidate));
     match sexes.map(|sex| facing::by_middles(middle, sex)).sum::<i32>().signum() {
         1 => None,
         -1 => {
@@ -73,27 +70,17 @@ fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
 }
 
 impl Scan {
-    /// Everything that is measured on it.
-    ///
-    /// # Errors
-    /// [`BodyError::MissingPart`] where a part of the body is not found.
+    /// Girths, lengths, tailor's measurements and their uncertainties.
     pub fn measured(&self) -> Result<Measured, BodyError> {
         lengths::of_scan(&self.imported.mesh, self.sex, self.feet, self.girths.clone())
     }
 
-    /// Refuses a scan without a foot, which cannot stand for somebody: its stature is not known, or not its shape.
-    ///
-    /// # Errors
-    /// [`BodyError::Feet`].
+    /// Refuses a scan without both feet, which cannot represent a subject: its stature or its shape is not known.
     pub fn check_feet(&self) -> Result<(), BodyError> {
         if self.feet == Feet::BOTH { Ok(()) } else { Err(BodyError::Feet) }
     }
 
-    /// The body that wears garments: the cleaned scan as fine mesh, with its features, control mesh and joints.
-    ///
-    /// # Errors
-    /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close,
-    /// [`BodyError::Feet`] without feet.
+    /// Body to be dressed: the repaired scan as fine mesh, with landmarks, control mesh and joints.
     pub fn into_body(self) -> Result<Body, BodyError> {
         self.check_feet()?;
         if !self.imported.mesh.is_closed_manifold() {

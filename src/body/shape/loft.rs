@@ -1,24 +1,24 @@
-//! Lofted body parts: star-shaped cross-sections on parallel planes along an axis, and the distance-like field of the
-//! surface through them.
+//! Lofted body parts: star-shaped cross-sections on parallel planes along an axis, and a field that approximates the
+//! signed distance from the surface through them.
 
 use super::interpolate::Monotone;
 use geom::{V2, V3, hull, smooth_step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::LazyLock;
 
-/// Cosine coefficients of a section's shape, harmonics 0 to 8.
+/// Cosine coefficients of a section's radius, harmonics 0 to 8.
 pub(super) type Shape = [f64; 9];
 
-/// Directions in which a section is tabulated.
+/// Number of directions in which a section is tabulated. Judgement.
 pub(super) const DIRECTIONS: usize = 96;
 
-/// Steepest outline slope along the axis that the field still divides by.
+/// Greatest slope of the outline along the axis that the field is divided by. Judgement.
 const MAX_SLOPE: f64 = 4.0;
 
-/// Greatest relative change of the radius with the angle that the field still divides by.
+/// Greatest relative change of the radius with the angle that the field is divided by. Judgement.
 const MAX_TURN: f64 = 2.0;
 
-/// A tabulated direction: its cosine and sine, and the cosines of the harmonics of the angle from the front.
+/// A tabulated direction, with the cosines of the harmonics of its angle from the front.
 struct Direction {
     along: V2,
     harmonics: Shape,
@@ -36,7 +36,7 @@ static COMPASS: LazyLock<Vec<Direction>> = LazyLock::new(|| {
 /// One cross-section: an ellipse whose radius is multiplied by `1 + sum shape[k] cos(k phi)`, `phi` from the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Station {
-    /// Place along the axis, metres.
+    /// Position along the axis, metres.
     pub at: f64,
     /// Centre in the section plane, metres.
     pub centre: V2,
@@ -44,7 +44,7 @@ pub(crate) struct Station {
     pub half_width: f64,
     /// Half of the extent along the second axis, metres.
     pub half_depth: f64,
-    /// Departure from the ellipse.
+    /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
 }
 
@@ -58,7 +58,7 @@ impl Station {
             let departure: f64 = self.shape.iter().zip(&direction.harmonics).map(|(c, cosine)| c * cosine).sum();
             ellipse * (1.0 + departure)
         };
-        // The shape is its own mirror image: directions from the front round the left to the back, the others from them.
+        // The shape is symmetric. Half of the directions, from the front over the left to the back, give the others.
         let [front, back] = [DIRECTIONS / 4, 3 * DIRECTIONS / 4];
         let half: Vec<f64> = COMPASS[front..=back].iter().map(radius).collect();
         let mirrored = |i: usize| (DIRECTIONS + DIRECTIONS / 2 - i) % DIRECTIONS;
@@ -72,7 +72,7 @@ impl Station {
         hull::tape_girth(&COMPASS.iter().zip(self.radii()).map(point).collect::<Vec<_>>())
     }
 
-    /// The same shape enlarged about its centre to a tape girth in metres.
+    /// Scales the section about its centre to a tape girth, metres.
     pub fn with_girth(mut self, girth: f64) -> Self {
         let factor = girth / self.girth();
         self.half_width *= factor;
@@ -81,10 +81,10 @@ impl Station {
     }
 }
 
-/// Value of a part's field with the direction in which it grows.
+/// Value and gradient direction of a field.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
-    /// About the distance from the surface, metres; negative inside.
+    /// Approximate signed distance from the surface, metres; negative inside.
     pub distance: f64,
     /// Unit outward direction.
     pub outward: V3,
@@ -96,32 +96,32 @@ pub(crate) struct Part {
     pub origin: V3,
     pub axes: [V3; 3],
     pub stations: Vec<Station>,
-    /// Places along the axis between which the part takes over from its neighbours (none of it at the first, all at the second):
-    /// its end inside them is no skin.
+    /// Positions along the axis between which the part blends in from its neighbours: it counts 0 at the first and 1 at
+    /// the second. The part's end before the first lies inside them and is not skin.
     pub root: Option<[f64; 2]>,
 }
 
 impl Part {
-    /// How far a place is the part's own, more than 0 to 1.
+    /// Weight of the part at a position along the axis, more than 0, at most 1.
     pub fn own(&self, at: f64) -> f64 {
         self.root.map_or(1.0, |[none, all]| smooth_step(((at - none) / (all - none)).max(1e-3)))
     }
 
-    /// Sections at the given places along the axis, tabulated.
+    /// Tabulates the sections at positions along the axis.
     fn rings(&self, places: impl Iterator<Item = f64>) -> Vec<Ring> {
         let curves = Curves::new(&self.stations);
         places.map(|place| Ring::new(&curves.at(place))).collect()
     }
 
-    /// The part tabulated where `rings` of the same part of another figure are: at the same share of the way
-    /// between its sections.
+    /// Tabulates the part at the positions that correspond to `rings` of the same part of another figure, with the same
+    /// share of the distance between its sections.
     pub fn like(&self, other: &Self, rings: &[Ring]) -> Vec<Ring> {
         let places = |part: &Self| part.stations.iter().map(|station| station.at).collect::<Vec<_>>();
         let course = Monotone::new(&places(other), &places(self));
         self.rings(rings.iter().map(|ring| course.at(ring.at)))
     }
 
-    /// The point at `local` coordinates of the section at the place `along`.
+    /// Point at `local` coordinates of the section at the position `along`.
     pub fn lift(&self, local: V2, along: f64) -> V3 {
         let [u, v, w] = self.axes;
         self.origin + u * local.x + v * local.y + w * along
@@ -131,7 +131,7 @@ impl Part {
 /// One tabulated section.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
-    /// Place along the axis, metres.
+    /// Position along the axis, metres.
     pub at: f64,
     pub centre: V2,
     /// Radius in each of the tabulated directions.
@@ -143,7 +143,7 @@ impl Ring {
         Self { at: section.at, centre: section.centre, radii: section.radii() }
     }
 
-    /// Radius at a place between the tabulated directions: `column` in units of their spacing.
+    /// Radius at a direction `column`, in units of the tabulated directions' spacing, by linear interpolation.
     pub fn radius(&self, column: f64) -> f64 {
         let left = column as usize % DIRECTIONS;
         let across = column - column.floor();
@@ -151,11 +151,32 @@ impl Ring {
     }
 }
 
-/// Slope of the outline along the axis (the drift of the centre included) and its relative change with the angle,
-/// in each direction.
+/// Slope of the outline along the axis, with the drift of the centre included, and its relative derivative by the
+/// angle, in each direction.
 type Slopes = Vec<[f64; 2]>;
 
-/// The field of a body part, tabulated.
+/// Coordinates of a point in a part.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// Position along the axis in units of the tabulated sections' spacing, clamped to the part.
+    pub ring: f64,
+    /// Distance along the axis beyond the part's ends, metres.
+    pub past: f64,
+    /// Coordinates in the section.
+    pub local: V2,
+}
+
+/// Field in a section, without the part's ends.
+struct Radial {
+    /// Distance beyond the outline along the ray from the centre, metres.
+    distance: f64,
+    /// Gradient within the section plane.
+    gradient: V2,
+    /// Slope of the outline along the axis.
+    slope: f64,
+}
+
+/// Tabulated field of a body part.
 #[derive(Clone, Debug)]
 pub(crate) struct Loft {
     part: Part,
@@ -167,7 +188,7 @@ pub(crate) struct Loft {
 }
 
 impl Loft {
-    /// The field of a part, tabulated about every `step` metres.
+    /// Tabulates the field of a part about every `step` metres.
     pub fn new(part: Part, step: f64) -> Self {
         let stations = &part.stations;
         let (start, end) = (stations[0].at, stations[stations.len() - 1].at);
@@ -180,7 +201,7 @@ impl Loft {
         Self { part, start, step, rings, slopes, greatest_radius }
     }
 
-    /// How far a point is the part's own, by its place along the axis: more than 0 to 1.
+    /// Weight of the part at a point, more than 0, at most 1.
     pub fn own(&self, point: V3) -> f64 {
         self.part.own(self.along(point))
     }
@@ -190,34 +211,33 @@ impl Loft {
         &self.rings
     }
 
-    /// Coordinates of a point in the part: place in units of the sections tabulated, within them; how far beyond them it lies along the
-    /// axis; and its coordinates in the section.
-    pub fn locate(&self, point: V3) -> (f64, f64, V2) {
+    /// Coordinates of a point in the part.
+    pub fn locate(&self, point: V3) -> Place {
         let offset = point - self.part.origin;
         let [u, v, along] = self.part.axes;
         let place = (offset.dot(&along) - self.start) / self.step;
         let within = place.clamp(0.0, (self.rings.len() - 1) as f64);
-        (within, (place - within) * self.step, V2::new(offset.dot(&u), offset.dot(&v)))
+        Place { ring: within, past: (place - within) * self.step, local: V2::new(offset.dot(&u), offset.dot(&v)) }
     }
 
-    /// Place of a point along the axis, metres.
+    /// Position of a point along the axis, metres.
     pub fn along(&self, point: V3) -> f64 {
         (point - self.part.origin).dot(&self.part.axes[2])
     }
 
-    /// Field at a point of space.
+    /// Field at a point.
     ///
-    /// Far from the part, where only the order of magnitude matters, the distance of a bounding cylinder stands in.
+    /// Beyond the distance `near`, where only the order of magnitude matters, it is that of a bounding cylinder.
     pub fn sample(&self, point: V3, near: f64) -> Sample {
         let [u, v, along] = self.part.axes;
-        let (place, past, local) = self.locate(point);
+        let Place { ring: place, past, local } = self.locate(point);
         let beyond = past.abs();
         let clearance = beyond.max(local.norm() - self.greatest_radius);
         if clearance > near {
             let offset = point - self.part.origin;
             return Sample { distance: clearance, outward: offset.try_normalize(1e-12).unwrap_or(along) };
         }
-        let (radial, normal, slope) = self.radial(local, place);
+        let Radial { distance: radial, gradient: normal, slope } = self.radial(local, place);
         let side = u * normal.x + v * normal.y;
         if beyond <= 0.0 {
             let gradient = side - along * slope;
@@ -233,9 +253,8 @@ impl Loft {
         Sample { distance, outward: (side * radial + end * beyond) / distance }
     }
 
-    /// Distance beyond the outline along the ray from the centre, its gradient within the section plane, and the outline's
-    /// slope along the axis.
-    fn radial(&self, local: V2, place: f64) -> (f64, V2, f64) {
+    /// Field in a section, without the part's ends.
+    fn radial(&self, local: V2, place: f64) -> Radial {
         let row = (place as usize).min(self.rings.len() - 2);
         let share = place - row as f64;
         let (low, high) = (&self.rings[row], &self.rings[row + 1]);
@@ -247,22 +266,22 @@ impl Loft {
         let right = (left + 1) % DIRECTIONS;
         let radius = low.radius(column) + (high.radius(column) - low.radius(column)) * share;
         let [slope, turn] = std::array::from_fn(|i| {
-            let at = |slopes: &Slopes| slopes[left][i] + (slopes[right][i] - slopes[left][i]) * across;
-            let (low, high) = (at(&self.slopes[row]), at(&self.slopes[row + 1]));
+            let interpolated = |slopes: &Slopes| slopes[left][i] + (slopes[right][i] - slopes[left][i]) * across;
+            let (low, high) = (interpolated(&self.slopes[row]), interpolated(&self.slopes[row + 1]));
             low + (high - low) * share
         });
         let sideways = V2::new(-direction.y, direction.x);
         let gradient = direction - sideways * turn.clamp(-MAX_TURN, MAX_TURN);
-        (distance - radius, gradient, slope.clamp(-MAX_SLOPE, MAX_SLOPE))
+        Radial { distance: distance - radius, gradient, slope: slope.clamp(-MAX_SLOPE, MAX_SLOPE) }
     }
 }
 
-/// Direction of a vector of the section plane in units of the spacing of the tabulated directions.
+/// Direction of a vector in the section plane, in units of the tabulated directions' spacing.
 pub(crate) fn column(vector: V2) -> f64 {
     vector.y.atan2(vector.x).rem_euclid(TAU) / TAU * DIRECTIONS as f64
 }
 
-/// Slopes of a section from its neighbours (first and last of `around`).
+/// Slopes of a section by differences of its neighbours, the first and the last of `around`.
 fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
     let (before, after) = (&around[0], &around[around.len() - 1]);
     let length = (after.at - before.at).max(1e-12);
@@ -276,7 +295,7 @@ fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
     (0..DIRECTIONS).map(slope).collect()
 }
 
-/// Every number of a station as a smooth function of the place along the axis.
+/// All numbers of a station, interpolated along the axis.
 struct Curves {
     numbers: [Monotone; 13],
 }
@@ -310,9 +329,9 @@ impl Curves {
     }
 }
 
-/// Stations that close a part with a dome of the given `length` beyond `end`, in the direction of `sign`.
+/// Stations that close a part with an elliptic dome of a `length` beyond `end`, in the direction of `sign`.
 ///
-/// They stand in order of increasing distance from `end`; the last has (almost) no extent.
+/// They are in order of increasing distance from `end`. The last has almost no extent.
 pub(super) fn dome(end: &Station, length: f64, sign: f64) -> Vec<Station> {
     let ring = |share: &f64| {
         let factor = (1.0 - share * share).sqrt().max(0.01);

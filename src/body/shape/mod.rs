@@ -1,4 +1,4 @@
-//! The shape of a person: sections, limbs and trunk lofted through them, and the skin over all.
+//! Shape of a person: cross-sections, limbs and trunk lofted through them, and the skin over all.
 
 pub mod atlas;
 pub mod field;

@@ -1,25 +1,25 @@
-//! From the implicit skin to a near-uniform, closed triangle mesh.
+//! Near-uniform, closed triangle mesh of the implicit skin.
 
 use super::field::Parts;
 use geom::contour::{Grid, QuadMesh, contour};
 use geom::{TriMesh, V3};
 
-/// Passes of tangential smoothing.
+/// Passes of tangential smoothing. Judgement.
 const PASSES: usize = 8;
 
-/// Passes of the fairing of joints and of the whole skin, and its step: stable up to 0.5 where four edges meet,
-/// to less elsewhere.
+/// Passes of the fairing of the joints and of the whole skin, and its step. The step is stable up to 0.5 at vertices of
+/// four edges, and up to less elsewhere.
 const JOINT_PASSES: usize = 170;
 const BASE_PASSES: usize = 9;
 const FAIRING_STEP: f64 = 0.25;
 
-/// Step at which vertices spread evenly within the skin while it is faired.
+/// Step of the tangential smoothing during the fairing. Judgement.
 const SPREADING_STEP: f64 = 0.3;
 
-/// Share of the fairing that the whole skin gets.
+/// Weight of the fairing of the whole skin. Judgement.
 const BASE_FAIRING: f64 = 0.4;
 
-/// A quadrilateral skin with its vertex neighbours.
+/// A quadrilateral mesh of the skin, with the neighbours of its vertices.
 #[derive(Clone, Debug)]
 pub(crate) struct Skin {
     mesh: QuadMesh,
@@ -27,7 +27,7 @@ pub(crate) struct Skin {
 }
 
 impl Skin {
-    /// Polygonises the skin of `parts` on a grid that is its own mirror image in x (and so is the mesh), and evens it out.
+    /// Polygonises the skin of `parts` and makes its mesh uniform. The grid is symmetric in x, and so is the mesh.
     pub fn new(parts: &Parts, grid: &Grid) -> Self {
         let mut skin = Self::polygonise(parts, grid);
         for _ in 0..PASSES {
@@ -59,7 +59,8 @@ impl Skin {
         Self { mesh, neighbours }
     }
 
-    /// One pass: every vertex moves to the mean of its neighbours and back onto the skin.
+    /// One pass of tangential smoothing: every vertex moves to the mean of its neighbours and is projected back onto
+    /// the skin.
     fn even_out(&mut self, parts: &Parts) {
         let targets: Vec<V3> = (0..self.neighbours.len())
             .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
@@ -67,8 +68,8 @@ impl Skin {
         self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
     }
 
-    /// Fairs the skin as a thin plate: a little everywhere, against facets, and much at the joints between trunk and limbs,
-    /// so that no crease is left there.
+    /// Fairs the skin as a thin plate: a little everywhere, against facets, and strongly at the joints between trunk
+    /// and limbs, so that no crease is left there.
     fn fair(&mut self, parts: &Parts) {
         let everywhere = vec![BASE_FAIRING; self.mesh.positions.len()];
         self.fair_weighted(&everywhere, BASE_PASSES);
@@ -76,7 +77,7 @@ impl Skin {
         self.fair_weighted(&joints, JOINT_PASSES);
     }
 
-    /// Thin-plate fairing of the vertices of positive weight, which also spread evenly within the skin.
+    /// Thin-plate fairing of the vertices of positive weight, with tangential smoothing.
     fn fair_weighted(&mut self, weights: &[f64], passes: usize) {
         let moving: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
         let mut around = moving.clone();
@@ -100,18 +101,18 @@ impl Skin {
         }
     }
 
-    /// From a vertex's value to the mean of its neighbours'.
-    fn to_mean(&self, of: &[V3], i: usize) -> V3 {
+    /// Vector from a vertex's value to the mean of its neighbours' (umbrella operator).
+    fn to_mean(&self, values: &[V3], i: usize) -> V3 {
         let around = &self.neighbours[i];
-        around.iter().map(|&j| of[j]).sum::<V3>() / around.len() as f64 - of[i]
+        around.iter().map(|&j| values[j]).sum::<V3>() / around.len() as f64 - values[i]
     }
 
     /// Unit normals of the vertices.
     fn normals(&self) -> Vec<V3> {
         let mut normals = vec![V3::zeros(); self.mesh.positions.len()];
         for &[a, b, c, d] in &self.mesh.quads {
-            let at = |i: usize| self.mesh.positions[i];
-            let normal = (at(c) - at(a)).cross(&(at(d) - at(b)));
+            let position = |i: usize| self.mesh.positions[i];
+            let normal = (position(c) - position(a)).cross(&(position(d) - position(b)));
             for vertex in [a, b, c, d] {
                 normals[vertex] += normal;
             }
@@ -119,7 +120,7 @@ impl Skin {
         normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
     }
 
-    /// The skin as triangles, every quadrilateral split along its shorter diagonal.
+    /// Triangulates the skin, with every quadrilateral split along its shorter diagonal.
     pub fn triangles(self) -> TriMesh {
         let positions = self.mesh.positions;
         let triangles = self.mesh.quads.iter().flat_map(|quad| split(quad, &positions)).collect();

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::levels::{Level, Pressing};
-use fit::worn::{Hang, Sides};
+use fit::on_body::{Hang, Sides};
 use store::sql;
 
 fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {

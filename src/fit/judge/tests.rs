@@ -2,8 +2,8 @@ use super::super::resample::Draw;
 use super::super::{Errors, rule_score, wins};
 use super::*;
 
-/// Pairs of `subjects` subjects whose EI differs by `effect` on average, `spread` over subjects, half of
-/// that over measurements.
+/// Pairs of `subjects` subjects whose EI differs by `effect` on average. The standard deviation is `spread` over
+/// subjects and half of that over measurements.
 fn study(draw: &mut Draw, garments: usize, subjects: usize, effect: f64, spread: f64) -> (Vec<Cell>, Vec<Pair>) {
     let names: Vec<String> = (0..garments).map(|g| format!("g{g}")).collect();
     let mut pairs = Vec::new();
@@ -53,7 +53,7 @@ fn without_a_difference_hardly_any_study_finds_one() {
     }
 }
 
-/// docs/evidence.md states these.
+/// docs/evidence.md states these rates.
 #[test]
 fn a_difference_of_two_hundredths_is_found() {
     let found = share(200, 1, 12, 0.02, 0.01, &[Finding::Hybrid]);
@@ -62,7 +62,7 @@ fn a_difference_of_two_hundredths_is_found() {
     assert!(equal > 0.6, "{equal}");
 }
 
-fn one(errors: &[(f64, f64)], subjects: usize, class: FitClass) -> Answer {
+fn answer_for(errors: &[(f64, f64)], subjects: usize, class: FitClass) -> Answer {
     let pair = |subject: usize| Pair {
         garment: "tee".into(),
         size: "S".into(),
@@ -84,7 +84,7 @@ fn one(errors: &[(f64, f64)], subjects: usize, class: FitClass) -> Answer {
 #[test]
 fn the_evidence_speaks_or_says_why_not() {
     let check = |errors: &[(f64, f64)], n: usize, class: FitClass, finding: Finding, use_: Simulator, says: &str| {
-        let answer = one(errors, n, class);
+        let answer = answer_for(errors, n, class);
         let all = format!("{} {}", answer.reason, answer.would_settle);
         assert!((answer.finding, answer.recommended()) == (finding, use_) && all.contains(says), "{answer:#?}");
         assert_eq!(answer.basis() == Basis::Evidence, finding.simulator().is_some());
@@ -131,7 +131,7 @@ fn several_tests_share_one_level() {
         assert!(answer.would_settle.starts_with("1 subject more"), "{}", answer.would_settle);
     }
     assert_eq!(evidence.garments.len(), 3);
-    assert_eq!(evidence.garments[0].1.told_apart[0].what, "free edges");
+    assert_eq!(evidence.garments[0].analysis.told_apart[0].what, "free edges");
     let all: Vec<&Pair> = pairs.iter().collect();
     assert_eq!(wins(&all, |_| true), [0, 18]);
     assert_eq!((rule_score(&pairs).right, rule_score(&pairs).of), (0, 18));

@@ -122,9 +122,9 @@ pub fn crossover_chart(
             Align::Left,
             false,
         )?;
-        if let Some((_, from, to)) = crossover.and_then(|found| found.ease) {
-            let left = across.at(from * 1e3);
-            canvas.bar((left, top), (across.at(to * 1e3).max(left + 3), bottom), theme::BAND)?;
+        if let Some(ease) = crossover.and_then(|found| found.ease) {
+            let left = across.at(ease.low_m * 1e3);
+            canvas.bar((left, top), (across.at(ease.high_m * 1e3).max(left + 3), bottom), theme::BAND)?;
         }
         across.grid(canvas, top, bottom)?;
         let (ticks, decimals) = up.ticks();

@@ -4,7 +4,7 @@ use super::super::text::number;
 use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, Canvas, TYPE, draw};
-use fit::worn::{Angle, DIRECTIONS, Section};
+use fit::on_body::{Angle, DIRECTIONS, Section};
 use geom::V2;
 use geom::units::mm;
 use render::Rgb;

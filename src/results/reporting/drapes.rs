@@ -4,7 +4,7 @@ use crate::draped_fit::GarmentWorn;
 use crate::picture::{self, Map};
 use crate::reporting::quoted;
 use engine::stages::Model;
-use fit::worn::sites;
+use fit::on_body::sites;
 use geom::V3;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;

@@ -287,7 +287,7 @@ impl Bending {
     fn gather(&self, x: &[V3], mut each: impl FnMut(usize, usize, V3)) -> f64 {
         let mut energy = 0.0;
         for (i, here) in x.iter().enumerate() {
-            for (j, entry) in self.pairs.upper().of(i, &self.entries) {
+            for (j, entry) in self.pairs.upper().couplings(i, &self.entries) {
                 let apart = x[j] - here;
                 energy -= 0.5 * entry * apart.norm_squared();
                 each(i, j, apart * *entry);

@@ -16,8 +16,9 @@ use crate::sewing::Springs;
 use crate::walls::Walls;
 use geom::V3;
 use geom::units::GRAVITY;
+use linalg::PairList;
 use linalg::linear::LinearSolver;
-use linalg::operator::{ArcStiffness, Operator, PairList};
+use linalg::operator::{ArcStiffness, Operator};
 use linalg::quad::Block;
 
 geom::constants! {

@@ -1,11 +1,12 @@
-//! Regions of a body, and what presses on them.
+//! Pressure of cloth by region of the body.
 
 use body::{Body, Dimension, Joint};
 use geom::{TriMesh, V3};
 
-/// Pressure from which on cloth counts as pressing, kPa: several times what a heavy cloth weighs on what it lies on.
+/// Least pressure that counts, kPa: several times the weight of a heavy cloth on what it lies on.
 const PRESSING_KPA: f64 = 0.02;
-/// Share of the pressed cloth that presses more than what is called the most: single vertices do not count.
+/// Share of the pressing cloth with more than the greatest pressure that is stated, so that single vertices do not
+/// count.
 const SHARE: f64 = 0.01;
 
 /// A region of the body.
@@ -24,7 +25,7 @@ pub enum Region {
 }
 
 impl Region {
-    /// All, from the neck down, arms last.
+    /// All regions, from the neck down, arms last.
     pub const ALL: [Self; 9] = [
         Self::Neck,
         Self::Shoulders,
@@ -53,14 +54,15 @@ impl Region {
         }
     }
 
-    /// The region of a point on the skin or before it: that of the nearest bone, each counted by the girth of its limb, and on the
-    /// trunk by height: above the armpits, and half-way between the levels.
+    /// Region of a point on or in front of the skin: that of the nearest bone, with distances in units of the limb's
+    /// radius. On trunk and legs it follows from the height, between neck points, armpits, half-way heights between the
+    /// levels, crotch and knee.
     #[must_use]
     pub fn of(body: &Body, point: V3) -> Self {
-        let at = |joint: Joint| body.skeleton.at(joint);
+        let position = |joint: Joint| body.skeleton.at(joint);
         let bone = |from: Joint, to: Joint, girth: Dimension| {
             let radius_m = body.girths.get(girth).unwrap_or(1.0) / std::f64::consts::TAU;
-            off_segment(point, at(from), at(to)) / radius_m
+            off_segment(point, position(from), position(to)) / radius_m
         };
         let arms = [
             (bone(Joint::ShoulderRight, Joint::ElbowRight, Dimension::UpperArmGirth), Self::UpperArms),
@@ -80,7 +82,7 @@ impl Region {
         }
     }
 
-    /// The region of trunk and legs at a height above the floor.
+    /// Region of trunk and legs at a height above the floor.
     fn of_height(body: &Body, z: f64) -> Self {
         let levels = &body.levels;
         let armpit_m = 0.5 * (body.landmarks.armpit[0].z + body.landmarks.armpit[1].z);
@@ -105,49 +107,55 @@ fn off_segment(point: V3, from: V3, to: V3) -> f64 {
     (point - from - way * share).norm()
 }
 
-/// What presses on a region.
+/// Pressure on a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Part of the body that is pressed.
+    /// Region that is pressed.
     pub region: Region,
     /// Area of the cloth that presses, m2.
     pub area_m2: f64,
     /// Mean pressure over that area, kPa.
     pub mean_kpa: f64,
-    /// Pressure that one part in a hundred of it exceeds, kPa.
+    /// Pressure that a hundredth of that area exceeds, kPa.
     pub most_kpa: f64,
 }
 
-/// Pressure (kPa, at the vertices of the cloth) by region; regions on which nothing presses are left out.
+/// Pressure by region, from the pressure at the vertices of the cloth, kPa. Regions without pressure are left out.
 #[must_use]
 pub fn pressed(body: &Body, cloth: &TriMesh, pressure_kpa: &[f64]) -> Vec<Pressed> {
-    let mut patches: Vec<Vec<(f64, f64)>> = vec![Vec::new(); Region::ALL.len()];
+    let mut patches: Vec<Vec<Patch>> = vec![Vec::new(); Region::ALL.len()];
     for triangle in &cloth.triangles {
         let [a, b, c] = triangle.map(|v| cloth.positions[v]);
         let kpa = triangle.iter().map(|v| pressure_kpa[*v]).sum::<f64>() / 3.0;
         if kpa >= PRESSING_KPA {
             let region = Region::of(body, (a + b + c) / 3.0);
-            patches[region as usize].push((kpa, 0.5 * (b - a).cross(&(c - a)).norm()));
+            patches[region as usize].push(Patch { kpa, area_m2: 0.5 * (b - a).cross(&(c - a)).norm() });
         }
     }
-    let of = |(region, patches): (Region, Vec<(f64, f64)>)| summed(region, patches);
-    Region::ALL.into_iter().zip(patches).filter_map(of).collect()
+    Region::ALL.into_iter().zip(patches).filter_map(|(region, patches)| summed(region, patches)).collect()
 }
 
-/// The pressure of patches (kPa, m2) of a region.
-fn summed(region: Region, mut patches: Vec<(f64, f64)>) -> Option<Pressed> {
-    let area_m2: f64 = patches.iter().map(|(_, area)| area).sum();
+/// A triangle of pressing cloth.
+#[derive(Clone, Copy)]
+struct Patch {
+    kpa: f64,
+    area_m2: f64,
+}
+
+/// Pressure on a region from the triangles that press on it.
+fn summed(region: Region, mut patches: Vec<Patch>) -> Option<Pressed> {
+    let area_m2: f64 = patches.iter().map(|patch| patch.area_m2).sum();
     if area_m2 == 0.0 {
         return None;
     }
-    patches.sort_by(|a, b| b.0.total_cmp(&a.0));
+    patches.sort_by(|a, b| b.kpa.total_cmp(&a.kpa));
     let mut beyond = 0.0;
-    let most = patches.iter().find(|(_, area)| {
-        beyond += area;
+    let most = patches.iter().find(|patch| {
+        beyond += patch.area_m2;
         beyond >= SHARE * area_m2
     });
-    let mean_kpa = patches.iter().map(|(kpa, area)| kpa * area).sum::<f64>() / area_m2;
-    Some(Pressed { region, area_m2, mean_kpa, most_kpa: most.map_or(0.0, |(kpa, _)| *kpa) })
+    let mean_kpa = patches.iter().map(|patch| patch.kpa * patch.area_m2).sum::<f64>() / area_m2;
+    Some(Pressed { region, area_m2, mean_kpa, most_kpa: most.map_or(0.0, |patch| patch.kpa) })
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
-//! Blocks of six by six in vector registers: what a solve with the factor between patches runs through.
+//! 6x6 blocks in vector registers, for the substitutions with a Cholesky factor.
 
 use wide::f32x4;
 
-use super::cholesky::{Dense, Row};
-use super::simd::{Simd, each};
+use super::{Dense, Row};
+use crate::simd::{Simd, each};
 
-/// A block: of each column the first four, two columns side by side; then the last two of each, four columns side by side.
+/// A 6x6 block. `heads` has rows 0-3 of each column, two columns side by side. `tails` has rows 4 and 5 of each, four
+/// columns side by side; the last half is zero.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 pub struct Packed {
@@ -14,7 +15,7 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// A block, rounded.
+    /// Packs a block, rounded to single precision.
     pub fn new(block: &Dense) -> Self {
         let entry = |c: usize, r: usize| block[c][r] as f32;
         let head = |c: usize| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)]);
@@ -23,14 +24,14 @@ impl Packed {
     }
 }
 
-/// What meets a block, or comes of it, entry by entry.
+/// Values in the layout of a packed block: factors that its entries are multiplied by, or sums of products with them.
 #[derive(Clone, Copy)]
 pub struct Entries<T> {
     heads: [T; 3],
     tails: [T; 2],
 }
 
-/// A row whose numbers are sums of parts: two of each of the first four, four of each of the last two.
+/// A row of six numbers, each a sum of partial sums: two for each of the first four, four for each of the last two.
 #[derive(Clone, Copy)]
 pub struct Parts<T> {
     head: T,
@@ -42,28 +43,28 @@ pub struct Parts<T> {
 pub struct Blockwise<S>(pub S);
 
 impl<S: Simd> Blockwise<S> {
-    /// Nothing, to sum up entries in.
+    /// Zeros, to accumulate in.
     #[inline(always)]
     pub fn nothing(self) -> Entries<S::F32x8> {
         let zero = self.0.join([f32x4::ZERO; 2]);
         Entries { heads: [zero; 3], tails: [zero; 2] }
     }
 
-    /// A row in one part each.
+    /// A row as the first of its partial sums; the others are zero.
     #[inline(always)]
     pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, 0.0, 0.0]));
         Parts { head: self.0.join([head, f32x4::ZERO]), tail: self.0.join([tail, f32x4::ZERO]) }
     }
 
-    /// A row that stands whole wherever a part would.
+    /// A row repeated in every partial sum.
     #[inline(always)]
     pub fn repeated(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, e, f]));
         Parts { head: self.0.join([head; 2]), tail: self.0.join([tail; 2]) }
     }
 
-    /// The row, of its parts.
+    /// The row as the totals of its partial sums.
     #[inline(always)]
     pub fn row(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b], [c, d]) = (self.0.split(parts.head), self.0.split(parts.tail));
@@ -71,7 +72,7 @@ impl<S: Simd> Blockwise<S> {
         [head[0], head[1], head[2], head[3], tail[0] + tail[2], tail[1] + tail[3]]
     }
 
-    /// The row that stands whole in every part.
+    /// The first partial sums, for a row that is repeated in all.
     #[inline(always)]
     pub fn first(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b, c, d], [e, f, ..]) =
@@ -79,7 +80,7 @@ impl<S: Simd> Blockwise<S> {
         [a, b, c, d, e, f]
     }
 
-    /// What a row multiplies the columns of a block with.
+    /// The entries of a row laid out as factors of the columns of a block.
     #[inline(always)]
     pub fn factors(self, y: Row) -> Entries<S::F32x8> {
         let tails = each!(k of 3 => f32x4::from([y[2 * k], y[2 * k], y[2 * k + 1], y[2 * k + 1]]));
@@ -89,7 +90,7 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds to `parts` a block times the row with these factors.
+    /// Adds a block times a row, given as `factors`, to `parts`.
     #[inline(always)]
     pub fn add_times(self, parts: &mut Parts<S::F32x8>, block: &Packed, factors: &Entries<S::F32x8>) {
         for (head, factor) in block.heads.iter().zip(&factors.heads) {
@@ -100,7 +101,7 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds the products of each column with a repeated row: their totals are the block's transpose times it.
+    /// Adds the products of the columns with a repeated row. Their totals are the transposed block times the row.
     #[inline(always)]
     pub fn add_products(self, sums: &mut Entries<S::F32x8>, block: &Packed, row: &Parts<S::F32x8>) {
         for (sum, head) in sums.heads.iter_mut().zip(&block.heads) {
@@ -111,7 +112,7 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Sums of the columns.
+    /// Sum of each column.
     #[inline(always)]
     pub fn totals(self, sums: &Entries<S::F32x8>) -> Row {
         let heads = each!(k of 3 => self.0.split(sums.heads[k]));

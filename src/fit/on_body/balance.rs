@@ -1,11 +1,12 @@
-//! Balance: how level a garment hangs.
+//! Balance of a garment: the heights of its edges and the lean of its side seams.
 
 use geom::V3;
 
-/// Half of the sector that counts as front, back or side, radians.
+/// Half angle of the sector that counts as front, back or side, radians (15 degrees). Judgement.
 const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 
-/// Heights above the floor of an edge that goes round, m; `None` where no cloth lies on that side, as on the opening of a coat.
+/// Heights of a closed edge above the floor, m. `None` where there is no cloth on that side, as at the opening of a
+/// coat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sides {
     /// At the front.
@@ -18,18 +19,20 @@ pub struct Sides {
     pub left_m: Option<f64>,
 }
 
-/// The balance of a garment.
+/// Balance of a garment.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Hang {
-    /// Its lower edge: of trousers that of one leg.
+    /// Lower edge. Trousers have that of one leg.
     pub hem: Option<Sides>,
-    /// The upper edge of trousers and skirts.
+    /// Upper edge of trousers and skirts.
     pub waist: Option<Sides>,
-    /// How far the side seams lean forwards going down, radians from the vertical: right, left.
+    /// Angle of the right and the left side seam from the vertical, radians. It is positive where a seam runs forwards
+    /// going down.
     pub lean_rad: [Option<f64>; 2],
 }
 
-/// The balance of a garment whose lines lie so on the body: its lower and its upper edge, and its side seams in pieces.
+/// Balance of a garment from the lines of its lower edge, its upper edge and its side seams on the body. Each may
+/// consist of several pieces.
 #[must_use]
 pub fn hang(hem: &[Vec<V3>], waist: &[Vec<V3>], side_seams: &[Vec<V3>]) -> Hang {
     let is_right = |right: bool| {
@@ -43,7 +46,7 @@ fn mean_x(line: &[V3]) -> f64 {
     line.iter().map(|p| p.x).sum::<f64>() / line.len().max(1) as f64
 }
 
-/// Heights of an edge by its sectors about its middle, each the mean along its length.
+/// Mean heights of an edge, weighted by length, in the four sectors about its middle.
 fn sides(edge: &[Vec<V3>]) -> Option<Sides> {
     let steps = || {
         edge.iter().flat_map(|line| line.windows(2)).map(|ends| (0.5 * (ends[0] + ends[1]), (ends[1] - ends[0]).norm()))
@@ -66,7 +69,8 @@ fn sides(edge: &[Vec<V3>]) -> Option<Sides> {
     Some(Sides { front_m, back_m, right_m, left_m })
 }
 
-/// Lean of a seam from its highest to its lowest point, radians; positive where the lower end lies before the upper.
+/// Angle of a seam from the vertical between its highest and its lowest point, radians. It is positive where the lower
+/// end lies in front of the upper.
 fn lean(seam: &[V3]) -> Option<f64> {
     let high = seam.iter().max_by(|a, b| a.z.total_cmp(&b.z))?;
     let low = seam.iter().min_by(|a, b| a.z.total_cmp(&b.z))?;
@@ -77,13 +81,13 @@ fn lean(seam: &[V3]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A ring that rises by `slope` a metre to the front and by `side` a metre to the right.
+    /// A ring of radius 0.2 m that rises by `slope` a metre to the front and by `side` a metre to the right.
     fn ring(slope: f64, side: f64, turns: std::ops::Range<usize>) -> Vec<V3> {
-        let at = |k: usize| {
+        let point = |k: usize| {
             let (sin, cos) = (std::f64::consts::TAU * k as f64 / 360.0).sin_cos();
             V3::new(0.2 * sin, 0.2 * cos, 1.0 + 0.2 * (slope * cos + side * sin))
         };
-        turns.map(at).collect()
+        turns.map(point).collect()
     }
 
     #[test]

@@ -1,51 +1,53 @@
-//! Folds and drag lines: where cloth stands off the skin in a line.
+//! Folds and drag lines: lines along which cloth stands off the skin.
 //!
-//! A ridge is where the cloth bends outwards more sharply than the narrowest limb that it is worn on, and does not touch the skin.
-//! Curvature is that of the normals over the triangles [Rusinkiewicz 2004]. Ridges that go on in one direction are one fold.
+//! A ridge is cloth that does not touch the skin and is bent outwards more sharply than round the narrowest limb. The
+//! curvature at a vertex is the mean of the adjacent triangles', from the normals of their corners [Rusinkiewicz 2004].
+//! Adjacent ridge vertices with similar directions form one fold.
 
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-/// Radius of the narrowest limb that cloth lies on, a wrist, m: what bends more sharply is a fold.
+/// Radius of curvature below which cloth is folded, m: that of the narrowest limb that cloth lies on, the wrist.
 const SHARP_M: f64 = 0.026;
-/// Distance from the skin from which on cloth stands off, m: well above that at which contact holds it.
+/// Distance from the skin from which on cloth stands off it, m. It is well above the distance at which contact holds
+/// cloth.
 const OFF_M: f64 = 0.005;
-/// Shortest line that counts, m: a few edges of the mesh.
+/// Least length of a fold, m: a few edges of the mesh.
 const SHORTEST_M: f64 = 0.05;
-/// Cosine of the greatest angle between neighbours of one fold.
+/// Cosine of the greatest angle between the directions of neighbours in one fold, 30 degrees.
 const TOGETHER: f64 = 0.866;
-/// Tension across the body of cloth that is dragged, N/m: what a metre of heavy cloth pulls by its weight.
+/// Tension along a fold from which on it is a drag line, N/m: the weight of a metre of heavy cloth.
 const DRAGGED_N_M: f64 = 5.0;
 
-/// A garment's cloth with what is known at its vertices.
+/// Cloth of a garment with the fields at its vertices that folds are found by.
 #[derive(Clone, Copy, Debug)]
 pub struct Worn<'a> {
     /// The sewn cloth, counter-clockwise seen from outside.
     pub cloth: &'a TriMesh,
     /// Distance from the skin, m.
     pub gap_m: &'a [f64],
-    /// Greatest principal tension, N/m.
+    /// Greater principal tension, N/m.
     pub tension_n_m: &'a [f64],
 }
 
 /// A fold of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fold {
-    /// Whether it is a drag line: cloth under tension along it, or a fold that hangs free.
+    /// True for a drag line, whose cloth is under tension, and false for a fold that hangs free.
     pub is_drag: bool,
-    /// Extent in its own direction, m.
+    /// Length, as the extent along its principal axis, m.
     pub length_m: f64,
-    /// Angle from the vertical, radians, 0 to a right angle.
+    /// Angle of that axis from the vertical, radians, 0 to a right angle.
     pub from_vertical_rad: f64,
-    /// Mean place of its vertices, m.
+    /// Mean position of its vertices, m.
     pub middle: V3,
-    /// Mean radius of its crest, m.
+    /// Radius of the mean curvature of its vertices, m.
     pub radius_m: f64,
     /// Mean tension of its cloth, N/m.
     pub tension_n_m: f64,
 }
 
-/// The folds of a garment, the longest first.
+/// Folds of a garment, the longest first.
 #[must_use]
 pub fn folds(worn: &Worn<'_>) -> Vec<Fold> {
     let crests = crests(worn.cloth);
@@ -61,23 +63,24 @@ pub fn folds(worn: &Worn<'_>) -> Vec<Fold> {
     let mut members: Vec<(usize, usize)> =
         (0..crests.len()).filter(|v| is_crest(*v)).map(|v| (sets.root(v), v)).collect();
     members.sort_unstable();
-    let groups = members.chunk_by(|one, next| one.0 == next.0);
+    let groups = members.chunk_by(|vertex, next| vertex.0 == next.0);
     let mut found: Vec<Fold> = groups.filter_map(|group| fold(worn, &crests, group)).collect();
     found.sort_by(|a, b| b.length_m.total_cmp(&a.length_m));
     found
 }
 
-/// The fold of some vertices; `None` where it is too short.
+/// Fold of some vertices. `None` where it is too short.
 fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<Fold> {
     let count = group.len() as f64;
-    let mean = |of: &dyn Fn(usize) -> f64| group.iter().map(|(_, v)| of(*v)).sum::<f64>() / count;
-    let at = |v: usize| worn.cloth.positions[v];
-    let middle = group.iter().map(|(_, v)| at(*v)).sum::<V3>() / count;
-    let spread: Matrix3<f64> = group.iter().map(|(_, v)| (at(*v) - middle) * (at(*v) - middle).transpose()).sum();
+    let mean = |value: &dyn Fn(usize) -> f64| group.iter().map(|(_, v)| value(*v)).sum::<f64>() / count;
+    let position = |v: usize| worn.cloth.positions[v];
+    let middle = group.iter().map(|(_, v)| position(*v)).sum::<V3>() / count;
+    let spread: Matrix3<f64> =
+        group.iter().map(|(_, v)| (position(*v) - middle) * (position(*v) - middle).transpose()).sum();
     let eigen = spread.symmetric_eigen();
     let along: V3 = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into();
     let reach = |way: V3| {
-        let ends = group.iter().map(|(_, v)| (at(*v) - middle).dot(&way));
+        let ends = group.iter().map(|(_, v)| (position(*v) - middle).dot(&way));
         let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), t| (low.min(t), high.max(t)));
         high - low
     };
@@ -93,16 +96,16 @@ fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<F
     })
 }
 
-/// How the cloth bends at a vertex.
+/// Principal curvature of the cloth at a vertex.
 #[derive(Clone, Copy)]
 struct Crest {
-    /// Greatest curvature, 1/m, positive where it bends outwards.
+    /// Greater principal curvature, 1/m, positive where the cloth bends outwards.
     curvature: f64,
-    /// Unit direction in which it bends least.
+    /// Unit direction of the lesser principal curvature, along a ridge.
     along: V3,
 }
 
-/// How the cloth bends at each vertex, from the curvature of the triangles round it.
+/// Principal curvature at each vertex, from the second fundamental forms of the adjacent triangles weighted by area.
 fn crests(cloth: &TriMesh) -> Vec<Crest> {
     let normals = cloth.vertex_normals();
     let mut sums = vec![(Matrix3::zeros(), 0.0); cloth.positions.len()];
@@ -132,7 +135,8 @@ fn crests(cloth: &TriMesh) -> Vec<Crest> {
     sums.into_iter().zip(&normals).map(crest).collect()
 }
 
-/// The second fundamental form of a triangle as a tensor of space: how its normals turn along its edges, by least squares.
+/// Second fundamental form of a triangle as a tensor of space, by least squares from the change of normals along its
+/// edges.
 fn shape(corners: [V3; 3], normals: [V3; 3]) -> Option<Matrix3<f64>> {
     let u = (corners[1] - corners[0]).try_normalize(1e-12)?;
     let v = u.cross(&(corners[2] - corners[0])).try_normalize(1e-12)?.cross(&u);
@@ -149,7 +153,7 @@ fn shape(corners: [V3; 3], normals: [V3; 3]) -> Option<Matrix3<f64>> {
     Some(u * u.transpose() * form[0] + (u * v.transpose() + v * u.transpose()) * form[1] + v * v.transpose() * form[2])
 }
 
-/// Sets of vertices that are joined step by step.
+/// Disjoint sets of vertices (union-find).
 struct Sets(Vec<usize>);
 
 impl Sets {
@@ -161,7 +165,7 @@ impl Sets {
         v
     }
 
-    /// The lower number is the root, whatever the order of joining.
+    /// Merges two sets. The least vertex of a set is its root, whatever the order of merging.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b);
@@ -174,11 +178,11 @@ mod tests {
 
     const EDGE_M: f64 = 0.01;
 
-    /// A sheet before the body, 0.6 m square, raised to the front by `height` of its place.
+    /// A sheet in front of the body, 0.6 m square, displaced to the front by `height`.
     fn sheet(height: impl Fn(f64, f64) -> f64) -> TriMesh {
         let side = 61;
-        let at = |k: usize| (EDGE_M * (k % side) as f64 - 0.3, EDGE_M * (k / side) as f64);
-        let positions = (0..side * side).map(at).map(|(x, z)| V3::new(-x, height(x, z), z)).collect();
+        let coordinates = |k: usize| (EDGE_M * (k % side) as f64 - 0.3, EDGE_M * (k / side) as f64);
+        let positions = (0..side * side).map(coordinates).map(|(x, z)| V3::new(-x, height(x, z), z)).collect();
         let quad = |k: usize| [[k, k + 1, k + side + 1], [k, k + side + 1, k + side]];
         let triangles = (0..side * (side - 1)).filter(|k| k % side + 1 < side).flat_map(quad).collect();
         TriMesh { positions, triangles }
@@ -189,7 +193,7 @@ mod tests {
         folds(&Worn { cloth, gap_m: &vec![gap_m; count], tension_n_m: &vec![tension_n_m; count] })
     }
 
-    /// A ridge of a radius at its crest, along a line at an angle from the vertical, 0.3 m long.
+    /// A ridge with a radius at its crest, along a line at an angle from the vertical, 0.3 m long.
     fn ridge(radius: f64, angle: f64) -> impl Fn(f64, f64) -> f64 {
         move |x, z| {
             let (sin, cos) = angle.sin_cos();

@@ -1,28 +1,29 @@
-//! Cross sections: body and cloth cut by a plane, and the air between them.
+//! Cross sections of body and cloth, and the air gap between them.
 
 use body::{Body, Joint};
 use geom::polyline::signed_area;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Distance below the armpit or the crotch at which arm and thigh are cut, as their girths are measured, m.
+/// Distance below the armpit or the crotch at which upper arm and thigh are cut, m. Judgement: about where their girths
+/// are measured.
 const BELOW_FOLD_M: f64 = 0.025;
-/// Directions in which the gap is told.
+/// Number of directions in which the gap is stated. Judgement.
 pub const DIRECTIONS: usize = 36;
-/// Directions over which air is summed up.
+/// Number of directions over which the area of air is integrated. Judgement.
 const FINE: usize = 720;
 
-/// Where a body is cut.
+/// A plane that cuts a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// Level: `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, or a height in words.
+    /// Its level: `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, or a height in words.
     pub level: String,
-    /// The plane, its first axis towards the subject's right, its second to the front.
+    /// The plane. Its first axis points to the subject's right, its second to the front.
     pub plane: Plane,
 }
 
 impl Site {
-    /// The horizontal plane at a height above the floor; where there are legs, the right one is cut.
+    /// The horizontal plane at a height above the floor. Below the crotch its origin lies in the right leg.
     #[must_use]
     pub fn at(level: &str, body: &Body, height_m: f64) -> Self {
         let is_leg = height_m < body.levels.crotch_m;
@@ -35,20 +36,20 @@ impl Site {
         Self { level: level.to_owned(), plane }
     }
 
-    /// Whether the plane is level.
+    /// True if the plane is horizontal.
     #[must_use]
     pub fn is_level(&self) -> bool {
         self.plane.normal().z.abs() > 1.0 - 1e-9
     }
 
-    /// Height above the floor of the point where the limb's or the trunk's axis passes, m.
+    /// Height above the floor of the plane's origin, which lies on the axis of the limb or trunk, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.plane.origin.z
     }
 }
 
-/// The levels at which a body is cut, from the chest down, and across the right upper arm.
+/// The sections of a body, from the chest down, and across the right upper arm.
 #[must_use]
 pub fn sites(body: &Body) -> Vec<Site> {
     let levels = &body.levels;
@@ -65,7 +66,7 @@ pub fn sites(body: &Body) -> Vec<Site> {
     found
 }
 
-/// The plane across the right upper arm below the armpit; none of an arm without length.
+/// The plane across the right upper arm below the armpit. `None` for an arm without length.
 fn upper_arm(body: &Body) -> Option<Site> {
     let [shoulder, elbow] = [Joint::ShoulderRight, Joint::ElbowRight].map(|joint| body.skeleton.at(joint));
     let up = (shoulder - elbow).try_normalize(1e-6)?;
@@ -75,51 +76,62 @@ fn upper_arm(body: &Body) -> Option<Site> {
     Some(Site { level: "upper_arm".to_owned(), plane })
 }
 
-/// The air in one direction.
+/// Air gap in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
-    /// From the front towards the subject's right, degrees.
+    /// Direction from the front towards the subject's right, degrees.
     pub deg: f64,
-    /// From the middle of the outline to the skin, m.
+    /// Distance from the outline's centroid to the skin, m.
     pub skin_m: f64,
-    /// From the skin outwards to the first cloth, m; below 0 where cloth lies inside the body. `None` where there is no cloth.
+    /// Distance from the skin outwards to the first cloth, m. It is negative where cloth lies inside the body. `None`
+    /// where there is no cloth.
     pub gap_m: Option<f64>,
 }
 
-/// Body and cloth in a plane.
+/// Section of body and cloth by a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// Place on the body where the plane cuts.
+    /// The plane.
     pub site: Site,
     /// Outline of the trunk or limb.
     pub skin: Outline,
-    /// The other limbs that the plane cuts.
+    /// Outlines of the other limbs that the plane cuts.
     pub others: Vec<Outline>,
     /// Outlines of the cloth round it.
     pub cloth: Vec<Outline>,
-    /// Middle of the outline's area, in the plane.
+    /// Centroid of the skin's outline, in the plane.
     pub centre: V2,
 }
 
+/// A ray from the centroid of a section.
+#[derive(Clone, Copy, Default)]
+struct Ray {
+    /// Distance at which it last leaves the skin, m.
+    skin_m: f64,
+    /// Distance at which it first meets cloth, m.
+    cloth_m: Option<f64>,
+}
+
 impl Section {
-    /// Cuts a body and the sewn cloth on it; `None` where the plane meets no body.
+    /// Cuts a body and the sewn cloth on it. `None` where the plane does not meet the body.
     ///
-    /// The trunk or limb is the outline round the site's axis, or the one nearest to it. Cloth belongs to it where it goes round
-    /// its middle, or lies nearer to it than to what else of the body is cut.
+    /// The trunk or limb is the outline round the plane's origin, or else the one nearest to it. Cloth belongs to it
+    /// where it encloses its centroid or lies nearer to it than to the other outlines of the body.
     #[must_use]
     pub fn cut(site: Site, body: &TriMesh, cloth: &TriMesh) -> Option<Self> {
-        let mut outlines: Vec<Outline> = section(body, &site.plane).into_iter().filter(|one| one.closed).collect();
+        let mut outlines: Vec<Outline> =
+            section(body, &site.plane).into_iter().filter(|outline| outline.closed).collect();
         let axis = V2::zeros();
-        let off = |one: &Outline| if one.contains(axis) { 0.0 } else { distance(axis, one) };
+        let off = |outline: &Outline| if outline.contains(axis) { 0.0 } else { distance(axis, outline) };
         let own = (0..outlines.len()).min_by(|a, b| off(&outlines[*a]).total_cmp(&off(&outlines[*b])))?;
         let skin = outlines.swap_remove(own);
         let centre = centroid(&skin.points);
-        let belongs = |one: &Outline| {
-            if one.contains(centre) {
+        let belongs = |cloth: &Outline| {
+            if cloth.contains(centre) {
                 return true;
             }
-            let own = mean_distance(one, &skin);
-            outlines.iter().all(|other| own <= mean_distance(one, other))
+            let own = mean_distance(cloth, &skin);
+            outlines.iter().all(|other| own <= mean_distance(cloth, other))
         };
         let cloth = section(cloth, &site.plane).into_iter().filter(belongs).collect();
         Some(Self { site, skin, others: outlines, cloth, centre })
@@ -137,28 +149,29 @@ impl Section {
         self.cloth.iter().flat_map(segments).map(|(a, b)| (b - a).norm()).sum()
     }
 
-    /// The air in `count` directions, the front first, on towards the subject's right.
+    /// Air gap in `count` directions, the front first, then towards the subject's right.
     #[must_use]
     pub fn gaps(&self, count: usize) -> Vec<Angle> {
         let angle = |k: usize| {
             let deg = k as f64 / count as f64 * 360.0;
-            let (skin_m, cloth_m) = self.ray(deg).unwrap_or((0.0, None));
+            let Ray { skin_m, cloth_m } = self.ray(deg).unwrap_or_default();
             Angle { deg, skin_m, gap_m: cloth_m.map(|cloth_m| cloth_m - skin_m) }
         };
         (0..count).map(angle).collect()
     }
 
-    /// Area between skin and the first cloth, where there is cloth, m2; cloth inside the body takes away.
+    /// Area between the skin and the first cloth, where there is cloth, m2. Cloth inside the body counts negative.
     #[must_use]
     pub fn air_m2(&self) -> f64 {
         let rays = (0..FINE).filter_map(|k| self.ray((k as f64 + 0.5) / FINE as f64 * 360.0));
-        let sectors = rays.filter_map(|(skin, cloth)| Some(0.5 * (cloth?.powi(2) - skin.powi(2))));
+        let sectors = rays.filter_map(|ray| Some(0.5 * (ray.cloth_m?.powi(2) - ray.skin_m.powi(2))));
         sectors.sum::<f64>() * std::f64::consts::TAU / FINE as f64
     }
 
-    /// Where the ray from the middle leaves the skin, and where it first meets cloth, m: with no other limb between, and nearer to this
-    /// one than to any other, whose air it else is.
-    fn ray(&self, deg: f64) -> Option<(f64, Option<f64>)> {
+    /// Ray from the centroid at an angle. Its cloth counts only if no other limb lies before it, and if it is nearer to
+    /// this limb than to any other, since the air otherwise belongs to that one. `None` if the ray does not meet the
+    /// skin.
+    fn ray(&self, deg: f64) -> Option<Ray> {
         let (sin, cos) = deg.to_radians().sin_cos();
         let way = V2::new(sin, cos);
         let skin = crossings(self.centre, way, &self.skin)
@@ -169,21 +182,21 @@ impl Section {
             self.others.iter().all(|other| off <= distance(point, other))
         };
         let first = |outlines: &[Outline]| {
-            outlines.iter().flat_map(|one| crossings(self.centre, way, one)).min_by(f64::total_cmp)
+            outlines.iter().flat_map(|outline| crossings(self.centre, way, outline)).min_by(f64::total_cmp)
         };
         let wall = first(&self.others).unwrap_or(f64::INFINITY);
-        Some((skin, first(&self.cloth).filter(|cloth| *cloth < wall).filter(own)))
+        Some(Ray { skin_m: skin, cloth_m: first(&self.cloth).filter(|cloth| *cloth < wall).filter(own) })
     }
 }
 
-/// The segments of an outline, the last one of a closed one too.
+/// Segments of an outline, with the closing one of a closed outline.
 fn segments(outline: &Outline) -> impl Iterator<Item = (V2, V2)> {
     let points = &outline.points;
     let count = if outline.closed { points.len() } else { points.len().saturating_sub(1) };
     (0..count).map(|k| (points[k], points[(k + 1) % points.len()]))
 }
 
-/// Distances from `from` along the unit `way` at which a ray crosses an outline.
+/// Distances at which a ray from `from` along the unit vector `way` crosses an outline.
 fn crossings(from: V2, way: V2, outline: &Outline) -> impl Iterator<Item = f64> {
     segments(outline).filter_map(move |(a, b)| {
         let (a, b) = (a - from, b - from);
@@ -195,7 +208,7 @@ fn crossings(from: V2, way: V2, outline: &Outline) -> impl Iterator<Item = f64> 
     })
 }
 
-/// Middle of a polygon's area; of one without area the mean of its points.
+/// Centroid of a polygon's area, or the mean of its points if it has no area.
 fn centroid(points: &[V2]) -> V2 {
     let first = points.first().copied().unwrap_or_default();
     let local: Vec<V2> = points.iter().map(|p| p - first).collect();
@@ -207,13 +220,14 @@ fn centroid(points: &[V2]) -> V2 {
     first + local.iter().zip(next).map(|(a, b)| (a + b) * a.perp(b)).sum::<V2>() / (6.0 * whole)
 }
 
-/// Distance of a point from the points of an outline.
+/// Distance of a point from the nearest vertex of an outline.
 fn distance(point: V2, outline: &Outline) -> f64 {
     outline.points.iter().map(|p| (p - point).norm()).fold(f64::INFINITY, f64::min)
 }
 
-fn mean_distance(one: &Outline, other: &Outline) -> f64 {
-    one.points.iter().map(|p| distance(*p, other)).sum::<f64>() / one.points.len().max(1) as f64
+/// Mean distance of an outline's vertices from another outline.
+fn mean_distance(outline: &Outline, other: &Outline) -> f64 {
+    outline.points.iter().map(|p| distance(*p, other)).sum::<f64>() / outline.points.len().max(1) as f64
 }
 
 #[cfg(test)]
@@ -221,7 +235,7 @@ mod tests {
     use super::*;
     use body::{Measurements, Sex};
 
-    /// A tube about the vertical through `x`, closed above and below where it `is_solid`.
+    /// A tube about the vertical through `x`, closed at both ends if `is_solid`.
     fn tube(x: f64, radius: impl Fn(f64) -> f64, around: usize, is_solid: bool) -> TriMesh {
         let mut mesh = TriMesh { positions: Vec::new(), triangles: Vec::new() };
         for z in [-0.1, 0.1] {
@@ -325,7 +339,7 @@ mod tests {
                     whole += if *a_down { 0.5 * a.perp(b) } else { 0.5 * b.perp(a) };
                 }
             }
-            let found = cut.body_area_m2() + cut.others.iter().map(|one| signed_area(&one.points).abs()).sum::<f64>();
+            let found = cut.body_area_m2() + cut.others.iter().map(|limb| signed_area(&limb.points).abs()).sum::<f64>();
             let level = &site.level;
             assert!((found - whole.abs()).abs() < 1e-6 * found, "{level}: {found}, {whole}");
             assert!(cut.skin.contains(cut.centre) && cut.body_area_m2() > 4e-3, "{level}: {}", cut.body_area_m2());
