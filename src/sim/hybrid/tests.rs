@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use super::elastic::{Elastic, Pull};
+use super::elastic::{Controls, Elastic, Pull};
 use super::form::Form;
 use super::mapping::can_touch;
 use super::path::{PathGraph, Taken};
@@ -246,7 +246,7 @@ fn what_cannot_be_mapped_is_named_with_its_reason() {
     assert!(error.contains("cannot place role Other"), "{error}");
 }
 
-/// Numbers from 0 to `below`.
+/// Pseudo-random numbers below `below`.
 fn picks(count: usize, below: usize, seed: u64) -> Vec<usize> {
     noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
 }
@@ -321,7 +321,7 @@ fn a_tube_gets_its_length_and_girth_back() {
     };
     let own: Vec<usize> = (0..x.len()).collect();
     let mut elastic =
-        Elastic::new(&garment, &own, &x, (&[], 0.0), &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
+        Elastic::new(&garment, &own, &x, Controls::NONE, &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
     let none = vec![V3::zeros(); x.len()];
     let mut now = x.clone();
     let mut last = mean_edge_error(&garment, &now);
@@ -345,7 +345,7 @@ fn pieces_are_drawn_together_at_their_size_and_go_through_nothing() {
         let garment = garment(model, 1, 0.04);
         let cotton = &fabric::library()[0];
         let mut steps = 0;
-        let x = draw::together(&SLIM, &field, &garment, cotton, |_| {
+        let x = draw::together(Wearer { body: &SLIM, field: &field }, &garment, cotton, |_| {
             steps += 1;
             Ok(())
         });

@@ -4,8 +4,8 @@ use crate::error::{Result, StudyError};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
 use body::{Body, Pose};
-use pattern::Garment;
-use sim::{Drape, Fabric, Monitor};
+use sim::fem::carry::{Motion, Worn};
+use sim::{Drape, Monitor};
 
 /// Carries a drape from one pose of a body into another: the body in all poses on the way, and the drape in the last.
 ///
@@ -14,11 +14,12 @@ use sim::{Drape, Fabric, Monitor};
 pub(crate) fn carry(
     upright: &Body,
     [from, to]: [Pose; 2],
-    cloth: (&Garment, &Fabric),
-    (drape, parameters): (&Drape, &Parameters),
+    worn: Worn,
+    parameters: &Parameters,
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<Body>, Drape)> {
     let bodies = body::way(upright, from, to, sim::fem::carry::TURN_DEG).map_err(StudyError::stage("body"))?;
-    let carried = sim::fem::carry::carry((&bodies, FIELD_SPACING_M), cloth, drape, &parameters.fem()?, monitor);
+    let motion = Motion { bodies: &bodies, spacing_m: FIELD_SPACING_M };
+    let carried = sim::fem::carry::carry(motion, worn, &parameters.fem()?, monitor);
     Ok((bodies, carried.map_err(StudyError::sim)?))
 }

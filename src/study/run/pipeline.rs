@@ -23,6 +23,7 @@ use geom::units::mm;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
+use sim::fem::carry::Worn;
 use sim::{self, Distortion, Drape, Fabric, Monitor};
 
 /// Difference of two lengths that are one, m.
@@ -152,8 +153,8 @@ impl Pipeline {
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
         let poses = [before, spec].map(|one| one.person.pose.unwrap_or_default());
         let meshes = self.meshes(spec)?.0;
-        carry(&upright, poses, (meshes.finest()?, &spec.fabric), (&drape, &spec.parameters), monitor)
-            .map(|(_, drape)| drape)
+        let worn = Worn { garment: meshes.finest()?, fabric: &spec.fabric, drape: &drape };
+        carry(&upright, poses, worn, &spec.parameters, monitor).map(|(_, drape)| drape)
     }
 
     /// A layer of an outfit. The first of its layers drapes them all, for the others too.
