@@ -1,13 +1,14 @@
 //! Hands as they slip into a sleeve: folded while a garment is sewn, then opened inside it.
 //!
-//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and pass between its contact points. A narrow sleeve
-//! that is drawn together about an open hand leaves the thumb outside. Until the finest mesh has settled, the cloth therefore
-//! meets a convex solid in place of a hand that it comes near. At first the solid is folded: beyond the wrist it is narrower
-//! than the wrist and tapers. Then it is widened until it contains the whole hand, and pushes the cloth outwards from within.
-//! Only the last phase resolves fingers.
+//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and pass between its contact points. A narrow
+//! sleeve that is drawn together about an open hand leaves the thumb outside. Until the finest mesh has settled, the
+//! cloth therefore meets a convex solid in place of a hand that it comes near. At first the solid is folded: beyond the
+//! wrist it is narrower than the wrist and tapers. Then it is widened until it contains the whole hand, and pushes the
+//! cloth outwards from within. Only the last phase resolves fingers.
 //!
-//! The solid is the intersection of the half-spaces `n . p <= h(n)` for directions `n` all around, `h` its support function. The
-//! greatest `n . p - h(n)` approximates the signed distance. It is interpolated linearly between the folded and the open solid.
+//! The solid is the intersection of the half-spaces `n . p <= h(n)` for directions `n` all around, `h` its support
+//! function. The greatest `n . p - h(n)` approximates the signed distance. It is interpolated linearly between the
+//! folded and the open solid.
 
 use std::collections::BTreeSet;
 
@@ -18,15 +19,16 @@ geom::constants! {
     "hands",
     /// Greatest distance of a hand's skin from the wrist, m.
     const REACH_M: f64 = 0.25;
-    /// Greatest distance of a hand's skin from the hand's axis, m. If any lies farther, a scan's hand has grown together with the
-    /// thigh.
+    /// Greatest distance of a hand's skin from the hand's axis, m. If any lies farther, a scan's hand has grown
+    /// together with the thigh.
     const WIDEST_M: f64 = 0.15;
     /// Share of the hand's length, at its end, whose middle gives the hand's direction.
     const END: f64 = 0.4;
     /// Length of the wrist that gives the half width of a folded hand, m.
     const WRIST_M: f64 = 0.02;
-    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three, and closes
-    /// only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the triangle's perimeter.
+    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three,
+    /// and closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the
+    /// triangle's perimeter.
     const FOLDED: f64 = 0.65;
     /// Half width of a folded hand at its end over that at its root.
     const NARROWING: f64 = 0.5;
@@ -213,8 +215,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The shapes that a level meets without friction: hands are folded on the coarsest level, open on the next, and become bare
-    /// on the finest.
+    /// The shapes that a level meets without friction: hands are folded on the coarsest level, open on the next, and
+    /// become bare on the finest.
     fn of_level(level: usize, finest: usize) -> Vec<Self> {
         let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
         if level == 0 && finest > 0 {

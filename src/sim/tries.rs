@@ -1,7 +1,8 @@
 //! Second tries: a garment that ends with a fault is put on again in other ways, and the best drape is kept.
 //!
-//! A fold that slips under another while the seams close is an accident of the start. From another start the same garment
-//! often comes to rest without the fault. The ways and their order are fixed, so that the same inputs give the same drape.
+//! A fold that slips under another while the seams close is an accident of the start. From another start the same
+//! garment often comes to rest without the fault. The ways and their order are fixed, so that the same inputs give the
+//! same drape.
 
 use crate::{Drape, SimError};
 
@@ -20,7 +21,7 @@ pub struct Faults {
     pub length_error: f64,
 }
 
-/// Limits up to which faults count as none, and how faults are ordered.
+/// Limits up to which faults count as none, and their order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criteria {
     /// Depth that counts as outside, m.
@@ -32,7 +33,7 @@ pub struct Criteria {
 }
 
 impl Faults {
-    /// True if the drape is what was asked for.
+    /// True if the drape has no fault.
     #[must_use]
     pub fn are_none(&self, criteria: &Criteria) -> bool {
         let is_at_rest_on_the_body = !self.came_off && !self.moves && self.self_crossings == 0;
@@ -41,9 +42,9 @@ impl Faults {
 
     /// True if these faults are less than those of another drape.
     ///
-    /// Equilibrium, self-intersection and penetration are constraints of different kinds. None makes up for another, so a
-    /// better drape is better in one of them and worse in none (Pareto dominance). Depths up to the limit are equal.
-    /// Where the constraints are equal the error of the lengths decides: it is an objective, not a constraint.
+    /// Equilibrium, self-intersection and penetration are constraints of different kinds. None makes up for another, so
+    /// a better drape is better in one of them and worse in none (Pareto dominance). Depths up to the limit are equal.
+    /// If the constraints are equal the error of the lengths decides: it is an objective, not a constraint.
     #[must_use]
     pub fn are_less_than(&self, other: &Self, criteria: &Criteria) -> bool {
         if self.came_off || other.came_off {
@@ -72,7 +73,7 @@ pub trait Trial {
     /// Puts it on in one way.
     ///
     /// # Errors
-    /// What the simulator refuses, or [`SimError::Cancelled`].
+    /// Those of the simulator, or [`SimError::Cancelled`].
     fn put_on(&mut self, way: &Self::Way) -> Result<Drape, SimError>;
 
     /// Faults of one of its drapes.
@@ -82,8 +83,8 @@ pub trait Trial {
     fn has_time(&self, least: &Faults) -> bool;
 }
 
-/// The best drape of a garment: `first`, or one of those that `ways` lead to. Ends with the first drape without a fault, or
-/// when the budget is used up. Of drapes neither of which is better the earlier is kept.
+/// The best drape of a garment: `first`, or one of those that `ways` lead to. Ends with the first drape without a
+/// fault, or when the budget is used up. Of drapes neither of which is better the earlier is kept.
 ///
 /// # Errors
 /// The first refusal where no way leads to a drape; [`SimError::Cancelled`] as soon as a way ends so.

@@ -1,5 +1,5 @@
-//! Planes that separate the cloth of two limbs where its contact with itself does not. Legs keep to their sides of the median
-//! plane, a sleeve and the side of the trunk to their sides of the plane between arm and trunk.
+//! Planes that separate the cloth of two limbs where its contact with itself does not. Legs keep to their sides of the
+//! median plane, a sleeve and the side of the trunk to their sides of the plane between arm and trunk.
 
 use body::{Body, Layer};
 use geom::V3;
@@ -18,13 +18,14 @@ struct Wall {
 /// Walls, with the side that each sewn vertex keeps to.
 pub struct Walls {
     walls: Vec<Wall>,
-    /// Wall and side of each vertex: 1 or -1, or 0 for the seam between legs, which stays on the wall. `None` for a vertex that
-    /// keeps to no wall.
+    /// Wall and side of each vertex: 1 or -1, or 0 for the seam between legs, which stays on the wall. `None` for a
+    /// vertex that keeps to no wall.
     keeps: Vec<Option<(usize, f64)>>,
 }
 
 impl Walls {
-    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at `x`.
+    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at
+    /// `x`.
     #[must_use]
     pub fn new(body: &Body, garment: &Garment, vertex_of: &[usize], x: &[V3]) -> Self {
         let median = Wall { point: V3::zeros(), normal: V3::x(), onwards: None };
@@ -56,8 +57,8 @@ impl Walls {
         self
     }
 
-    /// Depth of a vertex at `p` on the wrong side, m, and the unit direction of the shortest way back, past the wall's end if
-    /// that is nearer; `None` where it is on its side.
+    /// Depth of a vertex at `p` on the wrong side, m, and the unit direction of the shortest way back, past the wall's
+    /// end if that is nearer; `None` where it is on its side.
     #[must_use]
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
         let (wall, side) = self.keeps[vertex].filter(|(_, side)| *side != 0.0)?;
@@ -96,7 +97,8 @@ fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
 }
 
 impl Wall {
-    /// The half-plane from the armpit outwards and down, along the bisector of arm and trunk; its normal points to the arm.
+    /// The half-plane from the armpit outwards and down, along the bisector of arm and trunk; its normal points to the
+    /// arm.
     fn beside_arm(body: &Body, side: usize) -> Self {
         use Layer::*;
         let [armscye, elbow] = [[ArmscyeRight, ElbowRight], [ArmscyeLeft, ElbowLeft]][side];

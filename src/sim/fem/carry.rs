@@ -1,7 +1,7 @@
 //! A drape carried into another pose: the body turns its limbs a few degrees at a time and takes the cloth along.
 //!
-//! At each turn the cloth moves as the skin near it does. Friction then holds it where it lies while it comes to rest
-//! among what pulls it: cloth that is too short slides, cloth that is not stays where it was worn.
+//! At each turn the cloth moves with the skin near it. Then it comes to rest under friction: cloth that is too short
+//! for the pose slides, other cloth stays in its place on the skin.
 
 use super::dress::{TIGHT_M, floor_m};
 use super::params::Params;
@@ -21,9 +21,9 @@ geom::constants! {
     pub const TURN_DEG: f64 = 3.0;
     /// Steps of the solver at each turn but the last.
     const STEPS_A_TURN: u32 = 12;
-    /// Radius about a vertex within which the skin takes it along, over its distance from the skin, and what is added to that
-    /// radius, m. The mean over such skin changes smoothly from place to place, and cloth beside the trunk does not go with a
-    /// hand.
+    /// Radius about a vertex within which the skin takes it along: a factor on its distance from the skin, and an
+    /// addend, m. The mean over such skin changes smoothly from place to place, and cloth beside the trunk does not go
+    /// with a hand.
     const SHARE_OF_DISTANCE: f64 = 1.5;
     const BEYOND_M: f64 = 0.025;
     /// Distance up to which skin is sought, m.
@@ -53,7 +53,8 @@ pub struct Worn<'a> {
 /// Carries a drape through the poses of its body; returns the drape in the last of them.
 ///
 /// # Errors
-/// When a body bounds no solid, or the garment diverges or slides off, or the monitor cancels. Not converging is no error.
+/// When a body bounds no solid, or the garment diverges or slides off, or the monitor cancels. Not converging is no
+/// error.
 pub fn carry(motion: Motion, worn: Worn, params: &Params, monitor: &mut dyn Monitor) -> Result<Drape, SimError> {
     let (Motion { bodies, spacing_m }, Worn { garment, fabric, drape }) = (motion, worn);
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;

@@ -20,26 +20,36 @@ use pattern::{Garment, PieceMesh};
 
 geom::constants! {
     "fem.dress",
-    /// Depth by which contact with the body yields to a sewn garment beyond which the garment has been drawn into the body, m.
+    /// Depth by which contact with the body yields to a sewn garment beyond which the garment has been drawn into the
+    /// body, m.
     const SEWN_INTO_M: f64 = 4e-3;
     /// Seam gap that hardened contact may leave where softer contact leaves less, m.
     const CLOSED_M: f64 = 1e-2;
-    /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed. Cloth that is drawn
-    /// farther ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed. Cloth that is
+    /// drawn farther ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has
+    /// 0.54).
     const TORN: f64 = 1.25;
-    /// Depth by which contact yields to a tight garment on a coarse mesh, m: it is about to leave the offset that keeps it
-    /// outside.
+    /// Depth by which contact yields to a tight garment on a coarse mesh, m: it is about to leave the offset that keeps
+    /// it outside.
     pub const TIGHT_M: f64 = 8e-4;
     /// Residual at which the next share of the stiffness begins.
     const EASED: f64 = 0.1;
     /// Residual with the whole stiffness and without friction from which on friction holds.
     const RESTED: f64 = 0.02;
-    /// Room between sole and floor, m: the offsets of both contacts, and as much again. Without it the sole pushes the cloth
-    /// under a heel down and the floor pushes it up, and it never comes to rest.
+    /// Room between sole and floor, m: the offsets of both contacts, and as much again. Without it the sole pushes the
+    /// cloth under a heel down and the floor pushes it up, and it never comes to rest.
     const SOLE_M: f64 = 3e-3;
     /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight. It has no folds then, and
     /// reduced stiffness would only draw it out of shape.
     const DRAWN: f64 = 0.1;
+}
+
+/// A garment whose seams are closed, or nearly.
+struct Sewn {
+    /// Positions of its vertices, m.
+    positions: Vec<V3>,
+    /// Depth by which the contact with the body yields, m.
+    yields_m: f64,
 }
 
 /// A garment that is placed about the body that is to wear it.
@@ -57,12 +67,12 @@ pub struct Placed<'a> {
 
 impl Placed<'_> {
     /// Sews the garment and lets it come to rest. If it slides off without friction it is settled again with friction
-    /// throughout, and if it slides off even so it hangs from its top edge. With [`Grip::Throughout`] friction holds it from
-    /// the first seam on.
+    /// throughout, and if it slides off even so it hangs from its top edge. With [`Grip::Throughout`] friction holds it
+    /// from the first seam on.
     ///
     /// # Errors
-    /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can bear or beyond a limit that is
-    /// to end it, or the monitor cancels.
+    /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can bear or beyond a limit
+    /// that is to end it, or the monitor cancels.
     pub fn dress(&self, grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         let Dressing { wearer, skin, layer } = self.dressing;
         let coarsest = layer.coarsest()?;
@@ -72,11 +82,11 @@ impl Placed<'_> {
         if grip != Grip::AtTheEnd {
             run.keep_up(coarsest, self.start);
         }
-        let (mut sewn, yields_m) = self.sew(coarsest, soft, grip, run)?;
+        let Sewn { positions: mut sewn, yields_m } = self.sew(coarsest, soft, grip, run)?;
         let is_drawn_in = yields_m > SEWN_INTO_M;
         let around = if self.hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
         if is_drawn_in {
-            let (again, _) = self.sew(coarsest, around, grip, run)?;
+            let Sewn { positions: again, .. } = self.sew(coarsest, around, grip, run)?;
             if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
                 sewn = again;
             }
@@ -95,8 +105,8 @@ impl Placed<'_> {
         Err(slid.unwrap_or(SimError::NoMesh))
     }
 
-    /// As [`Self::dress`] with `factor` times the sewing force, after the garment was torn with its own. A ruffle may be torn
-    /// by an accident of its start.
+    /// As [`Self::dress`] with `factor` times the sewing force, after the garment was torn with its own. A ruffle may
+    /// be torn by an accident of its start.
     ///
     /// # Errors
     /// As there, and [`SimError::Torn`] where the drape is stretched beyond the limit.
@@ -107,16 +117,9 @@ impl Placed<'_> {
         if is_within { Ok(settled) } else { Err(SimError::Torn { distortion }) }
     }
 
-    /// Draws the seams of the garment together; those of pieces that are folded onto it follow once all others are closed.
-    /// Returns the positions of the garment's vertices with all seams (nearly) closed, and the depth by which the contact
-    /// with the body yields there, m.
-    fn sew(
-        &self,
-        garment: &Garment,
-        around: Around,
-        grip: Grip,
-        run: &mut Simulation,
-    ) -> Result<(Vec<V3>, f64), SimError> {
+    /// Draws the seams of the garment together; those of pieces that are folded onto it follow once all others are
+    /// closed.
+    fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Simulation) -> Result<Sewn, SimError> {
         let params = run.params();
         let mut x = self.start.to_vec();
         if let Some(folded) = Folded::of(garment) {
@@ -133,11 +136,11 @@ impl Placed<'_> {
         }
         let sew = |system: &mut System, x: &mut Vec<V3>| run.sew(garment, system, x, <[V3]>::to_vec);
         let yields_m = self.draw_together(garment, params, around, grip, &mut x, sew)?;
-        Ok((x, yields_m))
+        Ok(Sewn { positions: x, yields_m })
     }
 
-    /// Draws all seams of pieces together by `sew`, from `x`; returns the depth by which the contact with the body yields
-    /// then, m.
+    /// Draws all seams of pieces together by `sew`, from `x`; returns the depth by which the contact with the body
+    /// yields then, m.
     fn draw_together(
         &self,
         garment: &Garment,
@@ -167,8 +170,8 @@ impl Placed<'_> {
         Ok(system.contact.yields_m(x))
     }
 
-    /// Shares of its membrane stiffness with which the sewn garment comes to rest first. None where it is drawn tight, and none
-    /// for a fabric that stretches easily anyway.
+    /// Shares of its membrane stiffness with which the sewn garment comes to rest first. None where it is drawn tight,
+    /// and none for a fabric that stretches easily anyway.
     fn shares(&self, sewn: &[V3]) -> Result<Vec<f64>, SimError> {
         let Layer { fabric, .. } = self.dressing.layer;
         let coarsest = self.dressing.layer.coarsest()?;
@@ -235,7 +238,8 @@ fn length_m(garment: &Garment) -> f64 {
     garment.pieces.iter().map(length).fold(0.0, f64::max)
 }
 
-/// Ends a simulation whose cloth is stretched beyond what cloth can bear, or, where that is asked for, beyond the limit.
+/// Ends a simulation whose cloth is stretched beyond what cloth can bear, or, where that is asked for, beyond the
+/// limit.
 ///
 /// # Errors
 /// [`SimError::Torn`] and [`SimError::Distorted`].

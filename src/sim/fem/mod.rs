@@ -34,32 +34,33 @@ geom::constants! {
     const FAULTLESS_DEPTH_M: f64 = 5e-4;
     /// Rise of a garment's top from its place before sewing beyond which its seams have squeezed it off the body, m.
     const MOST_RISE_M: f64 = 0.25;
-    /// Factors on the sewing force with which a garment is sewn again that ends with a fault, or is torn while it is sewn.
-    /// It is an accident of the start whether one tight fold goes through another, and how a ruffle is drawn out. A changed
-    /// force gives another start that is as symmetric as the first.
+    /// Factors on the sewing force with which a garment is sewn again that ends with a fault, or is torn while it is
+    /// sewn. It is an accident of the start whether one tight fold goes through another, and how a ruffle is drawn out.
+    /// A changed force gives another start that is as symmetric as the first.
     const RESEWN: [f64; 2] = [1.5, 0.67];
-    /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long enough. A
-    /// T-shirt takes 0.7 million.
+    /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long
+    /// enough. A T-shirt takes 0.7 million.
     const MOST_TRIED: u64 = 12_000_000;
 }
 
 /// Dresses a body in a garment.
 ///
-/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest mesh is placed, sewn
-/// and roughly draped. Each finer one starts from the drape of the one before. All settle without friction first, so that
-/// the drape does not depend on the path by which the seams closed. Only then does friction hold the garment. A garment that
-/// slides off without friction is settled again with friction throughout.
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest mesh is placed,
+/// sewn and roughly draped. Each finer one starts from the drape of the one before. All settle without friction first,
+/// so that the drape does not depend on the path by which the seams closed. Only then does friction hold the garment. A
+/// garment that slides off without friction is settled again with friction throughout.
 ///
 /// The seams of a garment that is much too small squeeze it along the body as they close. It folds into itself at a
-/// narrower place, or comes off over the head. A tight garment that ends with a fault or open seams is therefore sewn once
-/// more, with friction from the first seam on. Any other garment with a fault is sewn from pieces with another bend, unless
-/// the parameters ask for a bend. If a fault is left, the garment is sewn with more force, and with less. Of these drapes
-/// the first without a fault is taken, failing that the best ([`tries`]). The tries end early once they have taken long.
+/// narrower place, or comes off over the head. A tight garment that ends with a fault or open seams is therefore sewn
+/// once more, with friction from the first seam on. Any other garment with a fault is sewn from pieces with another
+/// bend, unless the parameters ask for a bend. If a fault is left, the garment is sewn with more force, and with less.
+/// Of these drapes the first without a fault is taken, failing that the best (`sim::tries`). The tries end early once
+/// they have taken long.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body in spite of
-/// friction or comes off upwards. Also when it is stretched beyond what cloth can bear or beyond a limit that is to end it,
-/// or the monitor cancels. Not converging is no error.
+/// friction or comes off upwards. Also when it is stretched beyond what cloth can bear or beyond a limit that is to end
+/// it, or the monitor cancels. Not converging is no error.
 ///
 /// # Examples
 /// ```
@@ -90,7 +91,7 @@ pub fn simulate(
     let layer = Layer { garments, fabric };
     let (coarsest, garment) = (layer.coarsest()?, layer.finest()?);
     let mut run = Simulation::new(params, monitor, garments.len() - 1);
-    let (start, force) = perturbed_start(body, coarsest, &params.bend, params.seed)?;
+    let Start { positions: start, force } = perturbed_start(body, coarsest, &params.bend, params.seed)?;
     let hands = Hands::near(body, field, &start);
     let skin = Skin::new(&body.mesh).ok();
     let dressing = Dressing { wearer: Wearer { body, field }, skin: skin.as_ref(), layer };
@@ -150,9 +151,9 @@ impl Trial for Resewing<'_, '_, '_> {
     const CRITERIA: Criteria = CRITERIA;
 
     fn put_on(&mut self, way: &Way) -> Result<Drape, SimError> {
-        let Way { start, force, grip } = way;
-        let placed = Placed { start, force: *force, ..self.placed };
-        placed.dress(*grip, self.run).map(|settled| self.ended(settled))
+        let Start { positions, force } = &way.start;
+        let placed = Placed { start: positions, force: *force, ..self.placed };
+        placed.dress(way.grip, self.run).map(|settled| self.ended(settled))
     }
 
     fn faults(&self, drape: &Drape) -> Faults {
@@ -167,9 +168,9 @@ impl Trial for Resewing<'_, '_, '_> {
 
 /// Limits and order of the faults of a drape by FEM-GS.
 ///
-/// Lengths count for nothing: cloth that is too small stretches, and by how much is the result. Rest does not come first:
-/// it is measured by the force that is left, and cloth with a little more than the tolerance left lies nearly where it
-/// would come to rest. Its crossings count as much as those of a drape at rest.
+/// Lengths count for nothing: cloth that is too small stretches, and that stretch is a result. Rest does not come
+/// first: it is measured by the force that is left, and cloth with a little more than the tolerance left lies nearly
+/// where it would come to rest. Its crossings count as much as those of a drape at rest.
 const CRITERIA: Criteria = Criteria { depth_m: FAULTLESS_DEPTH_M, length_error: 0.0, is_rest_first: false };
 
 /// Faults of a drape by FEM-GS.
@@ -180,16 +181,22 @@ fn faults(drape: &Drape, came_off: bool) -> Faults {
 
 /// A way to put a garment on.
 struct Way {
-    /// Places of the vertices of its coarsest mesh before sewing, m.
-    start: Vec<V3>,
-    /// Factor on the sewing force.
-    force: f64,
-    /// When friction begins.
+    start: Start,
+    /// Time from which on friction holds it.
     grip: Grip,
 }
 
-/// Other ways to put a garment on that was placed as `placed` and sewn with this grip, and came off or ended with a fault;
-/// in the order in which to try them. None for a drape without a fault.
+/// A start of the sewing.
+#[derive(Clone)]
+struct Start {
+    /// Places of the vertices of the coarsest mesh, m.
+    positions: Vec<V3>,
+    /// Factor on the sewing force.
+    force: f64,
+}
+
+/// Other ways to put a garment on that was placed as `placed` and sewn with this grip, and came off or ended with a
+/// fault; in the order in which to try them. None for a drape without a fault.
 fn other_ways(
     placed: &Placed,
     grip: Grip,
@@ -203,27 +210,28 @@ fn other_ways(
     }
     let Dressing { wearer, layer, .. } = placed.dressing;
     let (coarsest, finest) = (layer.coarsest()?, layer.finest()?);
-    let (start, force) = (placed.start.to_vec(), placed.force);
+    let start = Start { positions: placed.start.to_vec(), force: placed.force };
     if grip == Grip::AtTheEnd {
         if came_off || Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit {
-            ways.push(Way { start: start.clone(), force, grip: Grip::Throughout });
+            ways.push(Way { start: start.clone(), grip: Grip::Throughout });
         } else if let Some(bend) = params.bend.otherwise() {
-            let (elsewhere, force) = perturbed_start(wearer.body, coarsest, &bend, params.seed)?;
+            let elsewhere = perturbed_start(wearer.body, coarsest, &bend, params.seed)?;
             // Trousers and pieces that go round alone are not bent: the same start would give the same drape.
-            ways.extend((elsewhere != start).then_some(Way { start: elsewhere, force, grip }));
+            ways.extend((elsewhere.positions != start.positions).then_some(Way { start: elsewhere, grip }));
         }
     }
     if !came_off {
-        ways.extend(RESEWN.map(|factor| Way { start: start.clone(), force: factor * force, grip }));
+        let force = start.force;
+        ways.extend(RESEWN.map(|factor| Way { start: Start { force: factor * force, ..start.clone() }, grip }));
     }
     Ok(ways)
 }
 
-/// Places of a garment's vertices before sewing, m, and the factor on its sewing force, both as the seed changes them.
-fn perturbed_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<(Vec<V3>, f64), SimError> {
-    let mut start = placement::place(body, garment, bend)?;
-    let force = start::perturb(seed, &mut start);
-    Ok((start, force))
+/// The start of a garment, perturbed as the seed says.
+fn perturbed_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<Start, SimError> {
+    let mut positions = placement::place(body, garment, bend)?;
+    let force = start::perturb(seed, &mut positions);
+    Ok(Start { positions, force })
 }
 
 /// Constants of FEM-GS that decide results.

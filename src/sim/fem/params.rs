@@ -38,7 +38,8 @@ pub struct Sewing {
     pub sewing_h_max_s: f64,
     /// Greatest displacement of a vertex in a step of sewing, m.
     pub sewing_clamp_m: f64,
-    /// Greatest number of steps of sewing where the seams are nearly closed by then; others take up to three times as many.
+    /// Greatest number of steps of sewing where the seams are nearly closed by then; others take up to three times as
+    /// many.
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
@@ -67,8 +68,8 @@ pub struct Params {
     /// Bend of the trunk's pieces before they are sewn.
     #[serde(flatten)]
     pub bend: Bend,
-    /// Seed of a small perturbation of the placed start, by which the sensitivity of the drape to its start is measured; 0
-    /// for none.
+    /// Seed of a small perturbation of the placed start, by which the sensitivity of the drape to its start is
+    /// measured; 0 for none.
     pub seed: u64,
     /// Parameters of sewing.
     #[serde(flatten)]
@@ -83,8 +84,8 @@ pub struct Params {
     pub tolerance: f64,
     /// Greatest number of steps of the last phase, with friction.
     pub max_iterations: u32,
-    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::Distortion)) without a report. Just
-    /// below the 17 % up to which the laws of the library's fabrics are measured.
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::Distortion)) without a
+    /// report. Just below the 17 % up to which the laws of the library's fabrics are measured.
     pub distortion_limit: f64,
     /// True if more than that ends the simulation as soon as a mesh has settled.
     pub distortion_stops: bool,

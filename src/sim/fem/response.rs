@@ -1,12 +1,13 @@
 //! Sensitivity of a drape at rest to a small change of its pattern.
 //!
-//! In equilibrium the forces vanish, `f(x, X) = 0`, for every pattern `X`. By the implicit function theorem a change `dX` moves
-//! the cloth by `dx` with `K dx = df/dX dX`. `K = -df/dx` is the tangent stiffness ([`Tangent`]). It is factorised once, and each
-//! change takes one solve. The derivative of any measurement follows along `dx`. A pattern has fewer handles than a drape has
-//! measurements, so this direct method takes fewer solves than the adjoint method, and no derivative by hand.
+//! In equilibrium the forces vanish, `f(x, X) = 0`, for every pattern `X`. By the implicit function theorem a change
+//! `dX` moves the cloth by `dx` with `K dx = df/dX dX`. `K = -df/dx` is the tangent stiffness ([`Tangent`]). It is
+//! factorised once, and each change takes one solve. The derivative of any measurement follows along `dx`. A pattern
+//! has fewer handles than a drape has measurements, so this direct method takes fewer solves than the adjoint method,
+//! and no derivative by hand.
 //!
-//! The active set of contacts is kept: the same layers touch, and friction that holds goes on holding. A change that slides
-//! cloth or lifts it off the body needs another drape.
+//! The active set of contacts is kept: the same layers touch, and friction that holds goes on holding. A change that
+//! slides cloth or lifts it off the body needs another drape.
 
 use super::dress::TIGHT_M;
 use super::params::Params;
@@ -34,8 +35,8 @@ geom::constants! {
     const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
     /// Greatest number of steps that may leave a greater residual.
     const SETBACKS: usize = 5;
-    /// Diagonal shift of an indefinite stiffness, which ties vertices to their places, N/m: the first that is tried, and the
-    /// last. Twice the stiffness of the stiffest cloth is enough.
+    /// Diagonal shift of an indefinite stiffness, which ties vertices to their places, N/m: the first that is tried,
+    /// and the last. Twice the stiffness of the stiffest cloth is enough.
     const LEAST_TIE_N_M: f64 = 0.01;
     const MOST_TIE_N_M: f64 = 1e5;
 }
@@ -105,8 +106,8 @@ impl<'a> Response<'a> {
         self.residual
     }
 
-    /// True if the tangent stiffness is positive definite: every displacement costs energy. An unstable drape is about to fold
-    /// in another way, and its derivatives mean little.
+    /// True if the tangent stiffness is positive definite: every displacement costs energy. An unstable drape is about
+    /// to fold in another way, and its derivatives mean little.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.tangent.is_definite()
@@ -124,7 +125,8 @@ impl<'a> Response<'a> {
         Ok(self.system.cloth.unweld(&moved))
     }
 
-    /// Positions in which the vertices of a changed pattern come to rest with the contacts as they stand, and the residual there.
+    /// Positions in which the vertices of a changed pattern come to rest with the contacts as they stand, and the
+    /// residual there.
     ///
     /// # Errors
     /// When one of its triangles has no area; when the stiffness is singular.
@@ -215,8 +217,8 @@ impl Iterate {
         (!self.tangent.is_definite(), self.residual)
     }
 
-    /// Positions after the next step of Newton's method, and true where they are better. An indefinite stiffness is shifted until
-    /// it is definite, and the energy decides; else the residual does.
+    /// Positions after the next step of Newton's method, and true where they are better. An indefinite stiffness is
+    /// shifted until it is definite, and the energy decides; else the residual does.
     fn next(&mut self, system: &System) -> Option<(Vec<V3>, bool)> {
         let is_stable = self.tangent.is_definite();
         let mut tie = LEAST_TIE_N_M;
@@ -246,8 +248,8 @@ impl Iterate {
     }
 }
 
-/// Brings cloth into equilibrium by Newton's method; returns its tangent stiffness there and the residual. Where layers come to
-/// touch on the way a step may raise the residual. A few such steps are taken, and the best iterate is kept.
+/// Brings cloth into equilibrium by Newton's method; returns its tangent stiffness there and the residual. Where layers
+/// come to touch on the way a step may raise the residual. A few such steps are taken, and the best iterate is kept.
 fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
     let mut now = Iterate::at(system, x.clone());
     let mut rank = now.rank();

@@ -30,11 +30,11 @@ geom::constants! {
     const LAIN_DOWN_S: f64 = 0.5;
     /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
     const EASING_STEPS: u32 = 50;
-    /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met an
-    /// obstacle; more steps would draw it through.
+    /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
+    /// an obstacle; more steps would draw it through.
     const PATIENCE: u32 = 3;
-    /// Greatest descent of a garment's top from its height as sewn, m. Trousers and skirts that do not hold at the waist hold
-    /// at the hips, a fifth of a metre lower, or not at all.
+    /// Greatest descent of a garment's top from its height as sewn, m. Trousers and skirts that do not hold at the
+    /// waist hold at the hips, a fifth of a metre lower, or not at all.
     pub const MOST_DESCENT_M: f64 = 0.25;
 }
 
@@ -159,9 +159,9 @@ impl<'a> Simulation<'a> {
         self.history
     }
 
-    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not come closer: a
-    /// tight garment is pulled as hard as it needs, a loose one no harder. `whole` gives the positions of all vertices of the
-    /// garment, of which the system may have only a part.
+    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not come closer:
+    /// a tight garment is pulled as hard as it needs, a loose one no harder. `whole` gives the positions of all
+    /// vertices of the garment, of which the system may have only a part.
     ///
     /// # Errors
     /// When the cloth diverges or slides off the body, or the monitor cancels.
@@ -242,7 +242,8 @@ impl<'a> Simulation<'a> {
         Ok(residual)
     }
 
-    /// Records and reports a step after which the stepped vertices are at `x` and those of the garment at `positions`, m.
+    /// Records and reports a step after which the stepped vertices are at `x` and those of the garment at `positions`,
+    /// m.
     fn record(
         &mut self,
         garment: &Garment,

@@ -1,4 +1,5 @@
-//! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
+//! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the
+//! body.
 
 use super::run::{Phase, Simulation};
 use crate::cloth::Cloth;
@@ -15,18 +16,20 @@ geom::constants! {
     "fem.settle",
     /// Deepest point inside the body up to which no point has to be held out, m.
     const DEEPEST_M: f64 = 3e-4;
-    /// Greatest number of times that a drape is taken up again, because it is not at rest or has points inside the body.
+    /// Greatest number of times that a drape is taken up again, because it is not at rest or has points inside the
+    /// body.
     const HOLDING_ROUNDS: usize = 8;
-    /// Residual at which points inside the body are looked for: the forces that press them in leave a residual of hundreds.
+    /// Residual at which points inside the body are looked for: the forces that press them in leave a residual of
+    /// hundreds.
     const HELD: f64 = 1.0;
-    /// Penalty of the contact with the body for cloth that is drawn tight or over a hand, N/m3: fingertips press through a
-    /// softer one.
+    /// Penalty of the contact with the body for cloth that is drawn tight or over a hand, N/m3: fingertips press
+    /// through a softer one.
     const HARD_N_M3: f64 = 1e9;
-    /// Penalty of the cloth's contact with itself for the same cloth, N/m3: where a seat is drawn tight, a softer one lets
-    /// layers through.
+    /// Penalty of the cloth's contact with itself for the same cloth, N/m3: where a seat is drawn tight, a softer one
+    /// lets layers through.
     const HARD_LAYERS_N_M3: f64 = 1e7;
-    /// Residual at which a drape without friction is handed on to Newton's method, and how often points inside the body are
-    /// held out before.
+    /// Residual at which a drape without friction is handed on to Newton's method, and the greatest number of rounds in
+    /// which points inside the body are held out before.
     const FREE: f64 = 0.05;
     const FREE_ROUNDS: usize = 4;
     /// Rise of the floor at a time, m, and steps of the solver after each rise.
@@ -124,7 +127,7 @@ pub struct Settling<'a> {
     pub cloth: &'a Cloth,
     /// Number of the level; the coarsest is 0.
     pub level: usize,
-    /// When friction begins.
+    /// Time from which on friction holds it.
     pub grip: Grip,
 }
 
@@ -166,8 +169,8 @@ impl<'a> Settling<'a> {
         Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
-    /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true where they
-    /// reach the residual `tolerance`.
+    /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true
+    /// where they reach the residual `tolerance`.
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
@@ -180,12 +183,14 @@ impl<'a> Settling<'a> {
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
 
-    /// True if the cloth reaches below the floor. The floor comes last: it would catch a garment that slides off the body.
+    /// True if the cloth reaches below the floor. The floor comes last: it would catch a garment that slides off the
+    /// body.
     fn is_below_floor(&self, x: &[V3]) -> bool {
         x.iter().any(|p| p.z < self.around.floor_m)
     }
 
-    /// Raises the floor from below the cloth to the height at which the body stands: cloth longer than the leg comes to lie on it.
+    /// Raises the floor from below the cloth to the height at which the body stands: cloth longer than the leg comes to
+    /// lie on it.
     fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
         let floor_m = self.around.floor_m;
         let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;
@@ -218,7 +223,8 @@ impl<'a> Settling<'a> {
         system
     }
 
-    /// The system of a finest mesh that is draped at `x`. It comes to rest there with friction where `is_held`, else without.
+    /// The system of a finest mesh that is draped at `x`. It comes to rest there with friction where `is_held`, else
+    /// without.
     ///
     /// # Errors
     /// When it diverges or slides off the body, or the monitor cancels.
@@ -304,8 +310,8 @@ impl<'a> Settling<'a> {
         self.around.skin.map_or(0.0, deepest)
     }
 
-    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. The tolerance is loose
-    /// until then: each round moves the cloth again.
+    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. The tolerance is
+    /// loose until then: each round moves the cloth again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
         system.set_friction();

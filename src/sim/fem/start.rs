@@ -17,8 +17,8 @@ geom::constants! {
     const FORCE: f64 = 1.5;
 }
 
-/// Perturbs a placed garment as the seed says: shifts it, turns it about the vertical, widens it and jitters each vertex.
-/// Returns the factor on the sewing force. Seed 0 changes nothing.
+/// Perturbs a placed garment as the seed says: shifts it, turns it about the vertical, widens it and jitters each
+/// vertex. Returns the factor on the sewing force. Seed 0 changes nothing.
 pub fn perturb(seed: u64, x: &mut [V3]) -> f64 {
     if seed == 0 || x.is_empty() {
         return 1.0;

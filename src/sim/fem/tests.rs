@@ -113,11 +113,11 @@ fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
         let apart = apart_mm(&draped, &drape(&other, &other_field, &others));
         assert!(apart < 0.1, "{}: mirrored by up to {apart} mm elsewhere", garments[0].name);
         assert!(draped == drape(&body, &field, &garments), "{}: draped again it lies elsewhere", garments[0].name);
-        // What is compared is no symmetric thing.
+        // The garment is not symmetric itself.
         let own = apart_mm(&draped, &draped);
         assert!(own > 100.0, "{own}");
     };
-    // Fine enough that what moves late is stepped by itself.
+    // Fine enough that vertices that come to rest late are stepped by themselves.
     check(Model::Tshirt, 0.03);
     check(Model::Trousers, 0.06);
 }
@@ -239,7 +239,7 @@ fn lapels_are_sewn_onto_the_closed_garment_and_cross_nothing() {
     assert!(drape.history.windows(2).filter(|two| two[1].level < two[0].level).count() == 0);
 }
 
-/// A drape that ended so deep inside the body, m, with so many crossings.
+/// A drape with a depth inside the body, m, and a number of crossings.
 fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
     Drape {
         stage: Stage::Drape,
@@ -274,7 +274,8 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
         |what: &str, grip: Grip, fault: (f64, usize), stretch: f64, came_off: bool, expect: &[(Grip, f64, bool)]| {
             let drape = Drape { positions: flat(stretch), ..ended(what != "restless", fault) };
             let ways = other_ways(&placed, grip, &drape, came_off, &params).expect("it can be placed");
-            let found: Vec<_> = ways.iter().map(|way| (way.grip, way.force, way.start == start)).collect();
+            let found: Vec<_> =
+                ways.iter().map(|way| (way.grip, way.start.force, way.start.positions == start)).collect();
             assert!(found == expect, "{what}: {} ways", found.len());
         };
     let (late, early) = (Grip::AtTheEnd, Grip::Throughout);

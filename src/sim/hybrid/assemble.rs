@@ -1,8 +1,8 @@
 //! Pieces joined for the mapping: all that lie on one side of the trunk, on one leg or on one arm become one piece.
 //!
-//! Fronts cut in halves or with darts, skirts with their waistbands and sleeves in two pieces are sewn together beforehand.
-//! They are laid flat again with least distortion, as rigid as possible. Pieces that only hang on such pieces (cuffs, collars,
-//! bands that join both legs) are left to [`super::continuation`].
+//! Fronts cut in halves or with darts, skirts with their waistbands and sleeves in two pieces are sewn together
+//! beforehand. They are laid flat again with least distortion, as rigid as possible. Pieces that only hang on such
+//! pieces (cuffs, collars, bands that join both legs) are left to [`super::continuation`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -110,7 +110,8 @@ fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
 struct Marks {
     /// Welded vertex of each vertex.
     welded: Vec<usize>,
-    /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or the nearest to them.
+    /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or the nearest to
+    /// them.
     roots: BTreeSet<usize>,
 }
 
@@ -173,7 +174,8 @@ fn sides(garment: &Garment, stretches: &[Stretch], welded: &[usize]) -> BTreeSet
     sides
 }
 
-/// True if a stretch between pieces of one part is sewn beforehand. A dart is; the seam that makes a tube of a sleeve is not.
+/// True if a stretch between pieces of one part is sewn beforehand. A dart is; the seam that makes a tube of a sleeve
+/// is not.
 fn closes(garment: &Garment, marks: &Marks, part: Option<Role>, stretch: &Stretch) -> bool {
     let [a, b] = stretch.pieces;
     if a == b {

@@ -15,7 +15,8 @@ struct Anchor {
     ways: [V3; 2],
 }
 
-/// Places the pieces `followers`, each by the placed pieces that it is sewn to, those with the longest such seams first.
+/// Places the pieces `followers`, each by the placed pieces that it is sewn to, those with the longest such seams
+/// first.
 ///
 /// # Errors
 /// [`SimError::CannotPlace`] when a piece is sewn to nothing that is placed.
@@ -69,7 +70,8 @@ fn anchors(garment: &Garment, pairs: &[[usize; 2]], positions: &[V3]) -> Vec<Anc
     (0..n).filter_map(anchor).collect()
 }
 
-/// Place of a point of a piece: the mean of its places by all anchors, weighted by the inverse fourth power of their distance.
+/// Place of a point of a piece: the mean of its places by all anchors, weighted by the inverse fourth power of their
+/// distance.
 fn continued(anchors: &[Anchor], p: V2) -> V3 {
     let (mut sum, mut weights) = (V3::zeros(), 0.0);
     for anchor in anchors {

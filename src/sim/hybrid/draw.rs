@@ -1,9 +1,10 @@
-//! Pieces drawn together about the body by their seams: for garments that have no features on the body to be mapped onto.
+//! Pieces drawn together about the body by their seams: for garments that have no features on the body to be mapped
+//! onto.
 //!
-//! The pieces start as [`crate::placement`] rolls them up: sheets bent about the trunk, cones and rings round it, tubes about
-//! limbs. From there the seams draw them together a little at a time. The pieces keep their size, as rigid as possible. The
-//! body pushes them out, and no cloth goes through other cloth. Of the fabric only its bending rigidity enters, where it
-//! exceeds the least that folds need.
+//! The pieces start as [`crate::placement`] rolls them up: sheets bent about the trunk, cones and rings round it, tubes
+//! about limbs. From there the seams draw them together a little at a time. The pieces keep their size, as rigid as
+//! possible. The body pushes them out, and no cloth goes through other cloth. Of the fabric only its bending rigidity
+//! enters, where it exceeds the least that folds need.
 
 use super::relax::{Push, RelaxParams, Relaxation};
 use super::welded_mesh::Sewn;
@@ -36,8 +37,8 @@ geom::constants! {
     const STEPS: u32 = 400;
 }
 
-/// Places the pieces of a garment and draws their seams together; returns the positions of its vertices, m. Calls `each` with
-/// those of every step, which may end it early with an error.
+/// Places the pieces of a garment and draws their seams together; returns the positions of its vertices, m. Calls
+/// `each` with those of every step, which may end it early with an error.
 ///
 /// # Errors
 /// [`SimError::CannotPlace`], [`SimError::Degenerate`], [`SimError::Open`] where seams stay open, and those of `each`.

@@ -1,9 +1,9 @@
 //! The pattern's size as an energy, lowered by alternating a local and a global step.
 //!
-//! The rest shape of every triangle is its pattern triangle, up to a rotation (as rigid as possible, [Sorkine & Alexa 2007]).
-//! The rest length of every control is its pattern length. With the present rotations and directions fixed, the energy is
-//! quadratic, and one linear system gives all vertices (projective dynamics, [Bouaziz et al. 2014]). Energies are divided by
-//! the membrane stiffness, so that only lengths and areas enter.
+//! The rest shape of every triangle is its pattern triangle, up to a rotation: as rigid as possible
+//! [Sorkine & Alexa 2007]. The rest length of every control is its pattern length. With the present rotations and
+//! directions fixed, the energy is quadratic, and one linear system gives all vertices (projective dynamics,
+//! [Bouaziz et al. 2014]). Energies are divided by the membrane stiffness, so that only lengths and areas enter.
 
 use nalgebra::{Matrix2, Matrix3x2};
 
@@ -28,7 +28,8 @@ struct Control {
     rest_m: f64,
 }
 
-/// A run of a controlled measurement: stretches one after the other. Their arcs are measured, and are to have the pattern's length.
+/// A run of a controlled measurement: stretches one after the other. Their arcs are measured, and are to have the
+/// pattern's length.
 #[derive(Clone, Debug)]
 struct Run {
     controls: Vec<Control>,
@@ -91,11 +92,12 @@ impl Controls<'_> {
 }
 
 impl Elastic {
-    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `bending` are pairs of sewn vertices with their
-    /// entry of the bending matrix over the membrane stiffness. `open` are pairs of seams that are still open, `weights` the
-    /// weights of the vertices' targets.
+    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `bending` are pairs of sewn vertices
+    /// with their entry of the bending matrix over the membrane stiffness. `open` are pairs of seams that are still
+    /// open, `weights` the weights of the vertices' targets.
     ///
-    /// `None` if a triangle of the pattern has no area, or if the matrix is singular because no weight holds the garment.
+    /// `None` if a triangle of the pattern has no area, or if the matrix is singular because no weight holds the
+    /// garment.
     #[must_use]
     pub fn new(
         garment: &Garment,
@@ -232,8 +234,8 @@ impl Triangle {
         Some(Self { vertices, gradients: [-(g1 + g2), g1, g2], area_m2: 0.5 * edges.determinant().abs() })
     }
 
-    /// Polar decomposition of the deformation gradient `F = R S`: the nearest rotation `R = F (F^T F)^(-1/2)` and the right
-    /// stretch tensor `S`, in closed form.
+    /// Polar decomposition of the deformation gradient `F = R S`: the nearest rotation `R = F (F^T F)^(-1/2)` and the
+    /// right stretch tensor `S`, in closed form.
     fn polar(&self, x: &[V3]) -> (Matrix3x2<f64>, Matrix2<f64>) {
         let f: Matrix3x2<f64> = (0..3).map(|k| x[self.vertices[k]] * self.gradients[k].transpose()).sum();
         let c = f.transpose() * f;

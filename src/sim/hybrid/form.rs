@@ -1,8 +1,8 @@
 //! The form that a garment is laid on: the control mesh, modified for the hang of the garment (5.2.4).
 //!
-//! A garment falls straight from the widest level above. The trunk's profile is therefore made convex between hip and chest, line
-//! by line. This keeps the two largest girths and interpolates the layers between them. Below the hip a tube continues to the
-//! floor, wide enough for both legs. Trousers lie on the unmodified legs.
+//! A garment falls straight from the widest level above. The trunk's profile is therefore made convex between hip and
+//! chest, line by line. This keeps the two largest girths and interpolates the layers between them. Below the hip a
+//! tube continues to the floor, wide enough for both legs. Trousers lie on the unmodified legs.
 
 use body::{Body, ControlMesh, Layer, RING, Region};
 use geom::{TriMesh, V3};

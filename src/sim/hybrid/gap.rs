@@ -33,9 +33,9 @@ impl Closure {
 
 /// Girths at each level of the body that the garment goes round; positions in m.
 ///
-/// Where the style names the line of the pattern that goes round a level, the drape is measured along that line, wherever it
-/// lies: a plane would cut the cloth along another line. Without such a line the chest is measured from underarm to underarm,
-/// because a level plane would cut the armholes. The other levels are measured as a tape reads them.
+/// If the style names the line of the pattern that goes round a level, the drape is measured along that line, wherever
+/// it lies: a plane would cut the cloth along another line. Without such a line the chest is measured from underarm to
+/// underarm, because a level plane would cut the armholes. The other levels are measured as a tape reads them.
 #[must_use]
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
@@ -72,8 +72,8 @@ fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<Gi
     (!heights.is_empty()).then(|| Girth { height_m: height_m(), length_m })
 }
 
-/// The line from underarm to underarm, front and back. `None` for a garment without underarms, and where the line does not
-/// close, as below the neckline of a top without straps.
+/// The line from underarm to underarm, front and back. `None` for a garment without underarms, and where the line does
+/// not close, as below the neckline of a top without straps.
 fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<Girth> {
     girth_lines::at_underarm(garment, &Sewn::at(garment, positions)).first()?;
     let underarms = underarms(garment);

@@ -1,4 +1,5 @@
-//! Girth lines: closed lines on the cloth round trunk, legs and arms. They are plane sections once, and then material lines.
+//! Girth lines: closed lines on the cloth round trunk, legs and arms. They are plane sections once, and then material
+//! lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +14,8 @@ geom::constants! {
     "hybrid.ring",
     /// Distance between the planes, m.
     const STEP_M: f64 = 0.02;
-    /// Distance of the last line round the trunk below the underarms, in edges: both sides cross the same edge of the seam there.
+    /// Distance of the last line round the trunk below the underarms, in edges: both sides cross the same edge of the
+    /// seam there.
     const BELOW_UNDERARM: f64 = 0.3;
 }
 

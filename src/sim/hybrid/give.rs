@@ -1,7 +1,7 @@
 //! Insets of the body for tight cloth that no ring represents: at armholes, necklines, cuffs, low waists.
 //!
-//! Cloth that lies on the body and is stretched there lacks room. The body counts as smaller for it, vertex by vertex, until it
-//! is stretched no more. Tight cloth then lies inside the body and keeps its size, as rings do.
+//! Cloth that lies on the body and is stretched there lacks room. The body counts as smaller for it, vertex by vertex,
+//! until it is stretched no more. Tight cloth then lies inside the body and keeps its size, as rings do.
 
 geom::constants! {
     "hybrid.give",
@@ -37,14 +37,14 @@ pub struct Lying<'a> {
 }
 
 impl Give {
-    /// No insets, for so many vertices.
+    /// Zero insets for `count` vertices.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self { now_m: vec![0.0; count], gives: vec![false; count], was_tight: vec![false; count] }
     }
 
-    /// Judges which vertices the body gives way to: those that lie on it and were tight at the last judgement as well. Cloth that
-    /// is tight only once is still moving out of the body.
+    /// Judges which vertices the body gives way to: those that lie on it and were tight at the last judgement as well.
+    /// Cloth that is tight only once is still moving out of the body.
     pub fn judge(&mut self, lying: &Lying) {
         let shared = lying.shared();
         let was = std::mem::take(&mut self.was_tight);

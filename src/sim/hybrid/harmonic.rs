@@ -1,17 +1,17 @@
-//! Discrete harmonic maps of a disc onto a convex domain (5.2.3). They are bijective, because all weights are positive and the
-//! boundary of the domain is strictly convex [Floater 2003].
+//! Discrete harmonic maps of a disc onto a convex domain (5.2.3). They are bijective, because all weights are positive
+//! and the boundary of the domain is strictly convex [Floater 2003].
 
 use std::collections::BTreeMap;
 
 use super::sparse::Factor;
 use geom::{V2, V3};
 
-/// Maps a triangulated disc into the plane. Boundary vertices lie where `fixed` says (Dirichlet condition), every other one at the
-/// weighted mean of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
+/// Maps a triangulated disc into the plane. Boundary vertices lie where `fixed` says (Dirichlet condition), every other
+/// one at the weighted mean of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
 ///
-/// The weights are those of the cotangent Laplacian, `w_ij = (cot a + cot b) / 2`. A weight that is not positive is replaced by
-/// the mean of the edge's two mean value weights, which is positive. `None` if a vertex is connected to no boundary, or if two
-/// vertices coincide.
+/// The weights are those of the cotangent Laplacian, `w_ij = (cot a + cot b) / 2`. A weight that is not positive is
+/// replaced by the mean of the edge's two mean value weights, which is positive. `None` if a vertex is connected to no
+/// boundary, or if two vertices coincide.
 #[must_use]
 pub fn map(positions: &[V3], triangles: &[[usize; 3]], fixed: &BTreeMap<usize, V2>) -> Option<Vec<V2>> {
     let mut row = vec![usize::MAX; positions.len()];

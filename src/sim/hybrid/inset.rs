@@ -1,7 +1,7 @@
 //! Insets of the body, ring by ring: the distance by which it must shrink for the garment to close on it.
 //!
-//! A bust stretches the front and leaves the back slack. The pattern is too small only where the body inside a ring has a
-//! greater girth than the ring's cloth. There the body counts as smaller all round, by as much as the ring needs.
+//! A bust stretches the front and leaves the back slack. The pattern is too small only where the body inside a ring has
+//! a greater girth than the ring's cloth. There the body counts as smaller all round, by as much as the ring needs.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +12,15 @@ use geom::{TriMesh, V2, V3};
 
 geom::constants! {
     "hybrid.inset",
-    /// Share of the inset that the stretch of a ring asks for, by which it is corrected at once.
+    /// Gain of a correction: the share applied of the inset that the stretch of a ring asks for.
     const GAIN: f64 = 0.3;
-    /// Inset that a ring may come to need in addition to the judged one, m. A tape is straighter than the body, the cloth beside
-    /// a ring pulls at it, and over a bust the front is tight before the back is.
+    /// Inset that a ring may come to need in addition to the judged one, m. A tape is straighter than the body, the
+    /// cloth beside a ring pulls at it, and over a bust the front is tight before the back is.
     const DOUBT_M: f64 = 20e-3;
     /// Least inset of a ring that was too small once, m: it may become too small again.
     const LEAST_INSET_M: f64 = 1e-6;
-    /// Growth of a ring's inset between two judgements, m, for a garment that hangs from the shoulders and does not slide.
+    /// Growth of a ring's inset between two judgements, m, for a garment that hangs from the shoulders and does not
+    /// slide.
     const SLIP_M: f64 = 4e-3;
     /// The same for a garment that only its rings hold up, m: with more it would slide over wider parts of the body.
     const SLIP_ON_HIPS_M: f64 = 1e-3;
@@ -27,8 +28,8 @@ geom::constants! {
     const FADE: f64 = 0.1;
     /// Greatest difference of the insets of neighbouring rings, m.
     const STEEPEST_M: f64 = 6e-3;
-    /// Greatest lack of a ring, as a share of its length. A greater one compares it with another part of the body, as the trunk
-    /// together with an arm.
+    /// Greatest lack of a ring, as a share of its length. A greater one compares it with another part of the body, as
+    /// the trunk together with an arm.
     const MOST_LACK: f64 = 0.5;
 }
 
@@ -56,8 +57,8 @@ pub struct Fit {
 }
 
 impl Insets {
-    /// Judges which rings are too small, and by how much. Positions `x` are in m; `is_hung` is true of a garment that hangs from
-    /// the shoulders.
+    /// Judges which rings are too small, and the insets that they need. Positions `x` are in m; `is_hung` is true of a
+    /// garment that hangs from the shoulders.
     #[must_use]
     pub fn judged(lines: Rings, body: &TriMesh, x: &[V3], fit: Fit, is_hung: bool) -> Self {
         let Rings { rings, beside } = lines;
@@ -68,8 +69,8 @@ impl Insets {
         insets
     }
 
-    /// Judges again after the cloth has slid. A ring that was large enough at first does not count as too small where it slides
-    /// over a wider part of the body: that part holds it up.
+    /// Judges again after the cloth has slid. A ring that was large enough at first does not count as too small where
+    /// it slides over a wider part of the body: that part holds it up.
     pub fn judge_again(&mut self, body: &TriMesh, x: &[V3], fit: Fit) {
         let lacks = self.lacks(body, x, fit);
         for ((now, most), lack) in self.now_m.iter_mut().zip(&mut self.most_m).zip(lacks) {
@@ -116,8 +117,8 @@ impl Insets {
         }
     }
 
-    /// Inset at each sewn vertex, m: the greatest of its own, those of its rings, and those of other vertices less [`FADE`] times
-    /// the distance over the cloth. `sides` are the cloth's edges with their lengths in the pattern, m.
+    /// Inset at each sewn vertex, m: the greatest of its own, those of its rings, and those of other vertices less
+    /// [`FADE`] times the distance over the cloth. `sides` are the cloth's edges with their lengths in the pattern, m.
     #[must_use]
     pub fn of_vertices(&self, own_m: Vec<f64>, sides: &[([usize; 2], f64)]) -> Vec<f64> {
         let mut insets = own_m;
@@ -141,8 +142,8 @@ impl Insets {
     }
 }
 
-/// Girth of the parts of the body inside a ring, m. A part is inside if it contains the ring's middle or has its own middle
-/// within the ring, as both legs have in a skirt. `None` where no part is.
+/// Girth of the parts of the body inside a ring, m. A part is inside if it contains the ring's middle or has its own
+/// middle within the ring, as both legs have in a skirt. `None` where no part is.
 fn inside_m(body: &TriMesh, ring: &Ring, x: &[V3]) -> Option<f64> {
     let plane = ring.plane(x)?;
     let line = Outline { points: ring.points(x).map(|p| plane.project(p)).collect(), closed: true };

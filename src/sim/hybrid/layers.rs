@@ -42,10 +42,11 @@ impl Layers {
         Self { edges, triangles: triangles.to_vec() }
     }
 
-    /// Moves vertices `x` (m) until no edge pierces a triangle, in at most `rounds`; ends with the fewest crossings that it found.
+    /// Moves vertices `x` (m) until no edge pierces a triangle, in at most `rounds`; ends with the fewest crossings
+    /// that it found.
     ///
-    /// The end of an edge that has passed through less far goes back, and the triangle moves half of the way towards it. As cloth
-    /// moves little between two separations, that is the end on the wrong side.
+    /// The end of an edge that has passed through less far goes back, and the triangle moves half of the way towards
+    /// it. As cloth moves little between two separations, that is the end on the wrong side.
     pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
         let mut pierced = intersections(x, self.edges.pairs(), &self.triangles);
         if pierced.is_empty() {

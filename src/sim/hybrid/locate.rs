@@ -37,7 +37,8 @@ impl<'a> Locator<'a> {
         [0, 1].map(|k| (((p[k] - self.low[k]) / self.cell).max(0.0) as usize).min(self.count[k] - 1))
     }
 
-    /// The triangle that contains a point, or the nearest of those about it, with barycentric weights clamped to be not negative.
+    /// The triangle that contains a point, or the nearest of those about it, with barycentric weights clamped to be not
+    /// negative.
     #[must_use]
     pub fn locate(&self, p: V2) -> Option<(usize, [f64; 3])> {
         let [column, row] = self.bucket(p);

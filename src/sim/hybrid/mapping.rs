@@ -1,9 +1,9 @@
 //! Phase 1: every piece onto the surface of the form (5.2).
 //!
-//! Features, then shortest paths between them, then the patch that the paths bound. Patch and piece are both mapped harmonically
-//! onto a disc (a convex polygon on the unit circle) and thereby onto each other (cross-parameterisation, 5.2.3). The thesis maps
-//! the patch onto the pattern. Armholes and necks are concave, though, and a harmonic map onto a concave domain may fold. Onto a
-//! disc it is bijective.
+//! Features, then shortest paths between them, then the patch that the paths bound. Patch and piece are both mapped
+//! harmonically onto a disc (a convex polygon on the unit circle) and thereby onto each other (cross-parameterisation,
+//! 5.2.3). The thesis maps the patch onto the pattern. Armholes and necks are concave, though, and a harmonic map onto
+//! a concave domain may fold. Onto a disc it is bijective.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,8 @@ use pattern::{Garment, PieceMesh, Role};
 
 geom::constants! {
     "hybrid.mapping",
-    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
+    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its
+    /// middle.
     pub const PATH_POINTS: usize = 9;
     /// Cosine beyond which a face looks away from a piece's side, and the piece does not run over it.
     const AWAY: f64 = 0.4;
@@ -77,8 +78,8 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     Ok(OnForm { positions, flips, patches })
 }
 
-/// The features of a piece with their nodes of the path graph. A feature on the node of the one before is left out, as at the
-/// sides of a waist that miss each other by a millimetre.
+/// The features of a piece with their nodes of the path graph. A feature on the node of the one before is left out, as
+/// at the sides of a waist that miss each other by a millimetre.
 fn on_nodes(graph: &PathGraph, mut piece: Mapped) -> (Mapped, Vec<usize>) {
     let nodes: Vec<usize> = piece.features.iter().map(|f| graph.nearest(&f.place, |_| true).unwrap_or(0)).collect();
     let n = nodes.len();
@@ -93,8 +94,16 @@ struct Outline {
     nodes: Vec<usize>,
     /// Place of each node on the circle, as a share of the whole turn.
     turns: Vec<f64>,
-    /// Boundary vertices of the piece with their places in the common domain and on the form, m.
-    boundary: Vec<(usize, V2, V3)>,
+    boundary: Vec<OnBoundary>,
+}
+
+/// A boundary vertex of a piece.
+struct OnBoundary {
+    vertex: usize,
+    /// Place in the common domain.
+    domain: V2,
+    /// Place on the form, m.
+    place: V3,
 }
 
 /// Paths on the form. Each is searched once: the two sides of a seam share it.
@@ -150,8 +159,8 @@ impl<'a> Paths<'a> {
         Ok(outline)
     }
 
-    /// Finds the paths of the seams that a piece has with itself before all others. An underarm seam leaves the trunk between
-    /// the two halves of its armhole, whose paths must not meet above it.
+    /// Finds the paths of the seams that a piece has with itself before all others. An underarm seam leaves the trunk
+    /// between the two halves of its armhole, whose paths must not meet above it.
     fn find_underarms(&mut self, garment: &Garment, pieces: &[Mapped], partners: &BTreeMap<[usize; 2], usize>) {
         for (piece, mapped) in pieces.iter().enumerate() {
             for (k, feature) in mapped.features.iter().enumerate() {
@@ -250,7 +259,8 @@ impl Outline {
             let t = (along - arcs[k - 1]) / (arcs[k] - arcs[k - 1]).max(f64::MIN_POSITIVE);
             // On the chord between two nodes, so that patch and piece have the same polygon as domain.
             let turn = |node: usize| on_circle(done + share * arcs[node] / whole);
-            self.boundary.push((*vertex, turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t)));
+            let (domain, place) = (turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t));
+            self.boundary.push(OnBoundary { vertex: *vertex, domain, place });
         }
     }
 }
@@ -288,7 +298,7 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, l
     let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
-    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
+    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|p| (p.vertex - first, p.domain)).collect();
     let domain = harmonic::map(&flat, &triangles, &fixed)?;
     let locator = Locator::new(&surface, &patch.mesh.triangles);
     for (v, place) in piece.vertices.clone().zip(domain) {
@@ -297,13 +307,14 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, l
         laid.x[v] = a * weights[0] + b * weights[1] + c * weights[2];
         laid.outwards[v] = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(V3::zeros);
     }
-    for &(v, _, place) in &outline.boundary {
-        laid.x[v] = place;
+    for &OnBoundary { vertex, place, .. } in &outline.boundary {
+        laid.x[vertex] = place;
     }
     Some(())
 }
 
-/// Places the pieces as cut where the joined ones lie, continues them onto the others, and turns flipped triangles back.
+/// Places the pieces as cut where the joined ones lie, continues them onto the others, and turns flipped triangles
+/// back.
 fn spread(garment: &Garment, assembly: &Assembly, laid: &Laid) -> Result<(Vec<V3>, usize), SimError> {
     let mut positions: Vec<V3> = assembly.vertex_of.iter().map(|v| v.map_or_else(V3::zeros, |v| laid.x[v])).collect();
     continuation::place(garment, &assembly.followers, &mut positions)?;

@@ -1,7 +1,7 @@
 //! Hybrid-GS (chapter 5): geometry first, then physics; the pattern's size is kept on any body.
 //!
-//! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`welded_mesh`] joins them, [`popup`]
-//! gives them back their size, and a short drape lets them come to rest on the fine mesh.
+//! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`welded_mesh`] joins them,
+//! [`popup`] gives them back their size, and a short drape lets them come to rest on the fine mesh.
 
 mod assemble;
 mod continuation;
@@ -86,7 +86,7 @@ geom::constants! {
     const JUDGE_EVERY: u32 = 20;
     /// Number of last steps after each of which cloth that is large enough is lifted out of the body.
     const LIFTS: u32 = 3;
-    /// Steps by which the drape goes on after layers were separated, and how often it does so at most.
+    /// Steps by which the drape goes on after layers were separated, and the greatest number of times that it does so.
     const AGAIN: u32 = 6;
     const MOST_AGAIN: u32 = 2;
     /// Mean error of the measurements above which a garment has not got its size.
@@ -100,7 +100,8 @@ geom::constants! {
 /// Results of the phases, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
 pub struct Phases {
-    /// The garment on the form, piece by piece; `None` where it cannot be mapped. It may have been drawn together all the same.
+    /// The garment on the form, piece by piece; `None` where it cannot be mapped. It may have been drawn together all
+    /// the same.
     pub mapped: Option<OnForm>,
     /// The drape; its earlier stages are the garment sewn, smoothed and lifted off the body, and popped up.
     pub drape: Drape,
@@ -108,9 +109,10 @@ pub struct Phases {
 
 /// Dresses a body in a garment.
 ///
-/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. A garment whose corners have features
-/// on the body is mapped onto it by these. Any other garment, and one whose drape has a fault, is drawn together about the
-/// body on the mesh before the last (`draw`). The first drape without a fault is taken, failing that the best.
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. A garment whose corners have
+/// features on the body is mapped onto it by these. Any other garment, and one whose drape has a fault, is drawn
+/// together about the body on the mesh before the last (`draw`). The first drape without a fault is taken, failing that
+/// the best.
 ///
 /// # Errors
 /// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.
@@ -204,9 +206,9 @@ struct Reshaping<'a, 'r, 'm> {
 impl Trial for Reshaping<'_, '_, '_> {
     type Way = Start;
 
-    /// Depth counts for nothing: cloth that is too small keeps its size and lies inside the body. Rest comes first: it is
-    /// measured by movement, and cloth that moves by a millimetre in a step is still sliding. Its crossings and lengths are
-    /// not those that it would come to rest with.
+    /// Depth counts for nothing: cloth that is too small keeps its size and lies inside the body. Rest comes first: it
+    /// is measured by movement, and cloth that moves by a millimetre in a step is still sliding. Its crossings and
+    /// lengths are not those that it would come to rest with.
     const CRITERIA: Criteria = Criteria { depth_m: 0.0, length_error: OFF, is_rest_first: true };
 
     fn put_on(&mut self, way: &Start) -> Result<Drape, SimError> {
@@ -232,8 +234,8 @@ impl Trial for Reshaping<'_, '_, '_> {
 }
 
 impl Reshaping<'_, '_, '_> {
-    /// Draws the pieces together about the body on the mesh before the last. Where their seams stay open on it, does so on the
-    /// coarsest: fewer vertices are caught by less.
+    /// Draws the pieces together about the body on the mesh before the last. Where their seams stay open on it, does so
+    /// on the coarsest: fewer vertices are caught by less.
     fn drawn(&mut self) -> Result<Sewn, SimError> {
         let Dressing { wearer, layer, .. } = self.dressing;
         let (garments, fabric, garment) = (layer.garments, layer.fabric, self.garment);
@@ -251,7 +253,8 @@ impl Reshaping<'_, '_, '_> {
         }
     }
 
-    /// Pop-up and drape of a sewn garment. With care no cloth goes through cloth, and the body gives way to all tight cloth.
+    /// Pop-up and drape of a sewn garment. With care no cloth goes through cloth, and the body gives way to all tight
+    /// cloth.
     fn dress(&mut self, sewn: &Sewn, takes_care: bool) -> Result<Drape, SimError> {
         let Dressing { wearer: Wearer { body, field }, skin, layer } = self.dressing;
         let (garment, params) = (self.garment, self.params);
@@ -324,8 +327,8 @@ struct Simulation<'a> {
 }
 
 impl Simulation<'_> {
-    /// Phase 4: lets the cloth slide and come to rest. A garment that its weight draws off the body is laid on it again without
-    /// weight.
+    /// Phase 4: lets the cloth slide and come to rest. A garment that its weight draws off the body is laid on it again
+    /// without weight.
     fn drape(
         &mut self,
         relaxation: &mut Relaxation,

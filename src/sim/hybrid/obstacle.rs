@@ -1,4 +1,5 @@
-//! The body as an obstacle: its distance field with an offset from the skin, and with insets where the garment cannot close.
+//! The body as an obstacle: its distance field with an offset from the skin, and with insets where the garment cannot
+//! close.
 
 use geom::{DistanceField, V3};
 

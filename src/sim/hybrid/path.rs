@@ -1,4 +1,5 @@
-//! Approximate geodesics on a coarse surface (5.2.2): shortest paths over its vertices and points set evenly on its edges.
+//! Approximate geodesics on a coarse surface (5.2.2): shortest paths over its vertices and points set evenly on its
+//! edges.
 //!
 //! Within a face a path runs straight from any side to any other, so that even a coarse mesh has nearly geodesic paths.
 
@@ -19,8 +20,8 @@ pub struct PathGraph<'a> {
     faces_of_vertex: Vec<Vec<usize>>,
 }
 
-/// Obstacles for later paths: the nodes of earlier paths and their chords through faces. Paths that divide a surface into
-/// patches meet in their ends only.
+/// Obstacles for later paths: the nodes of earlier paths and their chords through faces. Paths that divide a surface
+/// into patches meet in their ends only.
 #[derive(Clone, Debug, Default)]
 pub struct Taken {
     nodes: BTreeSet<usize>,
@@ -178,8 +179,8 @@ impl<'a> PathGraph<'a> {
         self.search(from, to, |_| true, |_| 0.0, &Taken::default())
     }
 
-    /// The fast, oriented search (5.2.2): A* over the faces that the piece can touch, clear of taken paths. The straight distance
-    /// to the goal is the lower bound of the length left.
+    /// The fast, oriented search (5.2.2): A* over the faces that the piece can touch, clear of taken paths. The
+    /// straight distance to the goal is the lower bound of the length left.
     #[must_use]
     pub fn shortest_within(
         &self,
@@ -239,8 +240,8 @@ impl<'a> PathGraph<'a> {
         None
     }
 
-    /// Calls `visit` for the nodes that a path can go to from `node` within a face: the next ones along its own sides, all on the
-    /// others.
+    /// Calls `visit` for the nodes that a path can go to from `node` within a face: the next ones along its own sides,
+    /// all on the others.
     fn for_neighbours(&self, face: usize, node: usize, mut visit: impl FnMut(usize)) {
         let vertices = self.mesh.positions.len();
         let t = self.mesh.triangles[face];

@@ -1,5 +1,5 @@
-//! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible and
-//! with every measurement of the style under control.
+//! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible
+//! and with every measurement of the style under control.
 
 use std::cmp::Ordering;
 
@@ -50,8 +50,8 @@ pub struct Cloth<'a> {
     pub sewn: &'a Sewn,
 }
 
-/// Pops a garment up with one of the backends. Calls `each` with it and the rms movement (m) after every step, which may end it
-/// early with an error. `error` gives the signed mean error of the garment's size.
+/// Pops a garment up with one of the backends. Calls `each` with it and the rms movement (m) after every step, which
+/// may end it early with an error. `error` gives the signed mean error of the garment's size.
 ///
 /// # Errors
 /// Those of `each`.
@@ -83,10 +83,11 @@ pub fn reconstruct<E>(
 
 /// Pops up as rigid as possible.
 ///
-/// Triangles and controls grow from the size at which they were sewn to that of the pattern in equal steps. Until then the body
-/// keeps its size and pushes the cloth out, or sleeves would swing through the arms while they grow. After that it yields where
-/// the garment is too small. A step may overshoot the size by its momentum or by the softness of the controls, or lead away from
-/// it. Such a step is repeated with corrected lengths of the controls, by the secant method.
+/// Triangles and controls grow from the size at which they were sewn to that of the pattern in equal steps. Until then
+/// the body keeps its size and pushes the cloth out, or sleeves would swing through the arms while they grow. After
+/// that it yields where the garment is too small. A step may overshoot the size by its momentum or by the softness of
+/// the controls, or lead away from it. Such a step is repeated with corrected lengths of the controls, by the secant
+/// method.
 fn rigid<E>(
     cloth: Cloth,
     relaxation: &mut Relaxation,

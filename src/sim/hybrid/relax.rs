@@ -1,8 +1,8 @@
 //! Steps of a sewn garment on a body, under its own elasticity, gravity and contact.
 //!
-//! Contact pushes the cloth out of the body. Where a ring of cloth is too small to close round the body, the body counts as
-//! smaller, all round by as much as the ring needs. There the cloth keeps its size and lies inside the body by an even depth.
-//! Where the pattern is large enough the cloth lies outside.
+//! Contact pushes the cloth out of the body. Where a ring of cloth is too small to close round the body, the body
+//! counts as smaller, all round by as much as the ring needs. There the cloth keeps its size and lies inside the body
+//! by an even depth. A garment that is large enough lies outside.
 
 use super::elastic::{Controls, Elastic, Pull};
 use super::girth_lines::rings;
@@ -26,12 +26,13 @@ use pattern::{Garment, Measurement};
 pub struct RelaxParams {
     /// Distance from the skin at which cloth is pushed, m.
     pub offset_m: f64,
-    /// Membrane stiffness by which gravity and bending are divided, N/m. Higher than that of any cloth at rest, to keep the size.
+    /// Membrane stiffness by which gravity and bending are divided, N/m. Higher than that of any cloth at rest, to keep
+    /// the size.
     pub stiffness_n_m: f64,
     /// Weight of contact per area and over the stiffness, 1/m2.
     pub contact: f64,
-    /// Weight of firm contact at the end, over the stiffness with which its neighbours hold a vertex. With it the cloth slides no
-    /// more, as under friction.
+    /// Weight of firm contact at the end, over the stiffness with which its neighbours hold a vertex. With it the cloth
+    /// slides no more, as under friction.
     pub firm_contact: f64,
     /// Weight of the last place of a vertex without contact, likewise; it bounds the length of a step.
     pub hold: f64,
@@ -41,8 +42,8 @@ pub struct RelaxParams {
     pub yield_stretch: f64,
     /// Least bending rigidity, N m: it keeps folds wider than the mesh's edges.
     pub least_bending_nm: f64,
-    /// Share of the last step's displacement with which the next one begins (momentum). Slow modes, such as the forward motion of
-    /// a whole front, then take a few steps instead of dozens.
+    /// Share of the last step's displacement with which the next one begins (momentum). Slow modes, such as the forward
+    /// motion of a whole front, then take a few steps instead of dozens.
     pub momentum: f64,
     /// Steps between two updates of the contacts.
     pub refresh: u32,
@@ -327,7 +328,8 @@ impl<'a> Relaxation<'a> {
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
     }
 
-    /// Moves towards `goal` as far as the contact of the cloth with itself allows, in legs between which contacts are sought.
+    /// Moves towards `goal` as far as the contact of the cloth with itself allows, in legs between which contacts are
+    /// sought.
     fn go_to(&mut self, goal: &[V3]) {
         let Some(contact) = &mut self.self_contact else {
             self.x.copy_from_slice(goal);

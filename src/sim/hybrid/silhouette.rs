@@ -1,4 +1,5 @@
-//! Pop-up by pyramid coordinates: the free edges first, by silhouette and length (5.4, 5.5), then the cloth between them.
+//! Pop-up by pyramid coordinates: the free edges first, by silhouette and length (5.4, 5.5), then the cloth between
+//! them.
 
 use super::pyramid::Pyramids;
 use super::welded_mesh::Sewn;
@@ -57,7 +58,8 @@ impl Silhouette {
         }
     }
 
-    /// One step from `x` (m), in which edges and lengths change by `share` of their difference from those of the pattern.
+    /// One step from `x` (m), in which edges and lengths change by `share` of their difference from those of the
+    /// pattern.
     #[must_use]
     pub fn step(&self, x: &[V3], share: f64) -> Vec<V3> {
         let mut now = x.to_vec();

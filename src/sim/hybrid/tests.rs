@@ -213,7 +213,8 @@ fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
     assert!(error.contains("cannot place role Skirt") && error.contains("over legs"), "{error}");
 }
 
-/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its sides.
+/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its
+/// sides.
 #[test]
 fn sides_need_not_meet() {
     for name in ["js_mean_all", "dress_pencil", "shirt_mean"] {
@@ -273,8 +274,8 @@ fn the_fast_search_finds_the_path_of_the_full_one() {
 
 #[test]
 fn a_trouser_back_is_not_led_over_the_front_of_the_leg() {
-    // Figure 5-11: the shortest way between the two seams of a leg piece may run over the wrong side of the leg. On this
-    // body it always runs over the front, which is right for a front and wrong for a back.
+    // Figure 5-11: the shortest way between the two seams of a leg piece may run over the wrong side of the leg. On
+    // this body it always runs over the front, which is right for a front and wrong for a back.
     let form = Form::legs(&SLIM);
     let normals = form.mesh.triangle_normals();
     let graph = PathGraph::new(&form.mesh, 3);

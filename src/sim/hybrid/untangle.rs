@@ -14,15 +14,16 @@ geom::constants! {
     const CORRECTIONS: usize = 20;
     /// Height of a triangle over its base from which on it counts as not flipped.
     const LEAST_HEIGHT: f64 = 0.1;
-    /// Displacement of a vertex over its violation of a constraint: a little over 1, so that rounding leaves no violation.
+    /// Displacement of a vertex over its violation of a constraint: a little over 1, so that rounding leaves no
+    /// violation.
     const OVER: f64 = 1.01;
 }
 
 /// Turns flipped triangles of a sheet back; returns how many are left.
 ///
-/// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both harmonic maps are bijective, but only the
-/// vertices of a piece are mapped. So a triangle may turn over where the surface bends, or where the corner of an outline is
-/// wider on the body than in the pattern. Vertices are relaxed towards the half-planes of their kernel
+/// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both harmonic maps are bijective, but only
+/// the vertices of a piece are mapped. So a triangle may turn over where the surface bends, or where the corner of an
+/// outline is wider on the body than in the pattern. Vertices are relaxed towards the half-planes of their kernel
 /// [Motzkin & Schoenberg 1954]. Those of a seam move as one, so that no seam opens.
 pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usize {
     let mut around = vec![Vec::new(); x.len()];

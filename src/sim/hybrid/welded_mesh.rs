@@ -59,7 +59,7 @@ impl Sewn {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Smooths the free edges (5.3) by so many steps of explicit Laplacian smoothing.
+    /// Smooths the free edges (5.3) by a number of steps of explicit Laplacian smoothing.
     pub fn smooth(&mut self, times: u32) {
         for ring in &self.loops {
             let n = ring.len();

@@ -1,10 +1,10 @@
 //! Outfits: several garments on one body, the inner first.
 //!
-//! Each garment is draped alone over the body with the inner layers on, which then count as solid ([`dressed`]). An outer
-//! garment may be tighter than the inner one hangs, as trousers over a shirt, and the inner one would stand in its way. The
-//! outer garment is therefore first draped on a body that leaves room for the inner layers. These are drawn within it
-//! ([`Cover`]), and then it is draped over them. At last all layers come to rest together, in contact with the body and with
-//! each other.
+//! Each garment is draped alone over the body with the inner layers on, which then count as solid ([`dressed`]). An
+//! outer garment may be tighter than the inner one hangs, as trousers over a shirt, and the inner one would stand in
+//! its way. The outer garment is therefore first draped on a body that leaves room for the inner layers. These are
+//! drawn within it ([`Cover`]), and then it is draped over them. At last all layers come to rest together, in contact
+//! with the body and with each other.
 
 mod solid;
 mod tuck;

@@ -21,9 +21,9 @@ geom::constants! {
     const TO_CORNER: f64 = 0.9;
 }
 
-/// A body with layers on it, their vertices at `positions`, as a body of its own with its distance field. The field has the
-/// nodes of the body's own and more. All space between cloth and skin is solid, and so are `beyond_m` outside the cloth, m. A
-/// single layer of cloth is resolved where that is no less than the field's spacing.
+/// A body with layers on it, their vertices at `positions`, as a body of its own with its distance field. The field has
+/// the nodes of the body's own and more. All space between cloth and skin is solid, and so are `beyond_m` outside the
+/// cloth, m. A single layer of cloth is resolved where that is no less than the field's spacing.
 ///
 /// # Errors
 /// When the layers have no triangle, or the solid cannot be built.
@@ -43,7 +43,8 @@ pub fn dressed(
     let changes: Vec<(usize, f64)> =
         outside.map(|(node, p, bare_m)| (node, bare_m.min(about.signed_m(p) - beyond_m))).collect();
     let mesh = field.with(changes.into_iter()).surface();
-    // Inside, the nodes have the sign and no distance yet. Cloth that starts there needs a gradient to find the way out.
+    // Inside, the nodes have the sign and no distance yet. Cloth that starts there needs a gradient to find the way
+    // out.
     let field = DistanceField::build(&mesh, field.spacing_m()).map_err(SimError::Solid)?;
     let is_on_trunk = |role: Role| !matches!(role, Role::SleeveRight | Role::SleeveLeft);
     let on_trunk = self::cloth(layers, positions, is_on_trunk)?;

@@ -16,8 +16,8 @@ geom::constants! {
     const LIES: f64 = 1.0;
 }
 
-/// Draws layers from `positions`, m, within a cover; returns the positions of each layer. Layers of which nothing lies beyond
-/// the cover stay as they are.
+/// Draws layers from `positions`, m, within a cover; returns the positions of each layer. Layers of which nothing lies
+/// beyond the cover stay as they are.
 ///
 /// # Errors
 /// When a mesh is degenerate, or the monitor cancels.

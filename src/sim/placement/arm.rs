@@ -1,4 +1,5 @@
-//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about the arm.
+//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about
+//! the arm.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -40,8 +41,8 @@ pub struct Sleeve {
 }
 
 impl Sleeve {
-    /// The pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Other sleeve pieces are
-    /// placed later by the pieces that they are sewn to.
+    /// The pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Other sleeve
+    /// pieces are placed later by the pieces that they are sewn to.
     pub fn new(form: &Form, joins: &Joins, hand: Hand) -> Self {
         let role = if hand > 0.0 { Role::SleeveRight } else { Role::SleeveLeft };
         let trunk = [joins.worn_as(&FRONTS), joins.worn_as(&BACKS)];
@@ -93,8 +94,8 @@ impl Sleeve {
     }
 }
 
-/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back; with the initial
-/// radius of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
+/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back; with the
+/// initial radius of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
 fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
     let elbow = Station { height: axis.coordinates(&elbow).height, beside: V3::zeros(), radius };

@@ -1,8 +1,8 @@
 //! Pieces placed by those that they are sewn to: waistbands, cuffs, collars, hoods, pockets.
 //!
-//! The places of their partners are unrolled about the limb. The least-squares similarity that takes the piece's seam to them
-//! gives the piece its rotation, its place and its bend. A godet, both sides of which are sewn into one slit, is folded outwards
-//! there.
+//! The places of their partners are unrolled about the limb. The least-squares similarity that takes the piece's seam
+//! to them gives the piece its rotation, its place and its bend. A godet, both sides of which are sewn into one slit,
+//! is folded outwards there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,12 +17,14 @@ geom::constants! {
     const CLEARANCE_M: f64 = 0.012;
     /// Share of the room round a limb that a piece may take.
     const ROUND: f64 = 0.97;
-    /// Sideways scale from a piece's seams to its partners', over the upward scale, below which they are the sides of a slit.
+    /// Sideways scale from a piece's seams to its partners', over the upward scale, below which they are the sides of a
+    /// slit.
     const SLIT: f64 = 0.4;
-    /// Least mean square of the height of such seams over that of their breadth; the second where the slit is taller than broad.
+    /// Least mean square of the height of such seams over that of their breadth; the second where the slit is taller
+    /// than broad.
     const UPRIGHT: [f64; 2] = [0.1, 0.01];
-    /// Squared residual of the similarity of a piece's mirrored seams to its partners, over that of the seams as they are, below
-    /// which the piece is their other half.
+    /// Squared residual of the similarity of a piece's mirrored seams to its partners, over that of the seams as they
+    /// are, below which the piece is their other half.
     const OTHER_HALF: f64 = 0.5;
     /// Least share of its width that a piece in a slit takes sideways.
     const OPEN: f64 = 0.2;
@@ -47,7 +49,8 @@ impl Follower {
         sin.atan2(cos)
     }
 
-    /// Angle that it may take to either side, rad: half a turn, or half the angle to the nearest of the pieces beside it.
+    /// Angle that it may take to either side, rad: half a turn, or half the angle to the nearest of the pieces beside
+    /// it.
     pub fn room_rad(&self, beside: &[Self], placed: &[V3]) -> f64 {
         let others = beside.iter().filter(|other| other.piece != self.piece && other.limb == self.limb);
         let apart = |other: &Self| {
@@ -97,8 +100,8 @@ pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
     is_only_partner && sides.are_a_slit && !is_other_half(&own, &goal)
 }
 
-/// True if places are the mirror image of their partners, as for front and back of a skirt. Along the two sides of a slit they
-/// are both a mirror image and a rotated one.
+/// True if places are the mirror image of their partners, as for front and back of a skirt. Along the two sides of a
+/// slit they are both a mirror image and a rotated one.
 fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
     let error = |own: &[V2]| {
         let fit = Similarity::of(own, goal);

@@ -1,8 +1,9 @@
 //! Pieces that are folded onto the garment along their seam: lapels, collars that are turned down.
 //!
-//! Both sides of such a seam run the same way round. Sewn together with all other pieces it would slip under a shoulder seam
-//! that is still open. The garment is therefore sewn without it. The piece then begins turned up, as a continuation of the
-//! sewn cloth beyond the seam. If it began folded, flat on the cloth, it would end within that cloth.
+//! Both sides of such a seam run the same way round. Sewn together with all other pieces it would slip under a shoulder
+//! seam that is still open. The garment is therefore sewn without it. The piece then begins turned up, as a
+//! continuation of the sewn cloth beyond the seam. If it began folded, flat on the cloth, it would end within that
+//! cloth.
 
 use std::collections::BTreeSet;
 
@@ -66,7 +67,8 @@ fn over(p: V2) -> V2 {
     V2::new(-p.x, p.y)
 }
 
-/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes on.
+/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes
+/// on.
 fn above(rest: &[V2], triangles: &[[usize; 3]], p: V2, x: &[V3]) -> Option<V3> {
     let flat = |p: V2| V3::new(p.x, p.y, 0.0);
     let distance = |corners: &[usize; 3]| {

@@ -1,9 +1,10 @@
 //! Trouser legs: front and back of a leg about the leg, row by row, their upper part about that half of the body.
 //!
-//! Rows below the fork (the lower end of the centre seam) go round the leg: from its outside over the front (or back) to
-//! its inside. Rows well above it go round half the body: from its side to the median plane. The rows between are blended from
-//! one to the other. A row takes its whole half ring, so that all seams start nearly closed. Where a leg would reach below the
-//! instep, its front is drawn up there, as when one puts trousers on. Otherwise the toes would start outside the cloth.
+//! Rows below the fork (the lower end of the centre seam) go round the leg: from its outside over the front (or back)
+//! to its inside. Rows well above it go round half the body: from its side to the median plane. The rows between are
+//! blended from one to the other. A row takes its whole half ring, so that all seams start nearly closed. Where a leg
+//! would reach below the instep, its front is drawn up there, as when one puts trousers on. Otherwise the toes would
+//! start outside the cloth.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -139,7 +140,8 @@ impl<'a> Leg<'a> {
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
     }
 
-    /// Side of a point of a sheet, 1 in front or -1 behind, and its share of the way from the outside of the leg to its inside.
+    /// Side of a point of a sheet, 1 in front or -1 behind, and its share of the way from the outside of the leg to its
+    /// inside.
     fn side_and_inwards(&self, face: &LegFace, p: V2) -> (f64, f64) {
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
         let share = |from: f64| if high > low { (from / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
@@ -154,8 +156,8 @@ impl<'a> Leg<'a> {
         }
     }
 
-    /// Initial height of a point that would lie at `height` if its leg hung straight; `sin` is the sine of its angle from the
-    /// side. The front of a leg that is too long is drawn up over the instep; its lower half shrinks evenly.
+    /// Initial height of a point that would lie at `height` if its leg hung straight; `sin` is the sine of its angle
+    /// from the side. The front of a leg that is too long is drawn up over the instep; its lower half shrinks evenly.
     fn above_instep(&self, face: &LegFace, side: f64, height: f64, sin: f64) -> f64 {
         let instep = INSTEP_M.min(self.crotch_m());
         let hem = self.crotch_m() + face.hem - face.fork;

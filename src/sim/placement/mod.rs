@@ -1,8 +1,8 @@
 //! Automatic placement, the preposition of 4.2: every piece before, behind or about the limb that it is worn on.
 //!
-//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`layout`), then bent as one. Sleeves go
-//! about the arms. Circle skirts, their tiers, gores and pieces that are sewn to themselves go round the trunk (`tiers`,
-//! `piece_ring`, `round`). Any other piece is placed by the pieces that it is sewn to (`attachment`).
+//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`layout`), then bent as one. Sleeves
+//! go about the arms. Circle skirts, their tiers, gores and pieces that are sewn to themselves go round the trunk
+//! (`tiers`, `piece_ring`, `round`). Any other piece is placed by the pieces that it is sewn to (`attachment`).
 
 mod arm;
 mod attachment;
@@ -99,7 +99,8 @@ pub fn place(body: &Body, garment: &Garment, bend: &Bend) -> Result<Vec<V3>, Sim
 
 geom::constants! {
     "placement",
-    /// Share of a piece's seams to placed pieces that a second piece sewn to it must have, where the two are halves of one part.
+    /// Share of a piece's seams to placed pieces that a second piece sewn to it must have, where the two are halves of
+    /// one part.
     const TWIN: f64 = 0.75;
     /// Angle of the other bend, rad: that of [T] for slim bodies.
     const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
@@ -178,8 +179,8 @@ impl Placing<'_> {
         }
     }
 
-    /// Places each piece that is left by the placed pieces that it is sewn to, the longest seams first; halves that flare go
-    /// together.
+    /// Places each piece that is left by the placed pieces that it is sewn to, the longest seams first; halves that
+    /// flare go together.
     fn followers(&mut self) -> Result<(), SimError> {
         let halves = self.flared_halves();
         while let Some(open) = self.limb.iter().position(Option::is_none) {
@@ -203,9 +204,9 @@ impl Placing<'_> {
         Ok(())
     }
 
-    /// The piece not yet placed that has the longest seams to placed ones. About the trunk also a second piece that is sewn to
-    /// it and has about as long seams to them, as the other half of a hood. Placed by the first it would lie beyond it, not
-    /// beside it. The halves of a cuff are to lie so.
+    /// The piece not yet placed that has the longest seams to placed ones. About the trunk also a second piece that is
+    /// sewn to it and has about as long seams to them, as the other half of a hood. Placed by the first it would lie
+    /// beyond it, not beside it. The halves of a cuff are to lie so.
     fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());

@@ -1,8 +1,8 @@
 //! Rings of pieces about the trunk: gores, the halves of a circle skirt, a circle skirt or a tube of one piece.
 //!
-//! A ring is cut open at one seam and developed into the plane, each piece moved so that its side lies on that of the piece
-//! before. The rigid motion that takes the side at one end onto the side at the other tells the shape: a rotation about the
-//! tip of a sector, or a translation along a strip.
+//! A ring is cut open at one seam and developed into the plane, each piece moved so that its side lies on that of the
+//! piece before. The rigid motion that takes the side at one end onto the side at the other tells the shape: a rotation
+//! about the tip of a sector, or a translation along a strip.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -21,10 +21,11 @@ geom::constants! {
     const FLAT_M: f64 = 0.03;
     /// Rotation below which a motion counts as a translation, rad.
     const SHIFT_RAD: f64 = 0.05;
-    /// Displacement of a ring's middle by the motion of its ends, over the rms distance of its points from there, below which the
-    /// ring goes all round. Along a strip it is 1.5 or more.
+    /// Displacement of a ring's middle by the motion of its ends, over the rms distance of its points from there, below
+    /// which the ring goes all round. Along a strip it is 1.5 or more.
     const CLOSED: f64 = 0.5;
-    /// Displacement of points by a motion over their distance from its centre, below which the centre is poorly determined.
+    /// Displacement of points by a motion over their distance from its centre, below which the centre is poorly
+    /// determined.
     const SURE: f64 = 0.15;
     /// Weight of the ring's middle over that of a side's line in the least squares for the point where the lines meet.
     const UNSURE: f64 = 1e-3;
@@ -125,8 +126,8 @@ impl Ring {
         Self::among(joins, some, &between_pieces(joins, some))
     }
 
-    /// The same for skirts. Two pieces that are sewn to each other at both sides are a tier, and their seams to other pieces are
-    /// ignored as well.
+    /// The same for skirts. Two pieces that are sewn to each other at both sides are a tier, and their seams to other
+    /// pieces are ignored as well.
     pub fn of_tiers(joins: &Joins, some: &[usize]) -> Vec<Self> {
         let mut links = between_pieces(joins, some);
         let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.pieces).collect();
@@ -145,7 +146,8 @@ impl Ring {
         some.iter().filter_map(|&first| Self::beginning(joins, links, &ends, first)).collect()
     }
 
-    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only other.
+    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only
+    /// other.
     fn beginning(joins: &Joins, links: &[Link], ends: &BTreeMap<usize, Vec<usize>>, first: usize) -> Option<Self> {
         let two = |piece: usize| <[usize; 2]>::try_from(ends.get(&piece)?.as_slice()).ok();
         let [mut at, cut] = two(first)?;
@@ -197,7 +199,8 @@ impl Ring {
     /// The pieces of a ring of several that are all long and straight.
     fn strips(&self, joins: &Joins, in_front: &[usize]) -> Option<Vec<rows::Strip>> {
         let count = self.members.len();
-        // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that before it.
+        // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that
+        // before it.
         let cut = self.cut.iter().map(|&[a, b]| [b, a]).collect();
         let seams: Vec<&Vec<[usize; 2]>> =
             std::iter::once(&cut).chain(self.members.iter().skip(1).map(|member| &member.seam)).collect();
@@ -300,8 +303,8 @@ impl Member {
         self.motion * Point2::from(joins.garment.rest[v])
     }
 
-    /// Its vertices in polar coordinates about a tip. The angle is 0 in the piece's middle, or opposite `cut` where the piece goes
-    /// all round the tip.
+    /// Its vertices in polar coordinates about a tip. The angle is 0 in the piece's middle, or opposite `cut` where the
+    /// piece goes all round the tip.
     fn polar(&self, joins: &Joins, tip: &Point2<f64>, cut: &Point2<f64>) -> Vec<Polar> {
         let places = self.places(joins);
         let mean: V2 = places.iter().map(|(_, p)| p - tip).sum();
@@ -314,7 +317,8 @@ impl Member {
             };
             return places.iter().map(polar).collect();
         }
-        // Both sides of the cut lie where the angle jumps. The triangles of a vertex tell on which side of the cut it is.
+        // Both sides of the cut lie where the angle jumps. The triangles of a vertex tell on which side of the cut it
+        // is.
         let opposite = tip - cut;
         let mut within: BTreeMap<usize, V2> = BTreeMap::new();
         for triangle in &joins.garment.triangles[joins.garment.pieces[self.piece].triangles.clone()] {
@@ -412,8 +416,8 @@ mod tests {
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// `count` gores of a sector of an angle, an inner radius that is a little larger on the left half, and a length, cm; each is
-    /// drawn after the motion `moved`.
+    /// `count` gores of a sector of an angle, an inner radius that is a little larger on the left half, and a length,
+    /// cm; each is drawn after the motion `moved`.
     fn gores(
         count: usize,
         turn_rad: f64,

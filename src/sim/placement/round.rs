@@ -1,7 +1,8 @@
 //! Rings of pieces rolled about the trunk or another limb.
 //!
-//! A sector is rolled to the cone on which it closes, a strip to a cylinder. A ring that is too wide to fit between the arms
-//! is rolled to a steeper cone. A ring that is gathered into an edge goes in waves about a cone that begins at that edge.
+//! A sector is rolled to the cone on which it closes, a strip to a cylinder. A ring that is too wide to fit between the
+//! arms is rolled to a steeper cone. A ring that is gathered into an edge goes in waves about a cone that begins at
+//! that edge.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -26,8 +27,8 @@ geom::constants! {
     const LEAST_SPAN_RAD: f64 = 0.1;
     /// Greatest and least sine of the half angle of a cone, where a wide skirt would take more, and the steps between.
     const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
-    /// Sine of the half angle of the cone on which a sector starts, over that of the cone on which it closes without waves. On the
-    /// latter its hem would turn in.
+    /// Sine of the half angle of the cone on which a sector starts, over that of the cone on which it closes without
+    /// waves. On the latter its hem would turn in.
     const STEEPER: f64 = 0.7;
     /// Number of waves of a skirt that is wider than its cone.
     const WAVES: f64 = 8.0;
@@ -35,7 +36,8 @@ geom::constants! {
     const SAMPLES: u32 = 32;
 }
 
-/// Vertices of a ring with their places; its upper edge lies at the height `top` and no farther from the axis than `within`.
+/// Vertices of a ring with their places; its upper edge lies at the height `top` and no farther from the axis than
+/// `within`.
 pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
     let axis = form.trunk_axis();
     let unrolled = Unrolled::of(flat);
@@ -156,8 +158,8 @@ impl Unrolled {
         }
     }
 
-    /// Rolls the ring to a cone, the tip above, with a half angle of at most the sine `spread` and an upper radius of at most
-    /// `within`; in waves where the ring is longer than the cone's circle.
+    /// Rolls the ring to a cone, the tip above, with a half angle of at most the sine `spread` and an upper radius of
+    /// at most `within`; in waves where the ring is longer than the cone's circle.
     fn rolled(&self, spread: f64, within: f64) -> Vec<Rolled> {
         let upper = self.upper.min(within);
         let gathered = (self.upper - upper) / self.height.max(f64::MIN_POSITIVE);

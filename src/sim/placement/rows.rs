@@ -1,7 +1,8 @@
 //! Rings of long straight pieces, as tiers of ruffles are, laid out row by row.
 //!
-//! If their sides slant, such pieces look like parts of a sector. Laid about its tip a straight strip would become an arch, its
-//! ends far below its middle. Each height of the ring is therefore a row of its own, from side to side of every piece.
+//! If their sides slant, such pieces look like parts of a sector. Laid about its tip a straight strip would become an
+//! arch, its ends far below its middle. Each height of the ring is therefore a row of its own, from side to side of
+//! every piece.
 
 use nalgebra::Rotation2;
 
@@ -42,7 +43,8 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// A piece with the vertices that are sewn to the piece before and to the next; `None` where it is not long and straight.
+    /// A piece with the vertices that are sewn to the piece before and to the next; `None` where it is not long and
+    /// straight.
     pub fn of(joins: &Joins, piece: usize, before: &[usize], next: &[usize], is_in_front: bool) -> Option<Self> {
         let upright = Rotation2::rotation_between(&joins.up(piece, V2::y()), &V2::y());
         let turned = |v: usize| upright * joins.garment.rest[v];
@@ -122,7 +124,7 @@ mod tests {
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// Two trapezoids sewn to each other at both sides: length of the upper edge, by how much the lower one is longer at each side,
+    /// Two trapezoids sewn to each other at both sides: length of the upper edge, excess of the lower one at each side,
     /// and height, cm.
     fn tier(lengths: [f64; 2], slant: f64, height: f64) -> Garment {
         let panel = |length: f64| {

@@ -239,7 +239,8 @@ fn check_godet(half_width: f64, height: f64) {
 
 #[test]
 fn the_halves_of_a_skirt_are_no_godets() {
-    // About as wide as the sides of a skirt are long, no turn takes one half's sides nearer to the other's than another does.
+    // About as wide as the sides of a skirt are long, no turn takes one half's sides nearer to the other's than another
+    // does.
     for half_width in [20.0, 24.0, 25.0, 26.0, 30.0] {
         let half = [[-half_width, 0.0], [half_width - 2.0, 1.0], [half_width, 86.0], [1.0 - half_width, 86.0]];
         let mirrored: Vec<[f64; 2]> = half.iter().rev().map(|[x, y]| [-x, *y]).collect();
@@ -256,7 +257,8 @@ fn the_halves_of_a_skirt_are_no_godets() {
 
 #[test]
 fn halves_that_follow_stay_beside_each_other() {
-    // Two flaps on a skirt's waist, as the halves of a hood stand on a neck, each with a wing that would reach into the other.
+    // Two flaps on a skirt's waist, as the halves of a hood stand on a neck, each with a wing that would reach into the
+    // other.
     let half = [[-30.0, 0.0], [30.0, 0.0], [25.0, 60.0], [0.0, 60.0], [-25.0, 60.0]];
     let flap = [[-25.0, 0.0], [0.0, 0.0], [25.0, 0.0], [25.0, 20.0], [-65.0, 20.0], [-65.0, 0.0]];
     let panels = json!({

@@ -14,10 +14,11 @@ geom::constants! {
     "placement.tiers",
     /// Angle of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
     const WIDE_RAD: f64 = 0.35 * TAU;
-    /// Angle of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.
+    /// Angle of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half
+    /// circles.
     const FLARED_RAD: f64 = 1.0;
-    /// Length of a ring over the narrowest edge that a skirt is gathered into from which on it goes round as one. As two sheets,
-    /// strips gathered four times cannot be sewn, nor three tiers each gathered by half.
+    /// Length of a ring over the narrowest edge that a skirt is gathered into from which on it goes round as one. As
+    /// two sheets, strips gathered four times cannot be sewn, nor three tiers each gathered by half.
     const GATHERED: f64 = 1.8;
     /// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
     const NECK_M: f64 = 0.55;
@@ -81,8 +82,8 @@ impl Placing<'_> {
         wide
     }
 
-    /// Length of the edge that a ring is gathered into, m, by the seam that gathers it most; of its own upper edge where none
-    /// does.
+    /// Length of the edge that a ring is gathered into, m, by the seam that gathers it most; of its own upper edge
+    /// where none does.
     fn gathered_m(&self, ring: &Round) -> f64 {
         let Joins { garment, piece_of, .. } = &self.joins;
         let length = |seam: &SeamMesh, side: usize| {
@@ -99,8 +100,8 @@ impl Placing<'_> {
         ring.flat.inner_m() / ratios.fold(1.0, f64::max)
     }
 
-    /// Places wide rings and gores round the trunk below the pieces that they are sewn to. If no piece is placed then, the largest
-    /// of all rings goes there.
+    /// Places wide rings and gores round the trunk below the pieces that they are sewn to. If no piece is placed then,
+    /// the largest of all rings goes there.
     pub fn rings(&mut self, wide: Vec<Round>) {
         let others = self.joins.worn_as(&[Role::Other]);
         let several = self.laid_out(&Ring::of_several(&self.joins, &others));
@@ -116,14 +117,16 @@ impl Placing<'_> {
         }
     }
 
-    /// True if a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on no limb.
+    /// True if a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on
+    /// no limb.
     fn are_gores(&self, ring: &Round) -> bool {
         let partners = (0..self.limb.len()).filter(|&p| !self.joins.to_any(p, &ring.pieces).is_empty());
         let is_on_limb = partners.filter_map(|p| self.limb[p].as_ref()).any(|limb| *limb != self.about_trunk());
         ring.pieces.len() > 2 && ring.flat.inner_m() > NECK_M && !is_on_limb
     }
 
-    /// Rolls rings from the top down: next comes the ring with the longest seams to placed pieces, and of equals the narrowest.
+    /// Rolls rings from the top down: next comes the ring with the longest seams to placed pieces, and of equals the
+    /// narrowest.
     fn tiers(&mut self, mut rings: Vec<Round>) {
         while let Some(next) = (0..rings.len()).min_by(|&a, &b| {
             let rank = |k: usize| (Reverse(self.held(&rings[k], &self.about_trunk()).len()), rings[k].flat.inner_m());

@@ -15,7 +15,8 @@ geom::constants! {
     pub const CLEARANCE_M: f64 = 0.02;
     /// Room between the ends of front and back, m.
     const BETWEEN_M: f64 = 0.01;
-    /// Share of the half width within which the skin bounds the depth of the ellipse: at the sides the ellipse has no depth.
+    /// Share of the half width within which the skin bounds the depth of the ellipse: at the sides the ellipse has no
+    /// depth.
     const BOUNDING: f64 = 0.9;
     /// Share of a turn that a piece takes if it goes round the body alone.
     const ROUND: f64 = 0.95;
@@ -86,8 +87,8 @@ fn has_tops(joins: &Joins, sheet: &Sheet) -> bool {
     sheet.parts.iter().any(|part| TOPS.contains(&joins.garment.pieces[part.piece].role))
 }
 
-/// Height of the sheet's 0. The highest point of a top lies at the side neck points, or at the armpits if no seam holds it over
-/// the shoulders. The upper edge of a skirt lies at the waist.
+/// Height of the sheet's 0. The highest point of a top lies at the side neck points, or at the armpits if no seam holds
+/// it over the shoulders. The upper edge of a skirt lies at the waist.
 fn lift(form: &Form, joins: &Joins, sheet: &Sheet) -> f64 {
     let body = form.body;
     let tops = joins.worn_as(&TOPS);

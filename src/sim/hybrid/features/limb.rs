@@ -58,8 +58,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Point at which the underarm seam of a sleeve meets the trunk, the ends of the cap: at a side seam, or else interpolated
-    /// between the nearest placed points of the cap by arc length.
+    /// Point at which the underarm seam of a sleeve meets the trunk, the ends of the cap: at a side seam, or else
+    /// interpolated between the nearest placed points of the cap by arc length.
     fn underarm(&mut self, cap: &[usize]) -> Option<V3> {
         let (first, last) = (*cap.first()?, *cap.last()?);
         if let Some(place) = self.place(first) {
@@ -75,7 +75,8 @@ impl Mapper<'_> {
         Some(place)
     }
 
-    /// Features of a piece that goes all round the trunk, sewn to itself: its seam runs down the centre back from the waist.
+    /// Features of a piece that goes all round the trunk, sewn to itself: its seam runs down the centre back from the
+    /// waist.
     pub(super) fn wrap(&mut self, piece: usize, chains: &[Chain]) -> Found {
         let [a, b] = own_seam(piece, chains)?;
         let lines = [joined(run(a, b, chains)), joined(run(b, a, chains))];

@@ -1,10 +1,10 @@
 //! Feature mapping (5.2.1): the corners of a piece's outline onto features of the body, lengths preserved.
 //!
-//! The stretches of an outline are classified by the pieces that they are sewn to, not by names. An upright seam between front
-//! and back is a side seam, one that runs across is a shoulder seam. The stretch between a side and a shoulder is an armhole,
-//! and so on. Points are then found in this order: shoulder ends on the shoulder line (Algorithm 5.1), underarm and hem down the
-//! side line, neck on the centre line. For trousers they are the fork on the crotch, the waist above it, the hem down the
-//! inseam.
+//! The stretches of an outline are classified by the pieces that they are sewn to, not by names. An upright seam
+//! between front and back is a side seam, one that runs across is a shoulder seam. The stretch between a side and a
+//! shoulder is an armhole, and so on. Points are then found in this order: shoulder ends on the shoulder line
+//! (Algorithm 5.1), underarm and hem down the side line, neck on the centre line. For trousers they are the fork on the
+//! crotch, the waist above it, the hem down the inseam.
 
 mod limb;
 mod line;
@@ -201,7 +201,8 @@ impl Mapper<'_> {
         (features.len() >= 3).then_some(Mapped { ring, features })
     }
 
-    /// Places the joints of a line round a tube, at which one of the pieces that it is sewn to ends and the next begins.
+    /// Places the joints of a line round a tube, at which one of the pieces that it is sewn to ends and the next
+    /// begins.
     fn joints(&mut self, tube: &Tube, vertices: &[usize], joints: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
         let whole = outline::length_m(self.garment, vertices);
         for joint in joints {
@@ -212,7 +213,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Places auxiliary points along a line round a tube, by their share of its length, and its ends if they have no place yet.
+    /// Places auxiliary points along a line round a tube, by their share of its length, and its ends if they have no
+    /// place yet.
     fn round(&mut self, tube: &Tube, vertices: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
         let whole = outline::length_m(self.garment, vertices);
         let point = |share: f64| {

@@ -10,11 +10,11 @@ use pattern::Role;
 
 geom::constants! {
     "hybrid.features.trunk",
-    /// Share of the way from armscye to the middle of the upper arm up to which a shoulder seam longer than the shoulder reaches
-    /// onto the arm. The pop-up restores any length beyond.
+    /// Share of the way from armscye to the middle of the upper arm up to which a shoulder seam longer than the
+    /// shoulder reaches onto the arm. The pop-up restores any length beyond.
     const MOST_DROP: f64 = 0.25;
-    /// Greatest depth of an underarm point below the armpit, m: deeper armholes would leave no arm for the sleeve, and the pop-up
-    /// restores their depth.
+    /// Greatest depth of an underarm point below the armpit, m: deeper armholes would leave no arm for the sleeve, and
+    /// the pop-up restores their depth.
     const MOST_DEPTH_M: f64 = 0.005;
     /// Distance from the middle within which a point of a trunk lies at its centre, m.
     const CENTRE_M: f64 = 0.02;
@@ -91,7 +91,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Wearer's side (0 right, 1 left) of a key seam: seen from outside, the front's `+u` is the left, the back's the right.
+    /// Wearer's side (0 right, 1 left) of a key seam: seen from outside, the front's `+u` is the left, the back's the
+    /// right.
     fn wearer_side(&self, own: Face, chain: &Chain) -> usize {
         // Counter-clockwise, seams at +u run upwards.
         let plus = chain.chord(self.garment).y > 0.0;
@@ -138,7 +139,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Places the upper end of a side at the depth of the armhole, and the lower end down the side line by the seam's length.
+    /// Places the upper end of a side at the depth of the armhole, and the lower end down the side line by the seam's
+    /// length.
     fn side(&mut self, own: Face, chain: &Chain, chains: &[Chain], keys: &[Option<Key>]) -> Found {
         let side = self.wearer_side(own, chain);
         let up = chain.chord(self.garment).y > 0.0;
@@ -203,8 +205,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Places a hem or waist line round the trunk between its ends, with auxiliary points and the `joints` at which one of the
-    /// pieces that it is sewn to ends and the next begins.
+    /// Places a hem or waist line round the trunk between its ends, with auxiliary points and the `joints` at which one
+    /// of the pieces that it is sewn to ends and the next begins.
     fn level(&mut self, own: Face, vertices: &[usize], joints: &[usize]) -> Found {
         let ends = [vertices[0], vertices[vertices.len() - 1]];
         let lines = ends.map(|v| self.place(v).map(|p| self.trunk_line(own, &p)));
