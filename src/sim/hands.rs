@@ -26,8 +26,8 @@ geom::constants! {
     const END: f64 = 0.4;
     /// Length of the wrist that gives the half width of a folded hand, m.
     const WRIST_M: f64 = 0.02;
-    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three,
-    /// and closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the
+    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three.
+    /// It closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the
     /// triangle's perimeter.
     const FOLDED: f64 = 0.65;
     /// Half width of a folded hand at its end over that at its root.

@@ -94,8 +94,8 @@ impl Sleeve {
     }
 }
 
-/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back; with the
-/// initial radius of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
+/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back. Its stations
+/// have the initial radii of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
 fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
     let elbow = Station { height: axis.coordinates(&elbow).height, beside: V3::zeros(), radius };

@@ -158,8 +158,8 @@ impl Unrolled {
         }
     }
 
-    /// Rolls the ring to a cone, the tip above, with a half angle of at most the sine `spread` and an upper radius of
-    /// at most `within`; in waves where the ring is longer than the cone's circle.
+    /// Rolls the ring to a cone, the tip above. The sine of its half angle is at most `spread`, its upper radius at most
+    /// `within`. A ring that is longer than the cone's circle goes in waves.
     fn rolled(&self, spread: f64, within: f64) -> Vec<Rolled> {
         let upper = self.upper.min(within);
         let gathered = (self.upper - upper) / self.height.max(f64::MIN_POSITIVE);
