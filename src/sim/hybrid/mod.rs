@@ -110,9 +110,9 @@ pub struct Phases {
 /// Dresses a body in a garment.
 ///
 /// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. A garment whose corners have
-/// features on the body is mapped onto it by these. Any other garment, and one whose drape has a fault, is drawn
-/// together about the body on the mesh before the last (`draw`). The first drape without a fault is taken, failing that
-/// the best.
+/// features on the body is mapped onto it by these. If its drape has a fault it is mapped again, with its layers kept
+/// apart. Any other garment, and one that still has a fault, is drawn together about the body on the mesh before the
+/// last (`draw`). The first drape without a fault is taken, failing that the best.
 ///
 /// # Errors
 /// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.

@@ -100,8 +100,8 @@ pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
     is_only_partner && sides.are_a_slit && !is_other_half(&own, &goal)
 }
 
-/// True if places are the mirror image of their partners, as for front and back of a skirt. Along the two sides of a
-/// slit they are both a mirror image and a rotated one.
+/// True if places fit their partners much better as a mirror image, as for front and back of a skirt. Along the two
+/// sides of a slit they fit about as well without mirroring.
 fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
     let error = |own: &[V2]| {
         let fit = Similarity::of(own, goal);

@@ -24,7 +24,7 @@ geom::constants! {
     const PASSAGE_M: f64 = 0.12;
     /// Height of the ankles, m: cloth that hangs lower at the sides and behind is placed as if there were no foot.
     const ANKLE_M: f64 = 0.09;
-    /// Height of the instep, m: through the front of a leg that began lower the foot would reach.
+    /// Height of the instep, m: the foot would pierce the front of a leg that began lower.
     const INSTEP_M: f64 = 0.11;
     /// Sine of the angle from the side of a leg beyond which its front lies above the foot.
     const FRONT: f64 = 0.7;

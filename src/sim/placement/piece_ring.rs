@@ -29,7 +29,8 @@ geom::constants! {
     const SURE: f64 = 0.15;
     /// Weight of the ring's middle over that of a side's line in the least squares for the point where the lines meet.
     const UNSURE: f64 = 1e-3;
-    /// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
+    /// Sum of the vectors from the tip to a piece's vertices, over the sum of their lengths, below which the piece goes
+    /// all round the tip.
     const ALL_ROUND: f64 = 0.01;
 }
 
