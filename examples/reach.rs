@@ -14,7 +14,8 @@ use toile::fit;
 use toile::geom::{DistanceField, V3};
 use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Style};
-use toile::sim::fem::{self, Params, carry};
+use toile::sim::fem::carry::{self, Motion, Worn};
+use toile::sim::fem::{self, Params};
 use toile::sim::{Silent, fabric};
 
 /// Spacing of the distance field, m.
@@ -39,7 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let drape = fem::simulate(&dressed, &field, &meshes, cotton, &params, &mut Silent)?;
         for deg in [60.0, 75.0, 90.0] {
             let bodies = body::way(&upright, arms(DRESSED_DEG), arms(deg), carry::TURN_DEG)?;
-            let carried = carry::carry((&bodies, SPACING_M), (garment, cotton), &drape, &params, &mut Silent)?;
+            let motion = Motion { bodies: &bodies, spacing_m: SPACING_M };
+            let worn = Worn { garment, fabric: cotton, drape: &drape };
+            let carried = carry::carry(motion, worn, &params, &mut Silent)?;
             let (kept, lies) = (carried.kept.as_deref().unwrap_or_default(), &carried.positions[..]);
             let [underarm, cuff] = underarm(garment)?.map(|at| [&drape.positions[..], kept, lies].map(|x| x[at]));
             let joint = dressed.skeleton.at(Joint::ShoulderRight);

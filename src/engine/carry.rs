@@ -1,8 +1,8 @@
 //! A garment that a body takes along from one pose into another.
 
 use body::{Body, Pose};
-use pattern::Garment;
-use sim::{Drape, Fabric, Monitor};
+use sim::fem::carry::{Motion, Worn};
+use sim::{Drape, Monitor};
 use spec::Parameters;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, StudyError};
@@ -14,11 +14,12 @@ use store::{InOrigin, Origin, Result, StudyError};
 pub(crate) fn carry(
     upright: &Body,
     [from, to]: [Pose; 2],
-    cloth: (&Garment, &Fabric),
-    (drape, parameters): (&Drape, &Parameters),
+    worn: Worn,
+    parameters: &Parameters,
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<Body>, Drape)> {
     let bodies = body::way(upright, from, to, sim::fem::carry::TURN_DEG).origin(Origin::Body)?;
-    let carried = sim::fem::carry::carry((&bodies, FIELD_SPACING_M), cloth, drape, &parameters.fem()?, monitor);
+    let motion = Motion { bodies: &bodies, spacing_m: FIELD_SPACING_M };
+    let carried = sim::fem::carry::carry(motion, worn, &parameters.fem()?, monitor);
     Ok((bodies, carried.map_err(StudyError::sim)?))
 }

@@ -9,6 +9,7 @@ use body::Body;
 use fit::Simulator;
 use geom::DistanceField;
 use pattern::Style;
+use sim::dressing::Wearer;
 use sim::outfit::{self, Layer};
 use sim::{Drape, Fabric, Monitor};
 use spec::{Inputs, JobSpec, Outfit, Parameters};
@@ -44,6 +45,10 @@ pub(crate) struct Wardrobe<'a> {
 }
 
 impl<'a> Wardrobe<'a> {
+    fn wearer(&self) -> Wearer<'a> {
+        Wearer { body: self.on.0, field: self.on.1 }
+    }
+
     fn layers(&self) -> Vec<Layer<'a>> {
         self.garbs.iter().map(|garb| Layer { garments: &garb.meshes.0, fabric: &garb.fabric }).collect()
     }
@@ -71,7 +76,7 @@ impl<'a> Wardrobe<'a> {
         match (self.garbs, self.simulator) {
             ([garb], _) => Ok(vec![self.fitting(self.on, garb).simulate(monitor)?]),
             (_, Simulator::Fem) => {
-                outfit::dress(self.on, &self.layers(), &self.parameters.fem()?, monitor).map_err(StudyError::sim)
+                outfit::dress(self.wearer(), &self.layers(), &self.parameters.fem()?, monitor).map_err(StudyError::sim)
             }
             (_, Simulator::Hybrid) => Err(StudyError::refused(
                 Origin::Sim,
@@ -90,7 +95,8 @@ impl<'a> Wardrobe<'a> {
             return self.fitting(self.on, garb).outcome(&drapes[0]);
         }
         let under: Vec<_> = drapes[..number].iter().map(|drape| drape.positions.clone()).collect();
-        let (body, field) = outfit::dressed(self.on, &self.layers()[..number], &under, 0.0).map_err(StudyError::sim)?;
+        let (body, field) =
+            outfit::dressed(self.wearer(), &self.layers()[..number], &under, 0.0).map_err(StudyError::sim)?;
         self.fitting((&body, &field), garb).outcome(&drapes[number])
     }
 }

@@ -9,6 +9,7 @@ use crate::layers::{self, Drapes, Garb, Wardrobe};
 use crate::outcome::{Executor, Outcome};
 use crate::stages::{Meshes, Model, body_inputs, mesh, style};
 use geom::DistanceField;
+use sim::fem::carry::Worn;
 use sim::{self, Drape, Monitor};
 use spec::file::Subject;
 use spec::{JobSpec, Outfit, Person, versions};
@@ -74,8 +75,8 @@ impl Pipeline {
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
         let poses = [before, spec].map(|one| one.person.pose.unwrap_or_default());
         let meshes = self.meshes(spec)?.0;
-        carry(&upright, poses, (meshes.finest()?, &spec.fabric), (&drape, &spec.parameters), monitor)
-            .map(|(_, drape)| drape)
+        let worn = Worn { garment: meshes.finest()?, fabric: &spec.fabric, drape: &drape };
+        carry(&upright, poses, worn, &spec.parameters, monitor).map(|(_, drape)| drape)
     }
 
     /// A layer of an outfit. The first of its layers drapes them all, for the others too.

@@ -9,6 +9,7 @@ use body::{Body, Pose};
 use fit::{on_body, reach};
 use geom::units::mm;
 use pattern::Garment;
+use sim::fem::carry::Worn;
 use sim::sewn::Sewn;
 use sim::{Drape, Fabric, Monitor};
 use spec::Parameters;
@@ -68,7 +69,7 @@ pub(crate) fn reached(
 ) -> Result<(Reached, Body, Drape)> {
     let parameters = Parameters::default();
     let ([_, to], garment, fabric) = (poses, garb.meshes.finest()?, &garb.fabric);
-    let (bodies, after) = carry(upright, poses, (garment, fabric), (drape, &parameters), monitor)?;
+    let (bodies, after) = carry(upright, poses, Worn { garment, fabric, drape }, &parameters, monitor)?;
     let [first, .., last] = &bodies[..] else { return Err(StudyError::refused(Origin::Body, "no pose to go to")) };
     let kept = after.kept.as_deref().unwrap_or_default();
     let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|one| ReachedOpening {

@@ -1,13 +1,14 @@
 //! Hands as they slip into a sleeve: folded while a garment is sewn, then opened inside it.
 //!
-//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept
-//! out; a narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh
-//! has settled the cloth meets, for a hand that it is near, a convex solid. At first it is folded, beyond the wrist
-//! narrower than the wrist and narrowing on. Then it is widened to one that holds the whole hand. It pushes the cloth
-//! outwards from within; what lies on it lies outside the hand. Only the last phase knows fingers.
+//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and pass between its contact points. A narrow
+//! sleeve that is drawn together about an open hand leaves the thumb outside. Until the finest mesh has settled, the
+//! cloth therefore meets a convex solid in place of a hand that it comes near. At first the solid is folded: beyond the
+//! wrist it is narrower than the wrist and tapers. Then it is widened until it contains the whole hand, and pushes the
+//! cloth outwards from within. Only the last phase resolves fingers.
 //!
-//! The solid is where `n . p <= h(n)` for directions `n` all around, and the greatest `n . p - h(n)` is taken for the distance
-//! from it; between folded and open that changes evenly.
+//! The solid is the intersection of the half-spaces `n . p <= h(n)` for directions `n` all around, `h` its support
+//! function. The greatest `n . p - h(n)` approximates the signed distance. It is interpolated linearly between the
+//! folded and the open solid.
 
 use std::collections::BTreeSet;
 
@@ -16,40 +17,40 @@ use geom::{DistanceField, V3};
 
 geom::constants! {
     "hands",
-    /// Farthest that a hand reaches from the wrist, m.
+    /// Greatest distance of a hand's skin from the wrist, m.
     const REACH_M: f64 = 0.25;
-    /// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together
-    /// with the thigh.
+    /// Greatest distance of a hand's skin from the hand's axis, m. If any lies farther, a scan's hand has grown
+    /// together with the thigh.
     const WIDEST_M: f64 = 0.15;
-    /// Share of the hand's length, at its end, whose middle says where it points.
+    /// Share of the hand's length, at its end, whose middle gives the hand's direction.
     const END: f64 = 0.4;
-    /// Length of the wrist whose half width a folded hand is measured by, m.
+    /// Length of the wrist that gives the half width of a folded hand, m.
     const WRIST_M: f64 = 0.02;
-    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three,
-    /// and closes only about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's
-    /// girth).
+    /// Half width of a folded hand over that of the wrist. A narrow hem on the coarsest mesh has four corners or three.
+    /// It closes only about a solid that is so much thinner than a wrist: the incircle of a triangle has 0.6 of the
+    /// triangle's perimeter.
     const FOLDED: f64 = 0.65;
-    /// Half width of a folded hand's end over that where it begins.
+    /// Half width of a folded hand at its end over that at its root.
     const NARROWING: f64 = 0.5;
-    /// Cloth nearer than this to a hand meets the solid, m.
+    /// Distance from a hand within which cloth meets the solid, m.
     const NEAR_M: f64 = 0.08;
-    /// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
+    /// Distance from the solid beyond which the field is left unchanged, m: the fields hold no distances beyond that.
     const SHELL_M: f64 = 0.0125;
-    /// Room that the open solid leaves about the hand, m: triangles of 15 mm cut its corners.
+    /// Distance of the open solid from the hand, m: triangles of 15 mm cut its corners.
     const ROOM_M: f64 = 4e-3;
-    /// Steps in which a hand opens.
+    /// Number of steps in which a hand opens.
     const OPENINGS: u32 = 4;
-    /// Steps in which the solid shrinks to the hand itself.
+    /// Number of steps in which the solid shrinks to the hand itself.
     const BARINGS: u32 = 4;
 }
 
 /// A hand on its own.
 pub struct Hand {
-    /// Its end, m.
+    /// Its tip, m.
     pub tip: V3,
     /// Vertices of the body's mesh, in order.
     pub skin: Vec<usize>,
-    /// Supports of the solid, folded and open, m.
+    /// Support function of the solid in each direction, folded and open, m.
     supports: [Vec<f64>; 2],
 }
 
@@ -84,13 +85,13 @@ impl Hand {
         Some(Self { tip: wrist + tip, supports: [support(0.0, &fold), support(ROOM_M, &|p| *p)], skin })
     }
 
-    /// About how far a point is from the solid, folded and open, m, negative inside.
+    /// Approximate signed distance of a point from the solid, folded and open, m, negative inside.
     fn distances(&self, p: &V3) -> [f64; 2] {
         let most = |supports: &Vec<f64>| directions().zip(supports).map(|(n, h)| n.dot(p) - h).fold(f64::MIN, f64::max);
         [most(&self.supports[0]), most(&self.supports[1])]
     }
 
-    /// Whether cloth at `p` may come to touch the hand.
+    /// True if cloth at `p` may come to touch the hand.
     fn is_near(&self, p: &V3) -> bool {
         self.distances(p)[1] < NEAR_M
     }
@@ -116,14 +117,14 @@ impl Hand {
     }
 }
 
-/// Directions all around, in mirrored pairs: from the middle of a cube to a grid on its faces.
+/// Directions all around in mirrored pairs, from the middle of a cube to a grid on its faces.
 fn directions() -> impl Iterator<Item = V3> {
-    let of = |k: i32| f64::from(k - 2);
-    let grid = (0..125).map(move |i| V3::new(of(i / 25), of(i / 5 % 5), of(i % 5)));
+    let coordinate = |k: i32| f64::from(k - 2);
+    let grid = (0..125).map(move |i| V3::new(coordinate(i / 25), coordinate(i / 5 % 5), coordinate(i % 5)));
     grid.filter(|n| n.amax() == 2.0).map(|n| n.normalize())
 }
 
-/// Vertices beyond the plane through the wrist that hang together with the nearest of them, in order.
+/// Vertices beyond the plane through the wrist that are connected with the nearest of them, in order.
 fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
     let positions = &body.mesh.positions;
     let is_beyond = |v: usize| {
@@ -150,11 +151,11 @@ fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
 /// A node of the body's field near a hand.
 struct Node {
     index: usize,
-    /// About how far it is from the folded and the open hand, m.
+    /// Approximate signed distances from the folded and the open hand, m.
     distances: [f64; 2],
-    /// What the field says, m.
+    /// Distance by the body's field, m.
     value: f64,
-    /// Whether the nearest skin is the hand's.
+    /// True if the nearest skin is the hand's.
     is_hands: bool,
 }
 
@@ -205,17 +206,17 @@ impl<'a> Hands<'a> {
 /// A shape of hands before the last phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// From 0 for the folded hand to 1 for the open solid.
+    /// 0 for the folded hand, 1 for the open solid.
     open: f64,
-    /// From 0 for the solid to 1 for the hand itself.
+    /// 0 for the solid, 1 for the hand itself.
     bare: f64,
-    /// Whether cloth only passes through it on its way to the next.
+    /// True if the cloth takes only a few steps on it before the next.
     pub is_passing: bool,
 }
 
 impl Shape {
-    /// The shapes that a level meets without friction: hands are folded on the coarsest, open on the next, and are laid
-    /// bare on the finest.
+    /// The shapes that a level meets without friction: hands are folded on the coarsest level, open on the next, and
+    /// become bare on the finest.
     fn of_level(level: usize, finest: usize) -> Vec<Self> {
         let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
         if level == 0 && finest > 0 {

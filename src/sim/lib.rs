@@ -9,6 +9,7 @@ pub mod contact;
 pub mod cover;
 pub mod distortion;
 pub mod drape;
+pub mod dressing;
 pub mod error;
 pub mod fabric;
 pub mod fem;
@@ -24,6 +25,7 @@ pub mod sewn;
 pub mod solver;
 #[cfg(test)]
 mod testing;
+mod tries;
 mod walls;
 
 pub use constants::constants;

@@ -1,29 +1,31 @@
-//! Planes that part the cloth of two limbs where its contact with itself does not. Legs keep to their side of the
-//! median plane, a sleeve and the side of the trunk to theirs of the plane between arm and trunk.
+//! Planes that separate the cloth of two limbs where its contact with itself does not. Legs keep to their sides of the
+//! median plane, a sleeve and the side of the trunk to their sides of the plane between arm and trunk.
 
 use body::{Body, Layer};
 use geom::V3;
 use pattern::{Garment, Role};
 
-/// A plane, or the half of it that lies beyond a point.
+/// A plane, or a half-plane that begins at a point.
 struct Wall {
     /// A point of it, m.
     point: V3,
     /// Unit normal of the plane.
     normal: V3,
-    /// Direction in which it goes on from its point; both ways without one.
+    /// Direction in which a half-plane extends from its point; `None` for a whole plane.
     onwards: Option<V3>,
 }
 
-/// Which side of which wall every sewn vertex keeps to.
+/// Walls, with the side that each sewn vertex keeps to.
 pub struct Walls {
     walls: Vec<Wall>,
-    /// Wall and side: 1 or -1, or 0 for the seam between legs, which stays on the wall.
+    /// Wall and side of each vertex: 1 or -1, or 0 for the seam between legs, which stays on the wall. `None` for a
+    /// vertex that keeps to no wall.
     keeps: Vec<Option<(usize, f64)>>,
 }
 
 impl Walls {
-    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at `x`.
+    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at
+    /// `x`.
     #[must_use]
     pub fn new(body: &Body, garment: &Garment, vertex_of: &[usize], x: &[V3]) -> Self {
         let median = Wall { point: V3::zeros(), normal: V3::x(), onwards: None };
@@ -42,7 +44,7 @@ impl Walls {
         }
         let keep = |(wall, sum, n): (usize, f64, f64)| {
             let is_clear = n > 0.0 && sum.abs() == n;
-            // Only legs meet on their wall; an armhole may lie above or below the armpit.
+            // Only the legs meet on their wall. An armhole may lie above or below the armpit.
             (is_clear || (n > 0.0 && wall == MEDIAN)).then_some((wall, if is_clear { sum.signum() } else { 0.0 }))
         };
         Self { walls, keeps: sums.into_iter().map(keep).collect() }
@@ -55,7 +57,7 @@ impl Walls {
         self
     }
 
-    /// By how much a vertex at `p` is on the wrong side, m, and the unit direction of the shortest way back, past the wall's
+    /// Depth of a vertex at `p` on the wrong side, m, and the unit direction of the shortest way back, past the wall's
     /// end if that is nearer; `None` where it is on its side.
     #[must_use]
     pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
@@ -67,7 +69,7 @@ impl Walls {
         ways.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Where a vertex at `p` goes to be `offset_m` on its side; `None` where it is there.
+    /// Projection of a vertex at `p` to the distance `offset_m` on its side; `None` where it is there already.
     #[must_use]
     pub fn back(&self, vertex: usize, p: &V3, offset_m: f64) -> Option<V3> {
         let (wall, side) = self.keeps[vertex]?;
@@ -95,7 +97,8 @@ fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
 }
 
 impl Wall {
-    /// From the armpit outwards and down, half way between arm and trunk; its normal points to the arm.
+    /// The half-plane from the armpit outwards and down, along the bisector of arm and trunk; its normal points to the
+    /// arm.
     fn beside_arm(body: &Body, side: usize) -> Self {
         use Layer::*;
         let [armscye, elbow] = [[ArmscyeRight, ElbowRight], [ArmscyeLeft, ElbowLeft]][side];

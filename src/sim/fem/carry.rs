@@ -1,7 +1,7 @@
 //! A drape carried into another pose: the body turns its limbs a few degrees at a time and takes the cloth along.
 //!
-//! At each turn the cloth moves as the skin near it does. Friction then holds it where it lies while it comes to rest
-//! among what pulls it: cloth that is too short slides, cloth that is not stays where it was worn.
+//! At each turn the cloth moves with the skin near it. Then it comes to rest under friction: cloth that is too short
+//! for the pose slides, other cloth stays in its place on the skin.
 
 use super::dress::{TIGHT_M, floor_m};
 use super::params::Params;
@@ -17,30 +17,46 @@ use pattern::Garment;
 
 geom::constants! {
     "fem.carry",
-    /// Most that limbs turn at a time, degrees: a cuff at the wrist moves by 3 cm.
+    /// Greatest angle by which limbs turn at a time, degrees: a cuff at the wrist moves by 3 cm.
     pub const TURN_DEG: f64 = 3.0;
-    /// Steps that the cloth takes at each turn but the last.
+    /// Steps of the solver at each turn but the last.
     const STEPS_A_TURN: u32 = 12;
-    /// Skin that takes cloth along lies within so many times its distance, and so far beyond, m: the mean over it changes smoothly from place
-    /// to place, and cloth beside the trunk does not go with a hand.
+    /// Radius about a vertex within which the skin takes it along: a factor on its distance from the skin, and an
+    /// addend, m. The mean over such skin changes smoothly from place to place, and cloth beside the trunk does not go
+    /// with a hand.
     const SHARE_OF_DISTANCE: f64 = 1.5;
     const BEYOND_M: f64 = 0.025;
-    /// Farthest that skin takes cloth along, m.
+    /// Distance up to which skin is sought, m.
     const FARTHEST_M: f64 = 1.0;
 }
 
-/// Carries a drape through the poses of its body: `bodies` begin with the one that it was draped on, and are one mesh in all.
-/// `garment` is the mesh of the drape; distance fields have nodes `spacing_m` apart.
+/// A body on its way from one pose into another.
+#[derive(Clone, Copy)]
+pub struct Motion<'a> {
+    /// The body in the poses on the way, all with the same triangles; the first is the one that the drape lies on.
+    pub bodies: &'a [Body],
+    /// Spacing of the nodes of its distance fields, m.
+    pub spacing_m: f64,
+}
+
+/// A garment as it is worn.
+#[derive(Clone, Copy)]
+pub struct Worn<'a> {
+    /// Mesh of the drape.
+    pub garment: &'a Garment,
+    /// Fabric that it is made of.
+    pub fabric: &'a Fabric,
+    /// The drape on the first body.
+    pub drape: &'a Drape,
+}
+
+/// Carries a drape through the poses of its body; returns the drape in the last of them.
 ///
 /// # Errors
-/// When a body bounds no solid, or the garment diverges or slides off, or the monitor cancels. Not converging is no error.
-pub fn carry(
-    (bodies, spacing_m): (&[Body], f64),
-    (garment, fabric): (&Garment, &Fabric),
-    drape: &Drape,
-    params: &Params,
-    monitor: &mut dyn Monitor,
-) -> Result<Drape, SimError> {
+/// When a body bounds no solid, or the garment diverges or slides off, or the monitor cancels. Not converging is no
+/// error.
+pub fn carry(motion: Motion, worn: Worn, params: &Params, monitor: &mut dyn Monitor) -> Result<Drape, SimError> {
+    let (Motion { bodies, spacing_m }, Worn { garment, fabric, drape }) = (motion, worn);
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
     let mut run = Simulation::new(params, monitor, 0);
     let mut x = cloth.weld(&drape.positions);
@@ -72,7 +88,7 @@ pub fn carry(
     Ok(Drape { iterations, history, kept: Some(cloth.unweld(&kept)), ..carried })
 }
 
-/// How skin moves from one pose to the next.
+/// Displacement of the skin from one pose to the next.
 struct Moves<'a> {
     before: &'a [V3],
     after: &'a [V3],
@@ -89,7 +105,7 @@ impl<'a> Moves<'a> {
         Ok(Self { before, after, surface, grid })
     }
 
-    /// Moves cloth as the skin near each of its vertices moves on average.
+    /// Moves each vertex of cloth by the weighted mean displacement of the skin near it.
     fn take_along(&self, x: &mut [V3]) {
         let mut near = Vec::new();
         for p in x {

@@ -1,10 +1,11 @@
-//! A garment put on once: sewn as it was placed, then settled mesh by mesh.
+//! A garment put on once: sewn from where it was placed, then settled mesh by mesh.
 
 use super::params::Params;
 use super::run::Simulation;
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::cloth::{Cloth, slack};
-use crate::contact::{BodyContact, ClothContact, Skin};
+use crate::contact::{BodyContact, ClothContact};
+use crate::dressing::{Dressing, Layer};
 use crate::hands::Hands;
 use crate::levels::prolong;
 use crate::placement::Folded;
@@ -12,81 +13,87 @@ use crate::quality;
 use crate::sewing::{self, Springs};
 use crate::solver::System;
 use crate::walls::Walls;
-use crate::{Distortion, Fabric, SimError};
+use crate::{Distortion, SimError};
 use body::Body;
-use geom::{DistanceField, V3};
+use geom::V3;
 use pattern::{Garment, PieceMesh};
 
 geom::constants! {
     "fem.dress",
-    /// A sewn garment that yields this much has been drawn into the body, m.
+    /// Depth by which contact with the body yields to a sewn garment beyond which the garment has been drawn into the
+    /// body, m.
     const SEWN_INTO_M: f64 = 4e-3;
-    /// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
+    /// Seam gap that hardened contact may leave where softer contact leaves less, m.
     const CLOSED_M: f64 = 1e-2;
-    /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed: what is drawn on all the same
-    /// ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed. Cloth that is
+    /// drawn farther ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has
+    /// 0.54).
     const TORN: f64 = 1.25;
-    /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
+    /// Depth by which contact yields to a tight garment on a coarse mesh, m: it is about to leave the offset that keeps
+    /// it outside.
     pub const TIGHT_M: f64 = 8e-4;
-    /// Residual with which the next share begins.
+    /// Residual at which the next share of the stiffness begins.
     const EASED: f64 = 0.1;
-    /// Residual without friction of all the stiffness, from which on friction holds.
+    /// Residual with the whole stiffness and without friction from which on friction holds.
     const RESTED: f64 = 0.02;
-    /// Room between sole and floor, m: what contact keeps off either, and as much again. Without it cloth under a heel is pushed up by the one
-    /// and down by the other for ever.
+    /// Room between sole and floor, m: the offsets of both contacts, and as much again. Without it the sole pushes the
+    /// cloth under a heel down and the floor pushes it up, and it never comes to rest.
     const SOLE_M: f64 = 3e-3;
-    /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
-    /// drawn out of shape.
+    /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight. It has no folds then, and
+    /// reduced stiffness would only draw it out of shape.
     const DRAWN: f64 = 0.1;
 }
 
-/// A garment, placed, and the body that is to wear it.
-pub struct Dressing<'a> {
-    /// Body that wears it.
-    pub body: &'a Body,
-    /// Its exact surface, where it bounds a solid.
-    pub skin: Option<&'a Skin<'a>>,
-    /// Distance from it.
-    pub field: &'a DistanceField,
+/// A garment whose seams are closed, or nearly.
+struct Sewn {
+    /// Positions of its vertices, m.
+    positions: Vec<V3>,
+    /// Depth by which the contact with the body yields, m.
+    yields_m: f64,
+}
+
+/// A garment that is placed about the body that is to wear it.
+#[derive(Clone, Copy)]
+pub struct Placed<'a> {
+    /// The garment and the body.
+    pub dressing: Dressing<'a>,
     /// Hands that the garment comes near.
     pub hands: Option<&'a Hands<'a>>,
-    /// Meshes of the garment, coarse to fine.
-    pub garments: &'a [Garment],
-    /// What it is made of.
-    pub fabric: &'a Fabric,
-    /// Where the coarsest mesh's vertices are placed, m.
-    pub placed: &'a [V3],
+    /// Places of the coarsest mesh's vertices before sewing, m.
+    pub start: &'a [V3],
     /// Factor on the sewing force.
     pub force: f64,
 }
 
-impl Dressing<'_> {
-    /// Sews the garment and lets it come to rest. What slides off without friction is settled again with friction throughout, and what slides
-    /// off with it hangs from its top edge; `Grip::Throughout` has friction hold it from the first seam on.
+impl Placed<'_> {
+    /// Sews the garment and lets it come to rest. If it slides off without friction it is settled again with friction
+    /// throughout, and if it slides off even so it hangs from its top edge. With [`Grip::Throughout`] friction holds it
+    /// from the first seam on.
     ///
     /// # Errors
-    /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can be or a limit that is to end it, or the
-    /// monitor cancels.
+    /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can bear or beyond a limit
+    /// that is to end it, or the monitor cancels.
     pub fn dress(&self, grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
-        let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
+        let Dressing { wearer, skin, layer } = self.dressing;
+        let coarsest = layer.coarsest()?;
         let Params { contact, self_contact, .. } = *run.params();
-        let floor_m = floor_m(self.body);
-        let soft = Around { skin: self.skin, field: self.field, floor_m, hands: self.hands, contact, self_contact };
+        let floor_m = floor_m(wearer.body);
+        let soft = Around { skin, field: wearer.field, floor_m, hands: self.hands, contact, self_contact };
         if grip != Grip::AtTheEnd {
-            run.keep_up(coarsest, self.placed);
+            run.keep_up(coarsest, self.start);
         }
-        let (mut sewn, yields_m) = self.sew(coarsest, soft, grip, run)?;
+        let Sewn { positions: mut sewn, yields_m } = self.sew(coarsest, soft, grip, run)?;
         let is_drawn_in = yields_m > SEWN_INTO_M;
         let around = if self.hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
         if is_drawn_in {
-            let (again, _) = self.sew(coarsest, around, grip, run)?;
+            let Sewn { positions: again, .. } = self.sew(coarsest, around, grip, run)?;
             if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
                 sewn = again;
             }
         }
         sewing::closed(coarsest, &sewn)?;
         run.keep_up(coarsest, &sewn);
-        // Nothing but friction may hold it up, or nothing at all.
+        // Perhaps only friction holds it up, perhaps nothing does.
         let grips = [Grip::AtTheEnd, Grip::Throughout, Grip::Braced];
         let mut slid = None;
         for grip in grips.into_iter().skip_while(|first| *first != grip) {
@@ -98,48 +105,27 @@ impl Dressing<'_> {
         Err(slid.unwrap_or(SimError::NoMesh))
     }
 
-    /// The same with friction throughout, after it failed without: where that fails as well, the first error tells.
-    pub fn dress_or(&self, first: SimError, run: &mut Simulation) -> Result<Settled, SimError> {
-        self.dress(Grip::Throughout, run).map_err(|error| match error {
-            SimError::Cancelled => error,
-            _ => first,
-        })
+    /// As [`Self::dress`] with `factor` times the sewing force, after the garment was torn with its own. A ruffle may
+    /// be torn by an accident of its start.
+    ///
+    /// # Errors
+    /// As there, and [`SimError::Torn`] where the drape is stretched beyond the limit.
+    pub fn resewn(&self, factor: f64, run: &mut Simulation) -> Result<Settled, SimError> {
+        let settled = Self { force: factor * self.force, ..*self }.dress(Grip::AtTheEnd, run)?;
+        let distortion = Distortion::of(self.dressing.layer.finest()?, &settled.positions)?;
+        let is_within = distortion.stretch <= run.params().distortion_limit;
+        if is_within { Ok(settled) } else { Err(SimError::Torn { distortion }) }
     }
 
-    /// The same with other sewing forces, after it was torn with its own, as a ruffle is by chance: where it is with all of them, or
-    /// tight, the first error tells.
-    pub fn resewn_or(&self, first: SimError, factors: &[f64], run: &mut Simulation) -> Result<Settled, SimError> {
-        let limit = run.params().distortion_limit;
-        for factor in factors {
-            match (Dressing { force: factor * self.force, ..*self }).dress(Grip::AtTheEnd, run) {
-                Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-                Ok(settled) if self.distortion(&settled)?.stretch <= limit => return Ok(settled),
-                _ => {}
-            }
-        }
-        Err(first)
-    }
-
-    /// How far the finest mesh is stretched.
-    fn distortion(&self, settled: &Settled) -> Result<Distortion, SimError> {
-        Distortion::of(&self.garments[self.garments.len() - 1], &settled.positions)
-    }
-
-    /// Draws the seams of the garment together, those of what is folded onto it once all others are closed; returns garment
-    /// positions with all seams (nearly) closed, and how far the contact with the body yields there, m.
-    fn sew(
-        &self,
-        garment: &Garment,
-        around: Around,
-        grip: Grip,
-        run: &mut Simulation,
-    ) -> Result<(Vec<V3>, f64), SimError> {
+    /// Draws the seams of the garment together; those of pieces that are folded onto it follow once all others are
+    /// closed.
+    fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Simulation) -> Result<Sewn, SimError> {
         let params = run.params();
-        let mut x = self.placed.to_vec();
+        let mut x = self.start.to_vec();
         if let Some(folded) = Folded::of(garment) {
             let (under, kept) = garment.without(&folded.pieces);
             let whole = |sewn: &[V3]| {
-                let mut all = self.placed.to_vec();
+                let mut all = self.start.to_vec();
                 kept.iter().zip(sewn).for_each(|(&v, p)| all[v] = *p);
                 all
             };
@@ -150,10 +136,11 @@ impl Dressing<'_> {
         }
         let sew = |system: &mut System, x: &mut Vec<V3>| run.sew(garment, system, x, <[V3]>::to_vec);
         let yields_m = self.draw_together(garment, params, around, grip, &mut x, sew)?;
-        Ok((x, yields_m))
+        Ok(Sewn { positions: x, yields_m })
     }
 
-    /// Draws all seams of pieces together by `sew`, from `x`; returns how far the contact with the body yields then, m.
+    /// Draws all seams of pieces together by `sew`, from `x`; returns the depth by which the contact with the body
+    /// yields then, m.
     fn draw_together(
         &self,
         garment: &Garment,
@@ -163,7 +150,8 @@ impl Dressing<'_> {
         x: &mut Vec<V3>,
         sew: impl FnOnce(&mut System, &mut Vec<V3>) -> Result<(), SimError>,
     ) -> Result<f64, SimError> {
-        let cloth = Cloth::new(garment, self.fabric, sewing::unsewn(garment))?;
+        let Dressing { wearer, layer, .. } = self.dressing;
+        let cloth = Cloth::new(garment, layer.fabric, sewing::unsewn(garment))?;
         let folded = self.hands.map(Hands::folded);
         let field = folded.as_ref().unwrap_or(around.field);
         let mut contact = BodyContact::new(field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
@@ -176,38 +164,40 @@ impl Dressing<'_> {
         let apart = ClothContact::new(around.self_contact, &cloth.triangles, &cloth.areas);
         system.self_contact = Some(apart.but_near(sewn.into_iter()));
         let vertex_of = sewing::welded(garment);
-        let walls = Walls::new(self.body, garment, &vertex_of, &sewing::merged(&vertex_of, x));
+        let walls = Walls::new(wearer.body, garment, &vertex_of, &sewing::merged(&vertex_of, x));
         system.walls = Some(walls.unsewn(&vertex_of));
         sew(&mut system, x)?;
         Ok(system.contact.yields_m(x))
     }
 
-    /// Shares of its stiffness in the plane with which the sewn garment comes to rest first: none where it is drawn tight, or of cloth that
-    /// stretches as easily as it is.
+    /// Shares of its membrane stiffness with which the sewn garment comes to rest first. None where it is drawn tight,
+    /// and none for a fabric that stretches easily anyway.
     fn shares(&self, sewn: &[V3]) -> Result<Vec<f64>, SimError> {
-        let coarsest = &self.garments[0];
+        let Layer { fabric, .. } = self.dressing.layer;
+        let coarsest = self.dressing.layer.coarsest()?;
         if Distortion::of(coarsest, sewn)?.stretch > DRAWN {
             return Ok(Vec::new());
         }
-        Ok(slack::shares(self.fabric, length_m(coarsest)))
+        Ok(slack::shares(fabric, length_m(coarsest)))
     }
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
     fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
-        // What friction has to hold is not let slip.
+        // A garment that only friction holds up would slip while its stiffness is reduced.
         let shares = if grip == Grip::Throughout { Vec::new() } else { self.shares(sewn)? };
+        let Layer { garments, fabric } = self.dressing.layer;
         let mut last: Option<(&Garment, Settled)> = None;
-        for (level, garment) in self.garments.iter().enumerate() {
-            let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;
+        for (level, garment) in garments.iter().enumerate() {
+            let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
             let mut x = match &last {
                 None => cloth.weld(sewn),
-                Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
+                Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, fabric),
             };
             let settling = Settling { around, garment, cloth: &cloth, level, grip };
-            let is_finest = level + 1 == self.garments.len();
+            let is_finest = level + 1 == garments.len();
             for share in shares.iter().filter(|_| is_finest) {
                 let slack = cloth.clone().slackened(*share);
-                // What does not has more ways to lie than easing could tell apart, as ruffles do.
+                // Cloth that does not come to rest so, as ruffles do not, has too many equilibria for that.
                 if !(Settling { cloth: &slack, ..settling }.ease(&mut x, EASED, run)?) {
                     break;
                 }
@@ -233,7 +223,7 @@ impl Dressing<'_> {
     }
 }
 
-/// Height of the floor that a body stands on, m: so far below its lowest point that cloth under a sole has room.
+/// Height of the floor that a body stands on, m: below its lowest point by the room that cloth under a sole needs.
 pub fn floor_m(body: &Body) -> f64 {
     body.mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min) - SOLE_M
 }
@@ -241,14 +231,18 @@ pub fn floor_m(body: &Body) -> f64 {
 /// Length of the longest piece along its grain, m.
 fn length_m(garment: &Garment) -> f64 {
     let length = |piece: &PieceMesh| {
-        let along = garment.rest[piece.vertices.clone()].iter().map(|p| p.dot(&piece.grain));
-        let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)));
+        let heights = garment.rest[piece.vertices.clone()].iter().map(|p| p.dot(&piece.grain));
+        let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), height| (low.min(height), high.max(height)));
         high - low
     };
     garment.pieces.iter().map(length).fold(0.0, f64::max)
 }
 
-/// Ends a simulation whose cloth is stretched farther than cloth can be, or, where that is asked for, than it should.
+/// Ends a simulation whose cloth is stretched beyond what cloth can bear, or, where that is asked for, beyond the
+/// limit.
+///
+/// # Errors
+/// [`SimError::Torn`] and [`SimError::Distorted`].
 fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
     let distortion = Distortion::of(garment, positions)?;
     let limit = params.distortion_limit;
@@ -261,6 +255,8 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Fabric;
+    use crate::dressing::Wearer;
     use crate::laboratory::{self, sheets::sheet};
     use crate::testing::fabric;
     use body::{self, Measurements, Sex};
@@ -278,10 +274,10 @@ mod tests {
                 ..stiff
             };
             let sewn: Vec<V3> = garments[0].rest.iter().map(|p| V3::new(stretch * p.x, p.y, 0.0)).collect();
-            let (body, field, fabric, garments) = (&body, &field, &soft, &garments[..]);
-            let dressing =
-                Dressing { body, skin: None, field, hands: None, garments, fabric, placed: &sewn, force: 1.0 };
-            let shares = dressing.shares(&sewn).expect("sound");
+            let wearer = Wearer { body: &body, field: &field };
+            let dressing = Dressing { wearer, skin: None, layer: Layer { garments: &garments, fabric: &soft } };
+            let placed = Placed { dressing, hands: None, start: &sewn, force: 1.0 };
+            let shares = placed.shares(&sewn).expect("sound");
             assert!(shares.len() == expect && shares.is_sorted(), "{stretch}, {softer}: {shares:?}");
         };
         check(1.0, 1.0, 3);

@@ -13,8 +13,10 @@ pub use dress::floor_m;
 pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;
+use crate::dressing::{Dressing, Layer, Wearer};
 use crate::placement::{self, Bend};
 use crate::quality::top_m;
+use crate::tries::{self, Criteria, Faults, Trial};
 use crate::{Distortion, Drape, Fabric, Monitor, SimError};
 use body::Body;
 use geom::constants::Constant;
@@ -22,44 +24,43 @@ use geom::{DistanceField, V3};
 use pattern::Garment;
 
 use crate::hands::Hands;
-use dress::Dressing;
+use dress::Placed;
 use run::Simulation;
 use settle::{Grip, Settled};
 
 geom::constants! {
     "fem",
-    /// Deepest point inside the body of a drape without fault, m.
+    /// Deepest point inside the body of a drape without a fault, m.
     const FAULTLESS_DEPTH_M: f64 = 5e-4;
-    /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
+    /// Rise of a garment's top from its place before sewing beyond which its seams have squeezed it off the body, m.
     const MOST_RISE_M: f64 = 0.25;
-    /// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again. Whether
-    /// a fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out. These keep what
-    /// is mirrored so.
+    /// Factors on the sewing force with which a garment is sewn again that ends with a fault, or is torn while it is
+    /// sewn. It is an accident of the start whether one tight fold goes through another, and how a ruffle is drawn out.
+    /// A changed force gives another start that is as symmetric as the first.
     const RESEWN: [f64; 2] = [1.5, 0.67];
-    /// Steps times vertices (5 to 20 microseconds each) after which a fault is no longer tried to be put right: who waits has waited. A
-    /// T-shirt takes 0.7 million.
+    /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long
+    /// enough. A T-shirt takes 0.7 million.
     const MOST_TRIED: u64 = 12_000_000;
 }
 
 /// Dresses a body in a garment.
 ///
-/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest is placed, sewn and
-/// roughly draped, each finer one starts from the one before. All settle without friction first, so that the drape
-/// does not depend on how the seams were closed; only then does friction hold it. What slides off without is settled again
-/// with friction throughout.
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest mesh is placed,
+/// sewn and roughly draped. Each finer one starts from the drape of the one before. All settle without friction first,
+/// so that the drape does not depend on the path by which the seams closed. Only then does friction hold the garment. A
+/// garment that slides off without friction is settled again with friction throughout.
 ///
-/// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
-/// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn
-/// once more with friction from the first seam on. Any other that does is sewn from pieces that are bent otherwise,
-/// unless how was asked for: a cuff drawn through a wrist, a fold through a fold are chance. What still has a fault is
-/// then sewn with more force, and with less. The first such drape that has no fault is taken, or, if the garment came
-/// off at first, that stays on; failing that, the best of them. Where all tries so far have taken long, the best of
-/// them has to do.
+/// The seams of a garment that is much too small squeeze it along the body as they close. It folds into itself at a
+/// narrower place, or comes off over the head. A tight garment that ends with a fault or open seams is therefore sewn
+/// once more, with friction from the first seam on. Any other garment with a fault is sewn from pieces with another
+/// bend, unless the parameters ask for a bend. If a fault is left, the garment is sewn with more force, and with less.
+/// Of these drapes the first without a fault is taken, failing that the best (`sim::tries`). The tries end early once
+/// they have taken long.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or
-/// comes off upwards. Also when it is stretched beyond what cloth can be or a limit that is to end it, or the monitor
-/// cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body in spite of
+/// friction or comes off upwards. Also when it is stretched beyond what cloth can bear or beyond a limit that is to end
+/// it, or the monitor cancels. Not converging is no error.
 ///
 /// # Examples
 /// ```
@@ -87,107 +88,150 @@ pub fn simulate(
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Drape, SimError> {
-    let (Some(coarsest), Some(finest)) = (garments.first(), garments.last()) else {
-        return Err(SimError::NoMesh);
-    };
+    let layer = Layer { garments, fabric };
+    let (coarsest, garment) = (layer.coarsest()?, layer.finest()?);
     let mut run = Simulation::new(params, monitor, garments.len() - 1);
-    let (placed, force) = placed_at_start(body, coarsest, &params.bend, params.seed)?;
-    let hands = Hands::near(body, field, &placed);
+    let Start { positions: start, force } = perturbed_start(body, coarsest, &params.bend, params.seed)?;
+    let hands = Hands::near(body, field, &start);
     let skin = Skin::new(&body.mesh).ok();
-    let (hands, skin) = (hands.as_ref(), skin.as_ref());
-    let dressing = Dressing { body, skin, field, hands, garments, fabric, placed: &placed, force };
-    let ended = |settled: Settled| settled.into_drape(skin, field, finest, params.tolerance);
-    let (settled, grip) = match dressing.dress(Grip::AtTheEnd, &mut run) {
+    let dressing = Dressing { wearer: Wearer { body, field }, skin: skin.as_ref(), layer };
+    let placed = Placed { dressing, hands: hands.as_ref(), start: &start, force };
+    let (settled, grip) = match placed.dress(Grip::AtTheEnd, &mut run) {
         Err(error) if !run.tries_again() => return Err(error),
-        Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, Grip::Throughout),
-        Err(torn @ SimError::Torn { .. }) => (dressing.resewn_or(torn, &RESEWN, &mut run)?, Grip::AtTheEnd),
+        Err(open @ SimError::Open { .. }) => {
+            let settled = tries::instead(open, [Grip::Throughout], |grip| placed.dress(grip, &mut run))?;
+            (settled, Grip::Throughout)
+        }
+        Err(torn @ SimError::Torn { .. }) => {
+            let settled = tries::instead(torn, RESEWN, |factor| placed.resewn(factor, &mut run))?;
+            (settled, Grip::AtTheEnd)
+        }
         other => (other?, Grip::AtTheEnd),
     };
-    let mut drape = ended(settled);
-    // How far its top has come up from where it was placed.
-    let rise_m = |drape: &Drape| top_m(finest, &drape.positions) - top_m(coarsest, &placed);
-    let is_off = |drape: &Drape| rise_m(drape) > MOST_RISE_M;
-    let came_off = is_off(&drape);
-    for Start { placed, force, grip } in other_starts(&dressing, grip, &drape, came_off, params)? {
-        if !run.tries_again() || !came_off && run.vertex_steps() > MOST_TRIED {
-            break;
-        }
-        match (Dressing { placed: &placed, force, ..dressing }).dress(grip, &mut run).map(&ended) {
-            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-            Ok(again) if !is_off(&again) && (came_off || is_faultless(&again)) => {
-                drape = again;
-                break;
-            }
-            Ok(again) if !is_off(&again) && is_better(&again, &drape) => drape = again,
-            _ => {}
-        }
-    }
-    if is_off(&drape) {
-        return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: rise_m(&drape) });
+    let mut sewing = Resewing { placed, garment, placed_top_m: top_m(coarsest, &start), run: &mut run };
+    let first = sewing.ended(settled);
+    let ways = other_ways(&placed, grip, &first, sewing.has_come_off(&first), params)?;
+    let drape = tries::best(&mut sewing, Some(first), ways)?;
+    if sewing.has_come_off(&drape) {
+        return Err(SimError::CameOff { garment: garment.name.clone(), rise_m: sewing.rise_m(&drape) });
     }
     Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
 }
 
+/// A garment that is sewn again where it ends with a fault.
+struct Resewing<'a, 'r, 'm> {
+    /// The garment as it was placed at first.
+    placed: Placed<'a>,
+    /// Its finest mesh.
+    garment: &'a Garment,
+    /// Height of its top before sewing, m.
+    placed_top_m: f64,
+    run: &'r mut Simulation<'m>,
+}
+
+impl Resewing<'_, '_, '_> {
+    /// The drape that the settled finest mesh is.
+    fn ended(&self, settled: Settled) -> Drape {
+        let Dressing { wearer, skin, .. } = self.placed.dressing;
+        settled.into_drape(skin, wearer.field, self.garment, self.run.params().tolerance)
+    }
+
+    /// Rise of the garment's top from its place before sewing, m.
+    fn rise_m(&self, drape: &Drape) -> f64 {
+        top_m(self.garment, &drape.positions) - self.placed_top_m
+    }
+
+    fn has_come_off(&self, drape: &Drape) -> bool {
+        self.rise_m(drape) > MOST_RISE_M
+    }
+}
+
+impl Trial for Resewing<'_, '_, '_> {
+    type Way = Way;
+    const CRITERIA: Criteria = CRITERIA;
+
+    fn put_on(&mut self, way: &Way) -> Result<Drape, SimError> {
+        let Start { positions, force } = &way.start;
+        let placed = Placed { start: positions, force: *force, ..self.placed };
+        placed.dress(way.grip, self.run).map(|settled| self.ended(settled))
+    }
+
+    fn faults(&self, drape: &Drape) -> Faults {
+        faults(drape, self.has_come_off(drape))
+    }
+
+    /// A garment that has come off is no result: its only other way is tried however long the first took.
+    fn has_time(&self, least: &Faults) -> bool {
+        self.run.tries_again() && (least.came_off || self.run.vertex_steps() <= MOST_TRIED)
+    }
+}
+
+/// Limits and order of the faults of a drape by FEM-GS.
+///
+/// Lengths count for nothing: cloth that is too small stretches, and that stretch is a result. Rest does not come
+/// first: it is measured by the force that is left, and cloth with a little more than the tolerance left lies nearly
+/// where it would come to rest. Its crossings count as much as those of a drape at rest.
+const CRITERIA: Criteria = Criteria { depth_m: FAULTLESS_DEPTH_M, length_error: 0.0, is_rest_first: false };
+
+/// Faults of a drape by FEM-GS.
+fn faults(drape: &Drape, came_off: bool) -> Faults {
+    let &Drape { converged, self_crossings, penetration_max_m: depth_m, .. } = drape;
+    Faults { came_off, moves: !converged, self_crossings, depth_m, length_error: 0.0 }
+}
+
 /// A way to put a garment on.
-struct Start {
-    /// Where the vertices of its coarsest mesh are placed, m.
-    placed: Vec<V3>,
-    /// Factor on the sewing force.
-    force: f64,
-    /// When friction begins.
+struct Way {
+    start: Start,
+    /// Time from which on friction holds it.
     grip: Grip,
 }
 
-/// Other ways to put a garment on that was put on as `dressing` says, with this grip, and came off or ended with a fault; in the
-/// order in which to try them.
-fn other_starts(
-    dressing: &Dressing,
+/// A start of the sewing.
+#[derive(Clone)]
+struct Start {
+    /// Places of the vertices of the coarsest mesh, m.
+    positions: Vec<V3>,
+    /// Factor on the sewing force.
+    force: f64,
+}
+
+/// Other ways to put a garment on that was placed as `placed` and sewn with this grip, and came off or ended with a
+/// fault; in the order in which to try them. None for a drape without a fault.
+fn other_ways(
+    placed: &Placed,
     grip: Grip,
     drape: &Drape,
     came_off: bool,
     params: &Params,
-) -> Result<Vec<Start>, SimError> {
-    let mut starts = Vec::new();
-    let (Some(coarsest), Some(finest)) = (dressing.garments.first(), dressing.garments.last()) else {
-        return Ok(starts);
-    };
-    if !came_off && is_faultless(drape) {
-        return Ok(starts);
+) -> Result<Vec<Way>, SimError> {
+    let mut ways = Vec::new();
+    if faults(drape, came_off).are_none(&CRITERIA) {
+        return Ok(ways);
     }
-    let (placed, force) = (dressing.placed.to_vec(), dressing.force);
+    let Dressing { wearer, layer, .. } = placed.dressing;
+    let (coarsest, finest) = (layer.coarsest()?, layer.finest()?);
+    let start = Start { positions: placed.start.to_vec(), force: placed.force };
     if grip == Grip::AtTheEnd {
         if came_off || Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit {
-            starts.push(Start { placed: placed.clone(), force, grip: Grip::Throughout });
+            ways.push(Way { start: start.clone(), grip: Grip::Throughout });
         } else if let Some(bend) = params.bend.otherwise() {
-            let (elsewhere, force) = placed_at_start(dressing.body, coarsest, &bend, params.seed)?;
-            // Trousers and what goes round alone are not bent: from the same start comes the same drape.
-            starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
+            let elsewhere = perturbed_start(wearer.body, coarsest, &bend, params.seed)?;
+            // Trousers and pieces that go round alone are not bent: the same start would give the same drape.
+            ways.extend((elsewhere.positions != start.positions).then_some(Way { start: elsewhere, grip }));
         }
     }
     if !came_off {
-        starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
+        let force = start.force;
+        ways.extend(RESEWN.map(|factor| Way { start: Start { force: factor * force, ..start.clone() }, grip }));
     }
-    Ok(starts)
+    Ok(ways)
 }
 
-/// Where a garment starts, as perturbed, m, and the factor on its sewing force.
-fn placed_at_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<(Vec<V3>, f64), SimError> {
-    let mut placed = placement::place(body, garment, bend)?;
-    let force = start::perturb(seed, &mut placed);
-    Ok((placed, force))
-}
-
-/// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
-fn is_faultless(drape: &Drape) -> bool {
-    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
-}
-
-/// Whether one drape's faults are fewer than another's, and none of them worse.
-fn is_better(one: &Drape, other: &Drape) -> bool {
-    let faults =
-        |drape: &Drape| (!drape.converged, drape.self_crossings, drape.penetration_max_m.max(FAULTLESS_DEPTH_M));
-    let ((moves, crossings, depth_m), (others, other_crossings, other_m)) = (faults(one), faults(other));
-    moves <= others && crossings <= other_crossings && depth_m <= other_m && faults(one) != faults(other)
+/// The start of a garment, perturbed as the seed says.
+fn perturbed_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<Start, SimError> {
+    let mut positions = placement::place(body, garment, bend)?;
+    let force = start::perturb(seed, &mut positions);
+    Ok(Start { positions, force })
 }
 
 /// Constants of FEM-GS that decide results.

@@ -6,31 +6,31 @@ use crate::solver::StepParams;
 
 geom::constants! {
     "fem.params",
-    /// Coarsest mesh that still wraps an arm: triangles of longer edges pass through it, m.
+    /// Edge length of the coarsest mesh that still wraps an arm, m: triangles with longer edges pass through the arm.
     const COARSEST_EDGE_M: f64 = 0.065;
-    /// Most meshes that are worth going through.
+    /// Greatest number of meshes.
     const MOST_LEVELS: u32 = 3;
 }
 
-/// Edge lengths (m) of the meshes that FEM-GS goes through, coarse to fine: each half the one before, the last `finest_m`.
+/// Edge lengths (m) of the meshes of FEM-GS, coarse to fine: each half the one before, the last `finest_m`.
 #[must_use]
 pub fn level_edges(finest_m: f64) -> Vec<f64> {
     let coarser = (1..MOST_LEVELS).rev().map(|level| finest_m * f64::from(1 << level));
     coarser.filter(|edge| *edge <= COARSEST_EDGE_M).chain([finest_m]).collect()
 }
 
-/// How FEM-GS closes seams.
+/// Parameters of the closing of seams in FEM-GS.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sewing {
     /// Stiffness of a seam spring, N/m.
     pub seam_stiffness_n_m: f64,
-    /// Force of a seam spring at first, N.
+    /// Initial force of a seam spring, N.
     pub seam_cap_n: f64,
-    /// Growth of force and stiffness when the seams come no closer.
+    /// Factor by which force and stiffness grow when the seams come no closer.
     pub seam_growth: f64,
-    /// The seams come closer when their mean gap falls below this share of the least so far.
+    /// Share of the least mean gap so far below which the mean gap must fall to count as progress.
     pub sewing_progress: f64,
-    /// Steps without that after which the springs grow.
+    /// Steps without progress after which the springs grow.
     pub sewing_patience: u32,
     /// Least step size while sewing, s.
     pub sewing_h_min_s: f64,
@@ -38,7 +38,8 @@ pub struct Sewing {
     pub sewing_h_max_s: f64,
     /// Greatest displacement of a vertex in a step of sewing, m.
     pub sewing_clamp_m: f64,
-    /// Most steps of sewing, where seams are nearly closed by then; others take up to three times as many.
+    /// Greatest number of steps of sewing where the seams are nearly closed by then; others take up to three times as
+    /// many.
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
@@ -61,33 +62,34 @@ impl Default for Sewing {
     }
 }
 
-/// How FEM-GS places, sews and drapes.
+/// Parameters of FEM-GS.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
-    /// How pieces of the trunk are bent before they are sewn.
+    /// Bend of the trunk's pieces before they are sewn.
     #[serde(flatten)]
     pub bend: Bend,
-    /// Draws a start that differs a little from the placed one, to measure what the drape owes to it; 0 for the placed one.
+    /// Seed of a small perturbation of the placed start, by which the sensitivity of the drape to its start is
+    /// measured; 0 for none.
     pub seed: u64,
-    /// How seams are closed.
+    /// Parameters of sewing.
     #[serde(flatten)]
     pub sewing: Sewing,
-    /// Residual without friction at which a level is good enough to start the next.
+    /// Residual without friction at which a level ends and the next begins.
     pub coarse_tolerance: f64,
-    /// Most steps without friction on a level.
+    /// Greatest number of steps without friction on a level.
     pub coarse_steps: u32,
-    /// Most steps without friction on the finest level where a coarser one has settled.
+    /// Greatest number of steps without friction on the finest level where a coarser one has settled.
     pub finest_frictionless_steps: u32,
     /// Residual, rms force over mean vertex weight, at which the drape counts as in equilibrium.
     pub tolerance: f64,
-    /// Most steps of the last phase, with friction.
+    /// Greatest number of steps of the last phase, with friction.
     pub max_iterations: u32,
-    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::Distortion)); more is reported. Just
-    /// below the 17 % up to which the laws of the library's fabrics are measured.
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::Distortion)) without a
+    /// report. Just below the 17 % up to which the laws of the library's fabrics are measured.
     pub distortion_limit: f64,
-    /// Whether more than that ends the simulation, as soon as a mesh has settled.
+    /// True if more than that ends the simulation as soon as a mesh has settled.
     pub distortion_stops: bool,
-    /// How the cloth meets the body.
+    /// Contact of the cloth with the body.
     pub contact: ContactParams,
     /// Contact of the cloth with itself.
     pub self_contact: ClothContactParams,

@@ -1,12 +1,13 @@
-//! How a drape at rest answers to a small change of its pattern.
+//! Sensitivity of a drape at rest to a small change of its pattern.
 //!
-//! At rest the forces vanish, `f(x, X) = 0`, wherever the pattern `X` goes. Its change `dX` so moves the cloth by `dx` with
-//! `K dx = df/dX dX`, where `K = -df/dx` is the stiffness as the forces have it ([`Tangent`]). One factor serves all changes; each takes one
-//! solve, and whatever is measured on the drape follows along `dx`. There are fewer handles of a pattern than measurements of a drape: solving
-//! for each measurement instead (the adjoint) would take more solves, and a derivative of each by hand.
+//! In equilibrium the forces vanish, `f(x, X) = 0`, for every pattern `X`. By the implicit function theorem a change
+//! `dX` moves the cloth by `dx` with `K dx = df/dX dX`. `K = -df/dx` is the tangent stiffness ([`Tangent`]). It is
+//! factorised once, and each change takes one solve. The derivative of any measurement follows along `dx`. A pattern
+//! has fewer handles than a drape has measurements, so this direct method takes fewer solves than the adjoint method,
+//! and no derivative by hand.
 //!
-//! Contacts stay as they stand: the same layers touch, and where friction holds, it holds. A change that slides cloth or lifts it off the body
-//! is seen by draping again.
+//! The active set of contacts is kept: the same layers touch, and friction that holds goes on holding. A change that
+//! slides cloth or lifts it off the body needs another drape.
 
 use super::dress::TIGHT_M;
 use super::params::Params;
@@ -29,18 +30,18 @@ geom::constants! {
     const STEP_M: f64 = 1e-7;
     /// Residual at which a drape counts as wholly at rest.
     const AT_REST: f64 = 1e-8;
-    /// Newton steps towards it at most, and shares of one that are tried.
+    /// Greatest number of Newton steps, and shares of a step that are tried.
     const NEWTON_STEPS: usize = 30;
     const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
-    /// Steps of these that leave more force than there was.
+    /// Greatest number of steps that may leave a greater residual.
     const SETBACKS: usize = 5;
-    /// Stiffness by which vertices are tied to their places where the cloth would fold otherwise, N/m, from the least on; twice that of the
-    /// stiffest cloth is enough.
+    /// Diagonal shift of an indefinite stiffness, which ties vertices to their places, N/m: the first that is tried,
+    /// and the last. Twice the stiffness of the stiffest cloth is enough.
     const LEAST_TIE_N_M: f64 = 0.01;
     const MOST_TIE_N_M: f64 = 1e5;
 }
 
-/// A drape, and what it lies on.
+/// A drape and the surfaces that it lies on.
 #[derive(Clone, Copy)]
 pub struct Lying<'a> {
     /// The body's exact surface, where it bounds a solid.
@@ -51,15 +52,15 @@ pub struct Lying<'a> {
     pub floor_m: f64,
     /// The mesh that is draped.
     pub garment: &'a Garment,
-    /// What it is made of.
+    /// Fabric that it is made of.
     pub fabric: &'a Fabric,
-    /// How it was draped.
+    /// Parameters that it was draped with.
     pub params: &'a Params,
-    /// Whether friction holds it; without, it lies as it would slide.
+    /// True if friction holds it; without friction it has slid to where it rests.
     pub is_held: bool,
 }
 
-/// A drape wholly at rest.
+/// A drape in equilibrium, with its tangent stiffness.
 pub struct Response<'a> {
     fabric: &'a Fabric,
     system: System<'a>,
@@ -69,7 +70,7 @@ pub struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// Takes up a drape where its vertices lie, and brings it wholly to rest. `cloth` is its garment, sewn ([`sewn`]).
+    /// Brings a drape from `positions` into equilibrium. `cloth` is its garment, sewn ([`sewn`]).
     ///
     /// # Errors
     /// When it diverges or slides off the body.
@@ -93,25 +94,26 @@ impl<'a> Response<'a> {
         Ok(Self { fabric, system, tangent, x, residual })
     }
 
-    /// Places of the garment's vertices, m.
+    /// Positions of the garment's vertices, m.
     #[must_use]
     pub fn positions(&self) -> Vec<V3> {
         self.system.cloth.unweld(&self.x)
     }
 
-    /// Rms force over mean vertex weight that is left.
+    /// Residual: rms force over mean vertex weight.
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// Whether every displacement costs energy. A drape that is about to fold otherwise is not stable; what it answers is then no guide.
+    /// True if the tangent stiffness is positive definite: every displacement costs energy. An unstable drape is about
+    /// to fold in another way, and its derivatives mean little.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.tangent.is_definite()
     }
 
-    /// How the garment's vertices move per unit of a change, from its mesh half a `unit` before and after.
+    /// Displacements of the garment's vertices per unit of a change, from its mesh half a `unit` before and after.
     ///
     /// # Errors
     /// When a triangle of either has no area; when the stiffness is singular.
@@ -123,7 +125,8 @@ impl<'a> Response<'a> {
         Ok(self.system.cloth.unweld(&moved))
     }
 
-    /// Where the vertices of a changed pattern come to rest with the contacts as they stand, and the residual there.
+    /// Positions in which the vertices of a changed pattern come to rest with the contacts as they stand, and the
+    /// residual there.
     ///
     /// # Errors
     /// When one of its triangles has no area; when the stiffness is singular.
@@ -153,21 +156,21 @@ pub fn sewn(garment: &Garment, fabric: &Fabric) -> Result<Cloth, SimError> {
     Cloth::new(garment, fabric, sewing::welded(garment))
 }
 
-/// Own forces of cloth and its weight, N.
+/// Internal forces of cloth and its weight, N.
 fn pulls(cloth: &Cloth, x: &[V3]) -> Vec<V3> {
     let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
     cloth.add_forces(x, &mut forces);
     forces
 }
 
-/// Forces on cloth among what acts on it from outside as it stands in `system`, N.
+/// Forces on cloth with the external forces of `system`, N.
 fn forces(system: &System, cloth: &Cloth, x: &[V3]) -> Vec<V3> {
     let mut forces = pulls(cloth, x);
     system.add_outer_forces(x, &mut forces);
     forces
 }
 
-/// The vertices that forces couple at `x`.
+/// Pairs of vertices that forces couple at `x`.
 fn couplings(system: &System, x: &[V3]) -> PairList {
     let cloth = system.cloth;
     let among = |vertices: Vec<usize>| {
@@ -184,24 +187,24 @@ fn couplings(system: &System, x: &[V3]) -> PairList {
         among(vertices)
     };
     let patches = cloth.triangles.iter().zip(&cloth.membrane.sides).flat_map(patch);
-    // Points of the cloth that touch the body lie within triangles.
+    // Contact points with the body lie within triangles, whose vertices are coupled already.
     let mut unused = vec![V3::zeros(); x.len()];
     let layers = system.self_contact.iter().flat_map(|contact| contact.assemble(x, &mut unused)).collect::<Vec<_>>();
     let touching = layers.iter().flat_map(|contact| among(contact.vertices.to_vec()));
     PairList::new(patches.chain(cloth.bending.pairs.pairs().iter().copied()).chain(touching))
 }
 
-/// Cloth on its way to rest.
-struct Way {
+/// An iterate of Newton's method.
+struct Iterate {
     x: Vec<V3>,
     forces: Vec<V3>,
     residual: f64,
     tangent: Tangent,
-    /// Whether the stiffness has ties besides, to step by.
+    /// True if the stiffness is shifted by ties.
     is_tied: bool,
 }
 
-impl Way {
+impl Iterate {
     fn at(system: &System, x: Vec<V3>) -> Self {
         let acting = |x: &[V3]| forces(system, system.cloth, x);
         let forces = acting(&x);
@@ -209,13 +212,13 @@ impl Way {
         Self { residual: rms(&forces) / system.mean_weight(), x, forces, tangent, is_tied: false }
     }
 
-    /// What decides between places: a stable one before others, then what is left of the forces.
+    /// Order of iterates: stable ones first, then by the residual.
     fn rank(&self) -> (bool, f64) {
         (!self.tangent.is_definite(), self.residual)
     }
 
-    /// Where the next step of Newton's method leads, and whether that is nearer. Where cloth is about to fold otherwise it is tied to its
-    /// place until it is not, and nearer is what has less energy.
+    /// Positions after the next step of Newton's method, and true where they are better. An indefinite stiffness is
+    /// shifted until it is definite, and the energy decides; else the residual does.
     fn next(&mut self, system: &System) -> Option<(Vec<V3>, bool)> {
         let is_stable = self.tangent.is_definite();
         let mut tie = LEAST_TIE_N_M;
@@ -245,10 +248,10 @@ impl Way {
     }
 }
 
-/// Brings cloth wholly to rest by Newton's method; returns its stiffness there and the residual. Where layers come to touch on the way, a
-/// step may leave more force than there was: a few of these are taken, and the best place is kept.
+/// Brings cloth into equilibrium by Newton's method; returns its tangent stiffness there and the residual. Where layers
+/// come to touch on the way a step may raise the residual. A few such steps are taken, and the best iterate is kept.
 fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
-    let mut now = Way::at(system, x.clone());
+    let mut now = Iterate::at(system, x.clone());
     let mut rank = now.rank();
     let mut setbacks = 0;
     for _ in 0..NEWTON_STEPS {
@@ -260,13 +263,13 @@ fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
         if setbacks > SETBACKS {
             break;
         }
-        now = Way::at(system, next);
+        now = Iterate::at(system, next);
         if now.rank() < rank {
             rank = now.rank();
             x.clone_from(&now.x);
         }
     }
-    let best = if now.x == *x && !now.is_tied { now } else { Way::at(system, x.clone()) };
+    let best = if now.x == *x && !now.is_tied { now } else { Iterate::at(system, x.clone()) };
     (best.tangent, best.residual)
 }
 
@@ -280,8 +283,7 @@ mod tests {
     use pattern::draft::Model;
     use pattern::{Handle, Style};
 
-    /// What a handle does to the vertices, by derivative and by differences of two drapes at rest: how far both are apart over how far
-    /// vertices go.
+    /// Compares the displacements by a handle from the derivative with those from differences of two drapes at rest.
     #[test]
     fn a_drape_answers_as_its_differences_do() {
         const TAKEN_M: f64 = 1e-4;
@@ -312,13 +314,13 @@ mod tests {
             for handle in [Handle::Hem, Handle::FrontLength, Handle::ShoulderSlope] {
                 let taken = |by_m: f64| style.moved_mesh(garment, handle, by_m).expect("it moves").rest;
                 let (more, less) = (taken(TAKEN_M), taken(-TAKEN_M));
-                let at = |by: f64| {
+                let moved_by = |by: f64| {
                     let way = |v: usize| (more[v] - less[v]) / (2.0 * TAKEN_M);
                     garment.with_rest((0..more.len()).map(|v| garment.rest[v] + way(v) * by).collect::<Vec<V2>>())
                 };
-                let [before, after] = [-STEP, STEP].map(at);
+                let [before, after] = [-STEP, STEP].map(moved_by);
                 let rates = response.rates([&before, &after], 2.0 * STEP).expect("regular");
-                let [(before, _), (after, _)] = [&before, &after].map(|one| response.again(one).expect("regular"));
+                let [(before, _), (after, _)] = [&before, &after].map(|mesh| response.again(mesh).expect("regular"));
                 let ways = || after.iter().zip(&before).map(|(after, before)| (after - before) / (2.0 * STEP));
                 let off: Vec<V3> = rates.iter().zip(ways()).map(|(rate, way)| rate - way).collect();
                 let way = rms(&ways().collect::<Vec<V3>>());

@@ -9,56 +9,57 @@ use pattern::{Garment, Measurement};
 
 use super::params::Params;
 
-/// When a stretch of steps ends, and what it is called.
+/// A stretch of steps: its name, and when it ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
     name: &'static str,
     level: usize,
-    /// Residual that ends it.
+    /// Residual at which it ends.
     tolerance: f64,
-    /// Steps that end it at the latest.
+    /// Greatest number of its steps.
     max_steps: u32,
-    /// Share of the whole work done before and after it, for the progress.
+    /// Share of the whole work that is done before and after it, for the progress.
     share: [f64; 2],
-    /// First step size, s.
+    /// Size of its first step, s.
     h_start_s: f64,
 }
 
 geom::constants! {
     "fem.run",
-    /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
+    /// Size of the first step at the end of a drape, s: the cloth has settled already.
     const LAIN_DOWN_S: f64 = 0.5;
-    /// Steps of easing at most: T-shirts and dresses take 10 to 33.
+    /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
     const EASING_STEPS: u32 = 50;
-    /// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
+    /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
+    /// an obstacle; more steps would draw it through.
     const PATIENCE: u32 = 3;
-    /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
-    /// hold at the hips, a fifth of a metre lower, or not at all.
+    /// Greatest descent of a garment's top from its height as sewn, m. Trousers and skirts that do not hold at the
+    /// waist hold at the hips, a fifth of a metre lower, or not at all.
     pub const MOST_DESCENT_M: f64 = 0.25;
 }
 
 impl Phase {
     /// Coming to rest without friction on level `level` of `last`.
     pub fn frictionless(params: &Params, level: usize, last: usize) -> Self {
-        let at = |l: usize| 0.2 + 0.6 * (l as f64 / (last + 1) as f64).powi(2);
-        // What a finer mesh starts from has settled already; it only has to lie down.
+        let done_before = |l: usize| 0.2 + 0.6 * (l as f64 / (last + 1) as f64).powi(2);
+        // A finer mesh starts from a drape that has settled; only its short waves are left.
         let has_settled = level > 0 && level == last;
         Self {
             name: "settle",
             level,
             tolerance: params.coarse_tolerance,
             max_steps: if has_settled { params.finest_frictionless_steps } else { params.coarse_steps },
-            share: [at(level), at(level + 1)],
+            share: [done_before(level), done_before(level + 1)],
             h_start_s: params.step.h_start_s,
         }
     }
 
-    /// Coming nearly to rest on a level, before it does so with more stiffness.
+    /// Coming nearly to rest on a level with reduced stiffness.
     pub fn easing(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
         Self { tolerance, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
     }
 
-    /// A few steps of coming to rest, while what the cloth lies on moves.
+    /// A few steps while the surface that the cloth lies on moves.
     pub fn passing(params: &Params, level: usize, last: usize, steps: u32) -> Self {
         Self { max_steps: steps, ..Self::frictionless(params, level, last) }
     }
@@ -76,6 +77,16 @@ impl Phase {
     }
 }
 
+/// Progress of the phase that a step belongs to.
+struct Recorded {
+    name: &'static str,
+    level: usize,
+    /// Share of the whole work that is done.
+    fraction: f64,
+    /// Greatest seam gap, m.
+    seam_gap_m: f64,
+}
+
 /// A simulation under way.
 pub struct Simulation<'a> {
     params: &'a Params,
@@ -87,12 +98,12 @@ pub struct Simulation<'a> {
     vertex_steps: u64,
     fraction: f64,
     history: Vec<Step>,
-    /// Whether the last stretch of steps ended because none moved anything.
+    /// True if the last stretch of steps ended because no step lowered the energy.
     is_stuck: bool,
 }
 
 impl<'a> Simulation<'a> {
-    /// Starts a run over levels 0 to `levels`.
+    /// A run over levels 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
         let history = Vec::new();
         Self {
@@ -108,12 +119,12 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// How it simulates.
+    /// Parameters of the simulation.
     pub fn params(&self) -> &'a Params {
         self.params
     }
 
-    /// From here on a garment whose top comes down far from that of `sewn` ends the run.
+    /// Ends the run from here on when the garment's top comes down too far from that of `sewn`.
     pub fn keep_up(&mut self, garment: &Garment, sewn: &[V3]) {
         self.worn_at_m = Some(top_m(garment, sewn));
     }
@@ -123,34 +134,37 @@ impl<'a> Simulation<'a> {
         self.levels
     }
 
-    /// Whether a garment that ends with a fault is put on again otherwise.
+    /// True if a garment that ends with a fault is put on again in another way.
     pub fn tries_again(&self) -> bool {
         self.monitor.tries_again()
     }
 
-    /// Whether the last stretch of steps ended because no step lowered the energy any more.
+    /// True if the last stretch of steps ended because no step lowered the energy any more.
     pub fn is_stuck(&self) -> bool {
         self.is_stuck
     }
 
-    /// Iterations so far.
+    /// Number of iterations so far.
     pub fn iterations(&self) -> u32 {
         self.iteration
     }
 
-    /// Sum over all iterations of the vertices that were stepped.
+    /// Sum over all iterations of the number of vertices.
     pub fn vertex_steps(&self) -> u64 {
         self.vertex_steps
     }
 
-    /// Every recorded step.
+    /// All recorded steps.
     pub fn into_history(self) -> Vec<Step> {
         self.history
     }
 
-    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not get closer, so
-    /// that a tight garment is pulled as hard as it needs and a loose one is not torn about.
-    /// `whole` are the positions of all of the garment's vertices, of which the system may have a part.
+    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not come closer:
+    /// a tight garment is pulled as hard as it needs, a loose one no harder. `whole` gives the positions of all
+    /// vertices of the garment, of which the system may have only a part.
+    ///
+    /// # Errors
+    /// When the cloth diverges or slides off the body, or the monitor cancels.
     pub fn sew(
         &mut self,
         garment: &Garment,
@@ -173,7 +187,8 @@ impl<'a> Simulation<'a> {
             let info = stepper.step(system, x, 0.0);
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
-            self.record(garment, x, &whole(x), info, "sew", 0, widest, 0.2 * done)?;
+            let recorded = Recorded { name: "sew", level: 0, fraction: 0.2 * done, seam_gap_m: widest };
+            self.record(garment, x, &whole(x), info, recorded)?;
             let is_closed =
                 widest <= params.sewing.weld_gap_m || (step >= params.sewing.sewing_steps && widest <= OPEN_M);
             if is_closed || stepper.is_stuck() {
@@ -194,7 +209,10 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the residual is reached, the steps are used up, or none gets anywhere; returns the residual.
+    /// Steps until the residual is reached, the steps are used up, or no step lowers the energy; returns the residual.
+    ///
+    /// # Errors
+    /// When the cloth diverges or slides off the body, or the monitor cancels.
     pub fn drape(
         &mut self,
         garment: &Garment,
@@ -214,7 +232,8 @@ impl<'a> Simulation<'a> {
             let done = ((first / residual).ln() / (first / phase.tolerance).ln()).clamp(0.0, 1.0);
             let fraction = phase.share[0] + (phase.share[1] - phase.share[0]) * done;
             let positions = system.cloth.unweld(x);
-            self.record(garment, x, &positions, info, phase.name, phase.level, 0.0, fraction)?;
+            let recorded = Recorded { name: phase.name, level: phase.level, fraction, seam_gap_m: 0.0 };
+            self.record(garment, x, &positions, info, recorded)?;
             if residual <= phase.tolerance || stepper.is_stuck() {
                 break;
             }
@@ -223,18 +242,17 @@ impl<'a> Simulation<'a> {
         Ok(residual)
     }
 
-    #[allow(clippy::too_many_arguments)]
+    /// Records and reports a step after which the stepped vertices are at `x` and those of the garment at `positions`,
+    /// m.
     fn record(
         &mut self,
         garment: &Garment,
         x: &[V3],
         positions: &[V3],
         info: StepInfo,
-        phase: &'static str,
-        level: usize,
-        seam_gap_m: f64,
-        fraction: f64,
+        recorded: Recorded,
     ) -> Result<(), SimError> {
+        let Recorded { name: phase, level, fraction, seam_gap_m } = recorded;
         self.iteration += 1;
         self.vertex_steps += x.len() as u64;
         if !x.iter().all(|p| p.iter().all(|c| c.is_finite())) {
@@ -261,7 +279,7 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
+/// E of a step: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64

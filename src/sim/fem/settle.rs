@@ -1,4 +1,5 @@
-//! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
+//! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the
+//! body.
 
 use super::run::{Phase, Simulation};
 use crate::cloth::Cloth;
@@ -13,34 +14,39 @@ use pattern::Garment;
 
 geom::constants! {
     "fem.settle",
-    /// Deepest point of a drape that is good, m.
+    /// Deepest point inside the body up to which no point has to be held out, m.
     const DEEPEST_M: f64 = 3e-4;
-    /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
+    /// Greatest number of times that a drape is taken up again, because it is not at rest or has points inside the
+    /// body.
     const HOLDING_ROUNDS: usize = 8;
-    /// Residual at which it is seen which points still lie inside the body: what presses them in is out of balance by hundreds.
+    /// Residual at which points inside the body are looked for: the forces that press them in leave a residual of
+    /// hundreds.
     const HELD: f64 = 1.0;
-    /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
+    /// Penalty of the contact with the body for cloth that is drawn tight or over a hand, N/m3: fingertips press
+    /// through a softer one.
     const HARD_N_M3: f64 = 1e9;
-    /// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
+    /// Penalty of the cloth's contact with itself for the same cloth, N/m3: where a seat is drawn tight, a softer one
+    /// lets layers through.
     const HARD_LAYERS_N_M3: f64 = 1e7;
-    /// Residual from which a drape that is let go of is brought wholly to rest, and how often points inside the body are held out first.
+    /// Residual at which a drape without friction is handed on to Newton's method, and the greatest number of rounds in
+    /// which points inside the body are held out before.
     const FREE: f64 = 0.05;
     const FREE_ROUNDS: usize = 4;
-    /// How far the floor rises at a time, m, and steps that the cloth takes then.
+    /// Rise of the floor at a time, m, and steps of the solver after each rise.
     const RISE_M: f64 = 5e-3;
     const STEPS_A_RISE: u32 = 3;
-    /// Steps on each shape that a hand passes through.
+    /// Steps of the solver on each shape that a hand passes through.
     const PASSING_STEPS: u32 = 12;
 }
 
-/// From when on friction holds a garment.
+/// The time from which on friction holds a garment.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Grip {
-    /// Once it has come to rest without: then the drape does not depend on how the seams were closed.
+    /// Once it has come to rest without friction: then the drape does not depend on the path by which the seams closed.
     AtTheEnd,
-    /// From the sewing on: for what would slide off the body without.
+    /// From the sewing on: for a garment that would slide off the body without friction.
     Throughout,
-    /// Likewise, and its top edge keeps its height: for what would slide off with friction as well.
+    /// Likewise, and its top edge keeps its height: for a garment that would slide off with friction as well.
     Braced,
 }
 
@@ -55,14 +61,14 @@ pub struct Around<'a> {
     pub floor_m: f64,
     /// Hands that the cloth comes near.
     pub hands: Option<&'a Hands<'a>>,
-    /// How the body pushes.
+    /// Parameters of the contact with the body.
     pub contact: ContactParams,
-    /// How the cloth pushes itself.
+    /// Parameters of the contact of the cloth with itself.
     pub self_contact: ClothContactParams,
 }
 
 impl Around<'_> {
-    /// The same with contacts that do not give way under cloth that is drawn tight.
+    /// The same with contacts stiff enough for cloth that is drawn tight.
     pub fn hardened(mut self) -> Self {
         self.contact.stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
         self.self_contact.stiffness_n_m3 = self.self_contact.stiffness_n_m3.max(HARD_LAYERS_N_M3);
@@ -72,15 +78,15 @@ impl Around<'_> {
 
 /// A settled level.
 pub struct Settled {
-    /// Of the garment's vertices, m.
+    /// Positions of the garment's vertices, m.
     pub positions: Vec<V3>,
     /// Rms force over mean vertex weight.
     pub residual: f64,
-    /// Whether its last steps moved nothing, though it was not at rest.
+    /// True if no step lowered the energy any more, though it was not at rest.
     pub is_stuck: bool,
-    /// How far the contact with the body yields, m.
+    /// Depth by which the contact with the body yields, m.
     pub yields_m: f64,
-    /// What its top edge had to be held up with, N.
+    /// Force that its top edge had to be held up with, N.
     pub braced_n: Option<f64>,
     /// Positions of the sewn vertices, m.
     pub sewn: Vec<V3>,
@@ -89,7 +95,7 @@ pub struct Settled {
 }
 
 impl Settled {
-    /// The drape that the finest mesh, `garment`, has come to; at rest with a residual of `tolerance` at most.
+    /// The settled finest mesh, `garment`, as a drape; it has converged where the residual is at most `tolerance`.
     pub fn into_drape(self, skin: Option<&Skin>, field: &DistanceField, garment: &Garment, tolerance: f64) -> Drape {
         Drape {
             stage: Stage::Drape,
@@ -113,15 +119,15 @@ impl Settled {
 /// A level that is to settle.
 #[derive(Clone, Copy)]
 pub struct Settling<'a> {
-    /// What it lies on.
+    /// Surfaces that it meets.
     pub around: Around<'a>,
     /// Mesh of this level, its pieces apart.
     pub garment: &'a Garment,
     /// The same, sewn.
     pub cloth: &'a Cloth,
-    /// Its number, coarsest first.
+    /// Number of the level; the coarsest is 0.
     pub level: usize,
-    /// When friction begins.
+    /// Time from which on friction holds it.
     pub grip: Grip,
 }
 
@@ -163,8 +169,8 @@ impl<'a> Settling<'a> {
         Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
-    /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout; says whether
-    /// they do.
+    /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true
+    /// where they reach the residual `tolerance`.
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
@@ -177,12 +183,14 @@ impl<'a> Settling<'a> {
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
 
-    /// Whether cloth that the body holds reaches below the floor. What slides off the body is seen to first: a floor would catch it.
+    /// True if the cloth reaches below the floor. The floor comes last: it would catch a garment that slides off the
+    /// body.
     fn is_below_floor(&self, x: &[V3]) -> bool {
         x.iter().any(|p| p.z < self.around.floor_m)
     }
 
-    /// Has the floor rise from below the cloth to where the body stands: what is longer than the leg comes to lie on it.
+    /// Raises the floor from below the cloth to the height at which the body stands: cloth longer than the leg comes to
+    /// lie on it.
     fn stand(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<(), SimError> {
         let floor_m = self.around.floor_m;
         let lowest_m = x.iter().map(|p| p.z).fold(f64::MAX, f64::min) - self.around.contact.offset_m;
@@ -196,13 +204,13 @@ impl<'a> Settling<'a> {
         Ok(())
     }
 
-    /// Areas of the sewn vertices as the cloth's contact with itself takes them, m2.
+    /// Areas of the sewn vertices by which the cloth's contact with itself is weighted, m2.
     fn contact_areas(&self) -> Vec<f64> {
         let Cloth { vertex_of, areas, .. } = self.cloth;
         contact_areas(self.garment, vertex_of, areas, 2.0 * self.around.self_contact.thickness_m)
     }
 
-    /// The cloth at `x` in contact with the body and with itself.
+    /// The system of the cloth at `x` in contact with the body and with itself.
     fn system<'s>(&self, contact: BodyContact<'s>, x: &[V3]) -> System<'s>
     where
         'a: 's,
@@ -215,7 +223,8 @@ impl<'a> Settling<'a> {
         system
     }
 
-    /// The system of a finest mesh that lies at `x` already: it comes to rest there as friction holds it, or freely without.
+    /// The system of a finest mesh that is draped at `x`. It comes to rest there with friction where `is_held`, else
+    /// without.
     ///
     /// # Errors
     /// When it diverges or slides off the body, or the monitor cancels.
@@ -236,7 +245,7 @@ impl<'a> Settling<'a> {
         Ok(system)
     }
 
-    /// A finest mesh at `x` goes on as friction holds it: a few steps while the body moves on.
+    /// A few steps of a finest mesh from `x` with friction, while the body moves on.
     ///
     /// # Errors
     /// When it diverges or slides off the body, or the monitor cancels.
@@ -248,7 +257,7 @@ impl<'a> Settling<'a> {
         run.drape(self.garment, &mut system, x, phase).map(|_| ())
     }
 
-    /// A finest mesh at `x` comes to rest as friction holds it.
+    /// Lets a finest mesh come to rest from `x` with friction.
     ///
     /// # Errors
     /// When it diverges or slides off the body, or the monitor cancels.
@@ -261,7 +270,7 @@ impl<'a> Settling<'a> {
         Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
-    /// Steps without friction until it is at rest, or a few; returns the residual.
+    /// Steps without friction until it is at rest, or only a few where `is_passing`; returns the residual.
     fn frictionless(
         &self,
         system: &mut System,
@@ -276,7 +285,7 @@ impl<'a> Settling<'a> {
         run.drape(self.garment, system, x, Phase::frictionless(&params, self.level, run.levels()))
     }
 
-    /// Contact in a field of cloth that begins at `x`.
+    /// Contact of the cloth, which begins at `x`, with the body of a distance field.
     fn contact<'f>(&self, field: &'f DistanceField, x: &[V3], run: &Simulation) -> BodyContact<'f> {
         let triangles = &self.cloth.triangles;
         let mut contact = BodyContact::new(field, self.around.contact, &self.cloth.areas);
@@ -294,15 +303,15 @@ impl<'a> Settling<'a> {
         contact
     }
 
-    /// Holds points inside the body out from now on; returns how deep the deepest lies, m.
+    /// Adds constraints for points inside the body, which hold them out from now on; returns the greatest depth, m.
     fn hold_out(&self, contact: &mut BodyContact, x: &[V3], is_at_rest: bool) -> f64 {
         let Cloth { membrane, triangles, .. } = self.cloth;
         let deepest = |skin| contact.hold_out(skin, (membrane.pairs.pairs(), triangles), x, is_at_rest);
         self.around.skin.map_or(0.0, deepest)
     }
 
-    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. Until then it comes to rest no
-    /// further than what presses points in is out of balance: the next round moves it again.
+    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. The tolerance is
+    /// loose until then: each round moves the cloth again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
         system.set_friction();

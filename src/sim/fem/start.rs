@@ -1,24 +1,24 @@
-//! Starts that differ a little from the placed one, to see whether the drape depends on them.
+//! Small perturbations of the placed start, by which the sensitivity of the drape to its start is measured.
 
 use crate::laboratory::sheets::{noise, shaken};
 use geom::V3;
 
 geom::constants! {
     "fem.start",
-    /// Greatest shift each way, m.
+    /// Greatest shift along each axis, m.
     const SHIFT_M: f64 = 5e-3;
     /// Greatest turn about the vertical, rad: one degree.
     const TURN_RAD: f64 = 0.0175;
-    /// Greatest widening: pieces start that share further from the garment's middle.
+    /// Greatest widening about the garment's middle, as a share.
     const WIDENING: f64 = 0.05;
-    /// Greatest displacement of single vertices each way, m.
+    /// Greatest displacement of single vertices along each axis, m.
     const JITTER_M: f64 = 1e-3;
-    /// Greatest factor on the force of the seam springs, and its inverse the least.
+    /// Greatest factor on the force of the seam springs; its inverse is the least.
     const FORCE: f64 = 1.5;
 }
 
-/// Moves a placed garment as the seed says: shifted, turned about the vertical, further from the body, each vertex
-/// shaken; returns the factor on the sewing force. Seed 0 leaves all as it is.
+/// Perturbs a placed garment as the seed says: shifts it, turns it about the vertical, widens it and jitters each
+/// vertex. Returns the factor on the sewing force. Seed 0 changes nothing.
 pub fn perturb(seed: u64, x: &mut [V3]) -> f64 {
     if seed == 0 || x.is_empty() {
         return 1.0;

@@ -5,17 +5,16 @@ use super::params::Params;
 use super::run::{MOST_DESCENT_M, Simulation};
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::contact::Skin;
-use crate::outfit::{Layer, Wear, joined, parted};
+use crate::outfit::{Joined, Layer, Wear, Wearer, joined, parted};
 use crate::quality::{self, top_m};
 use crate::{Drape, Monitor, SimError};
-use body::Body;
-use geom::{DistanceField, V3};
+use geom::V3;
 use pattern::Garment;
 
 impl Wear for Params {
     fn alone(
         &self,
-        (body, field): (&Body, &DistanceField),
+        Wearer { body, field }: Wearer,
         layer: Layer,
         room_m: f64,
         monitor: &mut dyn Monitor,
@@ -27,12 +26,12 @@ impl Wear for Params {
 
     fn together(
         &self,
-        (body, field): (&Body, &DistanceField),
+        Wearer { body, field }: Wearer,
         layers: &[Layer],
         drapes: Vec<Drape>,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<Drape>, SimError> {
-        let (garments, all, cloth) = joined(layers)?;
+        let Joined { garments, all, cloth } = joined(layers)?;
         let start: Vec<V3> = drapes.iter().flat_map(|drape| drape.positions.iter().copied()).collect();
         let skin = Skin::new(&body.mesh).ok();
         let Params { contact, self_contact, .. } = *self;
@@ -67,7 +66,7 @@ impl Wear for Params {
     }
 }
 
-/// The layer that has come down farthest, and how far, m, where one has come off.
+/// The layer that has come down farthest, with its descent, m; `None` where none has slid off.
 fn slid<'a>(garments: &[&'a Garment], drapes: &[Drape], lies: &Settled) -> Option<(&'a Garment, f64)> {
     let after = parted(garments, &lies.positions);
     let descents = garments
@@ -75,5 +74,5 @@ fn slid<'a>(garments: &[&'a Garment], drapes: &[Drape], lies: &Settled) -> Optio
         .zip(drapes)
         .zip(&after)
         .map(|((garment, drape), after)| (*garment, top_m(garment, &drape.positions) - top_m(garment, after)));
-    descents.max_by(|one, other| one.1.total_cmp(&other.1)).filter(|(_, descent_m)| *descent_m > MOST_DESCENT_M)
+    descents.max_by(|(_, a), (_, b)| a.total_cmp(b)).filter(|(_, descent_m)| *descent_m > MOST_DESCENT_M)
 }

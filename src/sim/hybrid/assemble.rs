@@ -1,33 +1,32 @@
-//! The garment as the body sees it: what is cut in several pieces but lies on one side of the trunk, one leg or one arm
-//! is one piece there.
+//! Pieces joined for the mapping: all that lie on one side of the trunk, on one leg or on one arm become one piece.
 //!
-//! Fronts cut in halves or with darts, skirts with their waistbands, sleeves in two pieces are sewn together beforehand
-//! and laid flat again, as little stretched as can be. What hangs on such pieces only (cuffs, collars, bands that join both
-//! legs) is left to [`super::follow`].
+//! Fronts cut in halves or with darts, skirts with their waistbands and sleeves in two pieces are sewn together
+//! beforehand. They are laid flat again with least distortion, as rigid as possible. Pieces that only hang on such
+//! pieces (cuffs, collars, bands that join both legs) are left to [`super::continuation`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::elastic::{Elastic, Pull};
+use super::elastic::{Controls, Elastic, Pull};
 use crate::sewing;
 use geom::{V2, V3};
 use pattern::{Garment, PieceMesh, Role, SeamMesh};
 
 geom::constants! {
     "hybrid.assemble",
-    /// Steps in which pieces sewn together are laid flat.
+    /// Number of steps in which pieces sewn together are laid flat.
     const FLATTENING: u32 = 12;
-    /// Weight of a vertex's place meanwhile, over that of its triangles: no more than keeps the pieces where they are.
+    /// Weight of a vertex's place meanwhile, over that of its triangles: just enough to keep the pieces where they are.
     const HOLD: f64 = 1e-6;
 }
 
 /// A garment in as few pieces as the body needs.
 #[derive(Clone, Debug)]
 pub struct Assembly {
-    /// Its pieces, flat, with the seams that are still open; without measurements.
+    /// The joined pieces, flat, with the seams that are still open; without measurements.
     pub garment: Garment,
-    /// Its vertex of each vertex of the garment as cut; `None` on pieces that follow.
+    /// Vertex of the joined pieces for each vertex of the garment as cut; `None` on pieces that follow.
     pub vertex_of: Vec<Option<usize>>,
-    /// Pieces as cut that only follow others.
+    /// Pieces as cut that only hang on others.
     pub followers: Vec<usize>,
 }
 
@@ -75,12 +74,12 @@ fn stretches(garment: &Garment) -> Vec<Stretch> {
     found
 }
 
-/// The part of the body that each piece lies on, named by a role; `None` for pieces that follow.
+/// Part of the body that each piece lies on, named by a role; `None` for pieces that follow.
 fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
     let own = |p: &PieceMesh| (!matches!(p.role, Role::Waistband | Role::Other)).then_some(p.role);
     let mut parts: Vec<Option<Role>> = garment.pieces.iter().map(own).collect();
     if parts.iter().all(Option::is_none) {
-        // Something that is sewn to itself only, as a circle skirt: the largest piece goes round the trunk.
+        // Of a garment without roles, as a circle skirt, the largest piece goes round the trunk.
         let largest = (0..parts.len()).max_by_key(|&p| garment.pieces[p].triangles.len());
         if let Some(largest) = largest {
             parts[largest] = Some(Role::Other);
@@ -107,11 +106,12 @@ fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
     parts
 }
 
-/// Where the underarm seams of sleeves meet the trunk.
+/// Points at which the underarm seams of sleeves meet the trunk.
 struct Marks {
     /// Welded vertex of each vertex.
     welded: Vec<usize>,
-    /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or what comes nearest to them.
+    /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or the nearest to
+    /// them.
     roots: BTreeSet<usize>,
 }
 
@@ -141,12 +141,12 @@ fn is_sleeve(role: Role) -> bool {
     matches!(role, Role::SleeveRight | Role::SleeveLeft)
 }
 
-/// How far from a side a welded vertex lies on the trunk, m.
+/// Distance of a welded vertex from a side seam on the trunk, m.
 fn off_side_m(garment: &Garment, welded: &[usize], sides: &BTreeSet<usize>, sewn: usize) -> f64 {
     let mut nearest = f64::MAX;
     for piece in garment.pieces.iter().filter(|p| !is_sleeve(p.role)) {
-        let places = |is_it: &dyn Fn(usize) -> bool| -> Vec<V2> {
-            piece.vertices.clone().filter(|&v| is_it(welded[v])).map(|v| garment.rest[v]).collect()
+        let places = |is_wanted: &dyn Fn(usize) -> bool| -> Vec<V2> {
+            piece.vertices.clone().filter(|&v| is_wanted(welded[v])).map(|v| garment.rest[v]).collect()
         };
         let at_sides = places(&|w| sides.contains(&w));
         for own in places(&|w| w == sewn) {
@@ -174,13 +174,14 @@ fn sides(garment: &Garment, stretches: &[Stretch], welded: &[usize]) -> BTreeSet
     sides
 }
 
-/// Whether a stretch between pieces of one part is sewn beforehand: a dart is, the seam that makes a tube of a sleeve is not.
+/// True if a stretch between pieces of one part is sewn beforehand. A dart is; the seam that makes a tube of a sleeve
+/// is not.
 fn closes(garment: &Garment, marks: &Marks, part: Option<Role>, stretch: &Stretch) -> bool {
     let [a, b] = stretch.pieces;
     if a == b {
         let is_edge = |[v, w]: [usize; 2]| {
-            let of = &garment.triangles[garment.pieces[a].triangles.clone()];
-            v == w || of.iter().any(|t| t.contains(&v) && t.contains(&w))
+            let own = &garment.triangles[garment.pieces[a].triangles.clone()];
+            v == w || own.iter().any(|t| t.contains(&v) && t.contains(&w))
         };
         return stretch.pairs.iter().any(|pair| is_edge(*pair));
     }
@@ -209,7 +210,7 @@ fn groups(parts: &[Option<Role>], inner: &[Stretch]) -> Vec<Vec<usize>> {
     groups.into_values().collect()
 }
 
-/// Places of the vertices sewn so far in the plane of the largest piece of their group, m.
+/// Places of the vertices sewn so far, in the plane of the largest piece of their group, m.
 fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stretch]) -> Vec<V2> {
     let mut laid = garment.rest.clone();
     for group in groups.iter().filter(|group| group.len() > 1) {
@@ -225,7 +226,7 @@ fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stret
     if !inner.is_empty() {
         let hold = vec![HOLD; count];
         let none = vec![V3::zeros(); count];
-        if let Some(mut elastic) = Elastic::new(garment, sewn, &x, (&[], 0.0), &[], vec![], hold) {
+        if let Some(mut elastic) = Elastic::new(garment, sewn, &x, Controls::NONE, &[], vec![], hold) {
             for _ in 0..FLATTENING {
                 x = elastic.step(&x, &Pull { targets: &x, loads: &none, share: 1.0, control: 1.0, closer_m: 0.0 });
             }
@@ -234,7 +235,7 @@ fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stret
     x.into_iter().map(|p| p.xy()).collect()
 }
 
-/// Lays the pieces of a group beside each other as they are sewn, the largest where it is.
+/// Lays the pieces of a group beside each other as they are sewn; the largest stays where it is.
 fn beside(garment: &Garment, group: &[usize], inner: &[Stretch], laid: &mut [V2]) {
     let size = |p: &usize| garment.pieces[*p].triangles.len();
     let Some(&first) = group.iter().max_by_key(|p| size(p)) else { return };
@@ -258,7 +259,7 @@ fn beside(garment: &Garment, group: &[usize], inner: &[Stretch], laid: &mut [V2]
     }
 }
 
-/// A turn and a shift of the plane.
+/// A rigid motion of the plane.
 struct Motion {
     from: V2,
     to: V2,
@@ -266,7 +267,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// The one that brings the first vertices of pairs, at `rest`, nearest to the second, at `laid`.
+    /// The least-squares motion of the first vertices of pairs, at `rest`, onto the second, at `laid`.
     fn onto(pairs: &[[usize; 2]], rest: &[V2], laid: &[V2]) -> Self {
         let n = pairs.len().max(1) as f64;
         let from = pairs.iter().map(|&[v, _]| rest[v]).sum::<V2>() / n;
@@ -368,7 +369,7 @@ impl Numbered {
     }
 }
 
-/// Turns a sleeve so that its underarm seams run upright: from where they are open to where they meet the trunk.
+/// Turns a sleeve so that its underarm seams run upright, from the opening to the trunk.
 fn upright<'s>(
     rest: &mut [V2],
     vertices: std::ops::Range<usize>,

@@ -1,9 +1,9 @@
 //! The pattern's size as an energy, lowered by alternating a local and a global step.
 //!
-//! Every triangle wants to be its pattern triangle, turned as it may (as rigid as possible, [Sorkine & Alexa 2007], with the
-//! pattern as rest shape); every control wants its pattern length. Given the turns and directions of the moment, the energy
-//! is quadratic and the same linear system gives all vertices at once [Bouaziz et al. 2014].
-//! Energies are over the membrane's stiffness, so lengths and areas are all that count.
+//! The rest shape of every triangle is its pattern triangle, up to a rotation: as rigid as possible
+//! [Sorkine & Alexa 2007]. The rest length of every control is its pattern length. With the present rotations and
+//! directions fixed, the energy is quadratic, and one linear system gives all vertices (projective dynamics,
+//! [Bouaziz et al. 2014]). Energies are divided by the membrane stiffness, so that only lengths and areas enter.
 
 use nalgebra::{Matrix2, Matrix3x2};
 
@@ -12,7 +12,7 @@ use geom::{V2, V3};
 use pattern::garment::excesses;
 use pattern::{Garment, MaterialLine, Measurement};
 
-/// A triangle: sewn vertices, gradients of their hat functions in the pattern, area.
+/// A triangle: sewn vertices, gradients of their hat functions in the pattern, rest area.
 #[derive(Clone, Copy, Debug)]
 struct Triangle {
     vertices: [usize; 3],
@@ -23,39 +23,40 @@ struct Triangle {
 /// A stretch of a controlled measurement between two points of the cloth.
 #[derive(Clone, Debug)]
 struct Control {
-    /// Sewn vertices and weights; their sum is the way from one point to the other.
+    /// Sewn vertices and weights; their weighted sum is the vector from one point to the other.
     terms: Vec<(usize, f64)>,
     rest_m: f64,
 }
 
-/// A run of a controlled measurement: stretches one after the other. Their arcs have the pattern's length, as they are measured.
+/// A run of a controlled measurement: stretches one after the other. Their arcs are measured, and are to have the
+/// pattern's length.
 #[derive(Clone, Debug)]
 struct Run {
     controls: Vec<Control>,
-    /// Arcs of the stretches in the pattern, m.
+    /// Arc lengths of the stretches in the pattern, m.
     rest_m: Vec<f64>,
-    /// Those when the energy was set up, m.
+    /// Arc lengths when the energy was set up, m.
     first_m: Vec<f64>,
 }
 
 geom::constants! {
     "hybrid.elastic",
-    /// Weight of a pair of an open seam, in that of a side of a triangle.
+    /// Weight of a pair of an open seam, over that of a side of a triangle.
     const SEAM_WEIGHT: f64 = 1.0;
 }
 
-/// What acts on the cloth besides its own size, for one step.
+/// Targets and loads of one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Pull<'a> {
-    /// Where each sewn vertex is drawn to, m.
+    /// Target of each sewn vertex, m.
     pub targets: &'a [V3],
-    /// Load on each sewn vertex over the membrane's stiffness, m.
+    /// Load on each sewn vertex over the membrane stiffness, m.
     pub loads: &'a [V3],
-    /// What triangles and controls want to be: 0 as they were first, 1 as in the pattern, in between in proportion.
+    /// Rest shape of triangles and controls: 0 as they were at first, 1 as in the pattern, in between in proportion.
     pub share: f64,
-    /// What lengths of controls are multiplied by: takes back what they are stretched by for their softness.
+    /// Factor on the lengths of controls, which compensates the error that their finite weight leaves.
     pub control: f64,
-    /// By how much the two sides of open seams want to come nearer, m.
+    /// Length by which the two sides of open seams are drawn nearer, m.
     pub closer_m: f64,
 }
 
@@ -64,31 +65,45 @@ pub struct Elastic {
     count: usize,
     triangles: Vec<Triangle>,
     runs: Vec<Run>,
-    /// Stretch of each triangle when it was set up: the root of `F^T F`.
+    /// Right stretch tensor of each triangle when the energy was set up: the root of `F^T F`.
     first_stretch: Vec<Matrix2<f64>>,
     control_weight: f64,
     /// Pairs of vertices of seams that are still open.
     open: Vec<[usize; 2]>,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
-    /// Stiffness with which each vertex is held by its neighbours: the diagonal of the membrane's matrix.
+    /// Diagonal of the membrane's matrix: the stiffness with which its neighbours hold each vertex.
     held: Vec<f64>,
     factor: Factor,
 }
 
+/// Measurements that keep their pattern length.
+#[derive(Clone, Copy)]
+pub struct Controls<'a> {
+    /// The measurements.
+    pub measurements: &'a [&'a Measurement],
+    /// Width of the strip of cloth whose weight each has, m.
+    pub weight: f64,
+}
+
+impl Controls<'_> {
+    /// No measurement.
+    pub const NONE: Self = Self { measurements: &[], weight: 0.0 };
+}
+
 impl Elastic {
-    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to
-    /// be kept, and their weight. `bending` are pairs of sewn vertices with their entry of the bending matrix
-    /// over the membrane's stiffness. `open` are pairs of seams that are still to be closed, `weights` those of
-    /// the vertices' targets.
+    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `bending` are pairs of sewn vertices
+    /// with their entry of the bending matrix over the membrane stiffness. `open` are pairs of seams that are still
+    /// open, `weights` the weights of the vertices' targets.
     ///
-    /// `None` when a triangle of the pattern has no area or the weights do not hold the garment anywhere.
+    /// `None` if a triangle of the pattern has no area, or if the matrix is singular because no weight holds the
+    /// garment.
     #[must_use]
     pub fn new(
         garment: &Garment,
         vertex_of: &[usize],
         x: &[V3],
-        (controls, control_weight): (&[&Measurement], f64),
+        controls: Controls,
         bending: &[([usize; 2], f64)],
         open: Vec<[usize; 2]>,
         weights: Vec<f64>,
@@ -98,8 +113,9 @@ impl Elastic {
             .iter()
             .map(|t| Triangle::new(t.map(|v| vertex_of[v]), t.map(|v| garment.rest[v])))
             .collect::<Option<Vec<_>>>()?;
+        let Controls { measurements, weight: control_weight } = controls;
         let runs: Vec<Run> =
-            controls.iter().flat_map(|m| &m.runs).map(|run| Run::of(garment, vertex_of, run, x)).collect();
+            measurements.iter().flat_map(|m| &m.runs).map(|run| Run::of(garment, vertex_of, run, x)).collect();
         let mut entries = Vec::new();
         let mut add = |i: usize, j: usize, value: f64| {
             if i >= j {
@@ -137,9 +153,7 @@ impl Elastic {
         Some(Self { count: x.len(), triangles, runs, first_stretch, control_weight, open, weights, held, factor })
     }
 
-    /// Gives the targets other weights.
-    ///
-    /// Does nothing when the weights do not hold the garment.
+    /// Replaces the weights of the targets. Does nothing if they do not hold the garment.
     pub fn set_weights(&mut self, weights: Vec<f64>) {
         let added: Vec<f64> = weights.iter().zip(&self.weights).map(|(new, old)| new - old).collect();
         if self.factor.add_to_diagonal(&added) {
@@ -147,14 +161,13 @@ impl Elastic {
         }
     }
 
-    /// Stiffness of the membrane round each sewn vertex, in the unit of the targets' weights.
+    /// Stiffness of the membrane at each sewn vertex, in the unit of the targets' weights.
     #[must_use]
     pub fn held(&self) -> &[f64] {
         &self.held
     }
 
-    /// By how much the cloth about each vertex is stretched where it is stretched most: the greatest principal stretch less 1, the mean of its
-    /// triangles by area.
+    /// Greatest principal stretch less 1 at each vertex: the mean over its triangles, weighted by their areas.
     #[must_use]
     pub fn stretches(&self, x: &[V3]) -> Vec<f64> {
         let (mut sums, mut areas) = (vec![0.0; x.len()], vec![0.0; x.len()]);
@@ -176,7 +189,7 @@ impl Elastic {
         &self.open
     }
 
-    /// One local and one global step from `x`; returns the new positions.
+    /// One local step (rotations and directions) and one global step (positions) from `x`; returns the new positions.
     #[must_use]
     pub fn step(&mut self, x: &[V3], pull: &Pull) -> Vec<V3> {
         let mut rhs = vec![V3::zeros(); self.count];
@@ -187,8 +200,8 @@ impl Elastic {
                 rhs[v] += turn * g;
             }
         }
-        for (control, way, length) in self.runs.iter().flat_map(|run| run.wanted(x, pull)) {
-            let wanted = way * (length / way.norm().max(1e-9) * self.control_weight / control.rest_m);
+        for Chord { control, way, length_m } in self.runs.iter().flat_map(|run| run.chords(x, pull)) {
+            let wanted = way * (length_m / way.norm().max(1e-9) * self.control_weight / control.rest_m);
             for &(v, weight) in &control.terms {
                 rhs[v] += wanted * weight;
             }
@@ -221,8 +234,8 @@ impl Triangle {
         Some(Self { vertices, gradients: [-(g1 + g2), g1, g2], area_m2: 0.5 * edges.determinant().abs() })
     }
 
-    /// The deformation gradient `F = R S` parted into the rotation nearest to it, `R = F (F^T F)^(-1/2)`, and the
-    /// stretch `S`, in closed form.
+    /// Polar decomposition of the deformation gradient `F = R S`: the nearest rotation `R = F (F^T F)^(-1/2)` and the
+    /// right stretch tensor `S`, in closed form.
     fn polar(&self, x: &[V3]) -> (Matrix3x2<f64>, Matrix2<f64>) {
         let f: Matrix3x2<f64> = (0..3).map(|k| x[self.vertices[k]] * self.gradients[k].transpose()).sum();
         let c = f.transpose() * f;
@@ -235,7 +248,7 @@ impl Triangle {
 }
 
 impl Run {
-    /// A run of a measurement of cloth whose sewn vertices are at `x`.
+    /// A run of a measurement on cloth whose sewn vertices are at `x`.
     fn of(garment: &Garment, vertex_of: &[usize], run: &MaterialLine, x: &[V3]) -> Self {
         let flat: Vec<V3> = run.points.iter().map(|p| p.at_rest(&garment.rest).push(0.0)).collect();
         let (mut controls, mut ways) = (Vec::new(), Vec::new());
@@ -260,28 +273,39 @@ impl Run {
         Self { rest_m: arcs(&ways), first_m: arcs(&run.ways(x)), ..run }
     }
 
-    /// Its stretches with the way each goes at `x`, and how long a chord its arc wants there, m.
-    fn wanted<'a>(&'a self, x: &[V3], pull: &Pull) -> impl Iterator<Item = (&'a Control, V3, f64)> {
+    /// Chords of its stretches at `x`, with the lengths that give their arcs the wanted length.
+    fn chords<'a>(&'a self, x: &[V3], pull: &Pull) -> impl Iterator<Item = Chord<'a>> {
         let ways = self.ways(x);
         let excesses = self.excesses(&ways);
         let lengths = self.first_m.iter().zip(&self.rest_m).map(|(first, rest)| first + (rest - first) * pull.share);
-        // Less than half of an arc no chord is.
-        let chord = |(length, excess): (f64, f64)| (length * length - excess).max(0.25 * length * length).sqrt();
-        let chords: Vec<f64> = lengths.map(|length| pull.control * length).zip(excesses).map(chord).collect();
-        self.controls.iter().zip(ways).zip(chords).map(|((control, way), chord)| (control, way, chord))
+        // A chord is no shorter than half of its arc.
+        let chord_m = |(length, excess): (f64, f64)| (length * length - excess).max(0.25 * length * length).sqrt();
+        let chords: Vec<f64> = lengths.map(|length| pull.control * length).zip(excesses).map(chord_m).collect();
+        let chord = |((control, way), length_m)| Chord { control, way, length_m };
+        self.controls.iter().zip(ways).zip(chords).map(chord)
     }
 
     fn ways(&self, x: &[V3]) -> Vec<V3> {
         self.controls.iter().map(|control| control.way(x)).collect()
     }
 
-    /// By how much the squared arcs of these ways exceed their squared chords, m2.
+    /// Squared arc less squared chord of each of these ways, m2.
     fn excesses(&self, ways: &[V3]) -> Vec<f64> {
         excesses(ways, &self.controls.iter().map(|control| control.rest_m).collect::<Vec<_>>())
     }
 }
 
+/// A stretch of a run as it lies.
+struct Chord<'a> {
+    control: &'a Control,
+    /// Vector from one end to the other, m.
+    way: V3,
+    /// Wanted length of that vector, m.
+    length_m: f64,
+}
+
 impl Control {
+    /// Vector from one end to the other, m.
     fn way(&self, x: &[V3]) -> V3 {
         self.terms.iter().map(|&(v, weight)| x[v] * weight).sum()
     }

@@ -1,9 +1,8 @@
-//! The form that a garment is laid on: the control mesh, modified as the garment hangs (5.2.4).
+//! The form that a garment is laid on: the control mesh, modified for the hang of the garment (5.2.4).
 //!
-//! A garment hangs from the widest levels above it and falls straight from there. The trunk's profile is therefore made
-//! convex between hip and chest, each side for itself. This keeps the two largest girths and interpolates the layers
-//! between them. Below the hip one tube goes on to the floor, wide enough for both legs. Trousers lie on the legs as
-//! they are.
+//! A garment falls straight from the widest level above. The trunk's profile is therefore made convex between hip and
+//! chest, line by line. This keeps the two largest girths and interpolates the layers between them. Below the hip a
+//! tube continues to the floor, wide enough for both legs. Trousers lie on the unmodified legs.
 
 use body::{Body, ControlMesh, Layer, RING, Region};
 use geom::{TriMesh, V3};
@@ -12,11 +11,11 @@ geom::constants! {
     "hybrid.form",
     /// Height between the rings below the hip, m.
     const SKIRT_STEP_M: f64 = 0.06;
-    /// The form's tube ends here, m above the floor.
+    /// Height of the tube's lower end, m.
     const SKIRT_END_M: f64 = 0.03;
 }
 
-/// Rings one below the other (or one further out on a limb than the other), with the same number of vertices.
+/// Rings with the same number of vertices, one below the other, or one farther out on a limb than the other.
 #[derive(Clone, Debug)]
 pub struct Tube {
     /// Vertices of the form.
@@ -29,7 +28,7 @@ impl Tube {
         Self { rings: layers.iter().map(ring).collect() }
     }
 
-    /// Vertices of line `index` (taken round) from the first ring to the last.
+    /// Vertices of line `index` (modulo the ring) from the first ring to the last.
     pub fn line(&self, index: i32) -> impl Iterator<Item = usize> + '_ {
         self.rings.iter().map(move |ring| ring[index.rem_euclid(RING as i32) as usize])
     }
@@ -68,7 +67,7 @@ impl Tube {
         self.end()
     }
 
-    /// Parameter at which line `index` comes down to the height `z`, m.
+    /// Parameter at which line `index` reaches the height `z`, m, from above.
     #[must_use]
     pub fn at_height(&self, mesh: &TriMesh, index: i32, z: f64) -> f64 {
         let heights: Vec<f64> = self.line(index).map(|v| mesh.positions[v].z).collect();
@@ -84,11 +83,11 @@ impl Tube {
 /// A surface to lay pieces on.
 #[derive(Clone, Debug)]
 pub struct Form {
-    /// Its triangles; vertices of the control mesh keep their numbers.
+    /// Triangle mesh; vertices of the control mesh keep their numbers.
     pub mesh: TriMesh,
     /// Region of each triangle.
     pub regions: Vec<Region>,
-    /// From the axilla down.
+    /// Trunk from the axilla down.
     pub trunk: Tube,
     /// Right and left arm from the armscye to the wrist.
     pub arms: [Tube; 2],
@@ -132,7 +131,7 @@ impl Form {
         form
     }
 
-    /// Sets the foot's girth straight below the ankle's: trouser legs do not follow the instep.
+    /// Puts the foot's ring straight below the ankle's: trouser legs do not follow the instep.
     fn straighten_feet(&mut self) {
         for leg in &self.legs {
             let [ankle, foot] = [leg.rings.len() - 2, leg.rings.len() - 1].map(|k| leg.rings[k]);
@@ -188,7 +187,7 @@ impl Form {
         }
     }
 
-    /// Adds the tube below the hip: the hip's outline, widened where a leg would stand out of it.
+    /// Adds the tube below the hip: the hip's outline, widened where a leg would protrude from it.
     fn add_skirt(&mut self, control: &ControlMesh) {
         use Layer::*;
         let hip: Vec<V3> = control.ring(Hip).map(|v| self.mesh.positions[v]).collect();

@@ -1,17 +1,17 @@
-//! Where the body gives way to cloth that no ring tells of: at armholes, necklines, cuffs, low waists.
+//! Insets of the body for tight cloth that no ring represents: at armholes, necklines, cuffs, low waists.
 //!
-//! Cloth that lies on the body and is stretched there lacks room. The body counts as smaller for it, vertex by vertex, until it is
-//! stretched no more: what is tight lies inside the body and keeps its size, as rings do.
+//! Cloth that lies on the body and is stretched there lacks room. The body counts as smaller for it, vertex by vertex,
+//! until it is stretched no more. Tight cloth then lies inside the body and keeps its size, as rings do.
 
 geom::constants! {
     "hybrid.give",
-    /// What a stretch of 1 asks the body to be smaller by at once, m: a share of the radius of trunk and limbs.
+    /// Correction of an inset per stretch, m: a share of the radius of trunk and limbs.
     const GAIN_M: f64 = 0.06;
-    /// Stretch beyond which cloth that lies on the body counts as tight: one that hangs is stretched less by its weight.
+    /// Stretch beyond which cloth that lies on the body counts as tight: its weight stretches hanging cloth by less.
     const TIGHT: f64 = 0.02;
-    /// Greatest inset, m: beyond that an arm would have no inside.
+    /// Greatest inset, m: with more an arm would have no inside left.
     const MOST_M: f64 = 0.04;
-    /// Rounds in which stretches are shared with neighbours: those of single triangles waver.
+    /// Rounds of averaging with neighbours: the stretches of single triangles fluctuate.
     const SHARED: u32 = 4;
 }
 
@@ -20,31 +20,31 @@ geom::constants! {
 pub struct Give {
     /// Inset of each vertex, m.
     pub now_m: Vec<f64>,
-    /// Whether the body gives way to it.
+    /// True for vertices that the body gives way to.
     gives: Vec<bool>,
-    /// Whether it was tight when that was judged last.
+    /// True for vertices that were tight at the last judgement.
     was_tight: Vec<bool>,
 }
 
 /// The cloth as it lies on the body.
 pub struct Lying<'a> {
-    /// By how much the cloth about each vertex is stretched where it is stretched most.
+    /// Greatest principal stretch less 1 at each vertex.
     pub stretches: &'a [f64],
-    /// Which vertices lie on the body as it counts now.
+    /// True for vertices that lie on the body with its present insets.
     pub touches: &'a [bool],
     /// Edges of the cloth.
     pub sides: &'a [([usize; 2], f64)],
 }
 
 impl Give {
-    /// The body as it is, for so many vertices.
+    /// Zero insets for `count` vertices.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self { now_m: vec![0.0; count], gives: vec![false; count], was_tight: vec![false; count] }
     }
 
-    /// Judges to which vertices the body gives way: those that lie on it and were tight at the last judgement too. What is tight only once
-    /// is still on its way off the body.
+    /// Judges which vertices the body gives way to: those that lie on it and were tight at the last judgement as well.
+    /// Cloth that is tight only once is still moving out of the body.
     pub fn judge(&mut self, lying: &Lying) {
         let shared = lying.shared();
         let was = std::mem::take(&mut self.was_tight);
@@ -53,7 +53,7 @@ impl Give {
         self.gives = (0..shared.len()).map(|v| self.now_m[v] > 0.0 || lasts(v)).collect();
     }
 
-    /// Corrects the insets until what the body gives way to is stretched by a share, no more and no less.
+    /// Corrects the insets until the cloth that the body gives way to is stretched by just `share`.
     pub fn correct(&mut self, lying: &Lying, share: f64) {
         let shared = lying.shared();
         for (v, now) in self.now_m.iter_mut().enumerate().filter(|(v, _)| self.gives[*v]) {
@@ -66,7 +66,7 @@ impl Give {
 }
 
 impl Lying<'_> {
-    /// Stretches shared with neighbours.
+    /// Stretches averaged with those of neighbours.
     fn shared(&self) -> Vec<f64> {
         let mut shared = self.stretches.to_vec();
         for _ in 0..SHARED {
@@ -108,7 +108,7 @@ mod tests {
             give.correct(&lying(&tight, &on), 0.0);
         }
         assert!(give.now_m.iter().all(|now| *now == MOST_M));
-        // What does not touch asks for no more; what is slack is pushed out again.
+        // Cloth that does not touch needs no greater inset; slack cloth is pushed out again.
         give.correct(&lying(&tight, &off), 0.0);
         assert!(give.now_m.iter().all(|now| *now == MOST_M));
         for _ in 0..100 {

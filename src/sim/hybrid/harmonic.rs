@@ -1,16 +1,17 @@
-//! Harmonic maps of a disc onto a convex domain (5.2.3): bijective, because all weights are positive and the domain's
-//! boundary is strictly convex [Floater 2003].
+//! Discrete harmonic maps of a disc onto a convex domain (5.2.3). They are bijective, because all weights are positive
+//! and the boundary of the domain is strictly convex [Floater 2003].
 
 use std::collections::BTreeMap;
 
 use super::sparse::Factor;
 use geom::{V2, V3};
 
-/// Maps a triangulated disc into the plane: boundary vertices go where `fixed` says, every other one to the weighted mean
-/// of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
+/// Maps a triangulated disc into the plane. Boundary vertices lie where `fixed` says (Dirichlet condition), every other
+/// one at the weighted mean of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
 ///
-/// The weights are cotangents, `w_ij = (cot a + cot b) / 2`; where that is not positive, the mean of the edge's two mean
-/// value weights, which is. `None` when a vertex is connected to no boundary, or two vertices coincide.
+/// The weights are those of the cotangent Laplacian, `w_ij = (cot a + cot b) / 2`. A weight that is not positive is
+/// replaced by the mean of the edge's two mean value weights, which is positive. `None` if a vertex is connected to no
+/// boundary, or if two vertices coincide.
 #[must_use]
 pub fn map(positions: &[V3], triangles: &[[usize; 3]], fixed: &BTreeMap<usize, V2>) -> Option<Vec<V2>> {
     let mut row = vec![usize::MAX; positions.len()];
@@ -59,7 +60,7 @@ fn weights(positions: &[V3], triangles: &[[usize; 3]]) -> BTreeMap<[usize; 2], f
             let cot = u.dot(&v) / u.cross(&v).norm();
             let along = positions[j] - positions[i];
             let half = |p: V3, q: V3| 0.5 * p.angle(&q);
-            // Over the edge's length, a mean value weight has no unit, as a cotangent.
+            // Without the factor 1 / length a mean value weight has no unit, like a cotangent.
             let mean_value = 0.25 * (half(along, -u).tan() + half(-along, -v).tan());
             let sum = sums.entry([i.min(j), i.max(j)]).or_default();
             sum[0] += 0.5 * cot;
@@ -115,8 +116,8 @@ mod tests {
             let [from, to] = [ends[0], ends[1]];
             let length = i32::abs(to[0] - from[0] + to[1] - from[1]);
             for k in 0..length {
-                let at = |axis: usize| from[axis] + (to[axis] - from[axis]) * k / length;
-                boundary.push(number((at(1) * 13 + at(0)) as usize));
+                let step = |axis: usize| from[axis] + (to[axis] - from[axis]) * k / length;
+                boundary.push(number((step(1) * 13 + step(0)) as usize));
             }
         }
         (points, kept.iter().map(|t| t.map(number)).collect(), boundary)

@@ -1,35 +1,35 @@
-//! By how much the body must be smaller for the garment to close on it, ring by ring.
+//! Insets of the body, ring by ring: the distance by which it must shrink for the garment to close on it.
 //!
-//! A bust stretches the front and leaves the back slack; only where the body inside a ring is wider than its cloth is the
-//! pattern too small. There the body counts as smaller all round, by as much as the ring needs.
+//! A bust stretches the front and leaves the back slack. The pattern is too small only where the body inside a ring has
+//! a greater girth than the ring's cloth. There the body counts as smaller all round, by as much as the ring needs.
 
 use std::f64::consts::TAU;
 
-use super::ring::Ring;
+use super::girth_lines::{Ring, Rings};
 use geom::hull::tape_girth;
 use geom::section::{Outline, section};
 use geom::{TriMesh, V2, V3};
 
 geom::constants! {
     "hybrid.inset",
-    /// Share of what the stretch of a ring says that its inset is corrected by at once.
+    /// Gain of a correction: the share applied of the inset that the stretch of a ring asks for.
     const GAIN: f64 = 0.3;
-    /// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, the cloth beside a ring
-    /// pulls at it, and over a bust the front is tight before the back is.
+    /// Inset that a ring may come to need in addition to the judged one, m. A tape is straighter than the body, the
+    /// cloth beside a ring pulls at it, and over a bust the front is tight before the back is.
     const DOUBT_M: f64 = 20e-3;
-    /// Inset that a ring keeps that was too small once, m: it may become so again.
+    /// Least inset of a ring that was too small once, m: it may become too small again.
     const LEAST_INSET_M: f64 = 1e-6;
-    /// Inset that a ring may come to need besides what it has where it is worn, m, until it is judged again. What hangs from the
-    /// shoulders does not slide.
+    /// Growth of a ring's inset between two judgements, m, for a garment that hangs from the shoulders and does not
+    /// slide.
     const SLIP_M: f64 = 4e-3;
-    /// The same for what is held up by its rings alone, m: one that could yield more would slide over what is wider.
+    /// The same for a garment that only its rings hold up, m: with more it would slide over wider parts of the body.
     const SLIP_ON_HIPS_M: f64 = 1e-3;
-    /// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
+    /// Decrease of an inset per length of cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
     const FADE: f64 = 0.1;
-    /// By how much an inset may be greater from one ring to the next, m.
+    /// Greatest difference of the insets of neighbouring rings, m.
     const STEEPEST_M: f64 = 6e-3;
-    /// A ring is not too small by more than this share: what it is compared with is another part of the body, as the trunk
-    /// with an arm.
+    /// Greatest lack of a ring, as a share of its length. A greater one compares it with another part of the body, as
+    /// the trunk together with an arm.
     const MOST_LACK: f64 = 0.5;
 }
 
@@ -39,51 +39,55 @@ pub struct Insets {
     rings: Vec<Ring>,
     /// Rings that lie next to each other.
     beside: Vec<[usize; 2]>,
-    /// Of each ring, m; 0 where it is large enough.
+    /// Inset of each ring, m; 0 where the ring is large enough.
     now_m: Vec<f64>,
-    /// What each may grow to, m; 0 where the ring must not yield.
+    /// Greatest inset of each ring, m; 0 where the ring must not yield.
     most_m: Vec<f64>,
-    /// What each may grow by between two judgements, m.
+    /// Growth of each inset between two judgements, m.
     slip_m: f64,
 }
 
+/// Distance and stretch with which a ring fits.
+#[derive(Clone, Copy, Debug)]
+pub struct Fit {
+    /// Distance of the cloth from the skin, m.
+    pub offset_m: f64,
+    /// Stretch that the ring may have.
+    pub share: f64,
+}
+
 impl Insets {
-    /// Judges by how much rings are too small. `offset_m` is how far off the skin they lie, `share` how far they may
-    /// be stretched, positions `x` are in m; `is_hung` says whether the garment hangs from the shoulders.
+    /// Judges which rings are too small, and the insets that they need. Positions `x` are in m; `is_hung` is true of a
+    /// garment that hangs from the shoulders.
     #[must_use]
-    pub fn judged(
-        (rings, beside): (Vec<Ring>, Vec<[usize; 2]>),
-        body: &TriMesh,
-        x: &[V3],
-        offset_m: f64,
-        share: f64,
-        is_hung: bool,
-    ) -> Self {
+    pub fn judged(lines: Rings, body: &TriMesh, x: &[V3], fit: Fit, is_hung: bool) -> Self {
+        let Rings { rings, beside } = lines;
         let slip_m = if is_hung { SLIP_M } else { SLIP_ON_HIPS_M };
         let mut insets = Self { rings, beside, now_m: Vec::new(), most_m: Vec::new(), slip_m };
-        insets.now_m = insets.lacks(body, x, offset_m, share);
+        insets.now_m = insets.lacks(body, x, fit);
         insets.most_m = insets.now_m.iter().map(|now| if *now > 0.0 { now + DOUBT_M } else { 0.0 }).collect();
         insets
     }
 
-    /// Judges again, when the cloth has slid: a ring that was large enough where it is worn does not become too small by
-    /// sliding to where the body is wider, which holds it up.
-    pub fn judge_again(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
-        let lacks = self.lacks(body, x, offset_m, share);
+    /// Judges again after the cloth has slid. A ring that was large enough at first does not count as too small where
+    /// it slides over a wider part of the body: that part holds it up.
+    pub fn judge_again(&mut self, body: &TriMesh, x: &[V3], fit: Fit) {
+        let lacks = self.lacks(body, x, fit);
         for ((now, most), lack) in self.now_m.iter_mut().zip(&mut self.most_m).zip(lacks) {
             *most = if lack > 0.0 && *now > 0.0 { now.min(lack + DOUBT_M) + self.slip_m } else { 0.0 };
             *now = now.min(*most);
         }
     }
 
-    /// By how much the body must be smaller for each ring, m: a tape round it inside the ring is longer than the ring's cloth.
-    fn lacks(&self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) -> Vec<f64> {
+    /// Inset that each ring needs, m: the girth of the body inside the ring less the length of its cloth, over a turn.
+    fn lacks(&self, body: &TriMesh, x: &[V3], fit: Fit) -> Vec<f64> {
+        let Fit { offset_m, share } = fit;
         let lack = |ring: &Ring| {
             let lack_m = inside_m(body, ring, x)? + TAU * offset_m - (1.0 + share) * ring.rest_m;
             (lack_m < MOST_LACK * ring.rest_m).then_some(lack_m.max(0.0) / TAU)
         };
         let mut lacks: Vec<f64> = self.rings.iter().map(|ring| lack(ring).unwrap_or(f64::INFINITY)).collect();
-        // Girths change little from ring to ring: one that stands out is that of trunk and arm together.
+        // Girths change little from ring to ring: an outlier is the girth of trunk and arm together.
         let (up, down) = (self.beside.iter(), self.beside.iter().rev());
         for &[a, b] in up.chain(down) {
             lacks[a] = lacks[a].min(lacks[b] + STEEPEST_M);
@@ -93,13 +97,13 @@ impl Insets {
         lacks
     }
 
-    /// Corrects the insets of rings that were judged too small: until their cloth is stretched by a share, no more and no less.
+    /// Corrects the insets of rings that were judged too small, until their cloth is stretched by just `share`.
     pub fn correct(&mut self, x: &[V3], share: f64) {
         if self.now_m.iter().all(|inset| *inset == 0.0) {
             return;
         }
         let lengths: Vec<[f64; 2]> = self.rings.iter().map(|ring| [ring.length_m(x), ring.rest_m]).collect();
-        // With its neighbours: a single ring wavers.
+        // Averaged with the neighbours: the stretch of a single ring oscillates.
         let mut sums = lengths.clone();
         for &[a, b] in &self.beside {
             for k in 0..2 {
@@ -113,8 +117,8 @@ impl Insets {
         }
     }
 
-    /// Inset for each sewn vertex, m: its own or that of its ring, the greatest where it has several, and about it less and less with
-    /// the distance over the cloth. `sides` are the lengths of the cloth's edges in the pattern, m.
+    /// Inset at each sewn vertex, m: the greatest of its own, those of its rings, and those of other vertices less
+    /// [`FADE`] times the distance over the cloth. `sides` are the cloth's edges with their lengths in the pattern, m.
     #[must_use]
     pub fn of_vertices(&self, own_m: Vec<f64>, sides: &[([usize; 2], f64)]) -> Vec<f64> {
         let mut insets = own_m;
@@ -138,8 +142,8 @@ impl Insets {
     }
 }
 
-/// Length of a tape round what a ring holds of the body, m: a part of the body in which its middle lies, or whose middle lies
-/// within it, as both legs' do in a skirt. `None` where it holds nothing.
+/// Girth of the parts of the body inside a ring, m. A part is inside if it contains the ring's middle or has its own
+/// middle within the ring, as both legs have in a skirt. `None` where no part is.
 fn inside_m(body: &TriMesh, ring: &Ring, x: &[V3]) -> Option<f64> {
     let plane = ring.plane(x)?;
     let line = Outline { points: ring.points(x).map(|p| plane.project(p)).collect(), closed: true };

@@ -1,4 +1,4 @@
-//! Cloth that runs through itself, pulled apart: a sleeve and the side below it, a fold.
+//! Separation of layers of cloth that intersect: a sleeve and the side below it, a fold.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,17 @@ use linalg::PairList;
 
 geom::constants! {
     "hybrid.layers",
-    /// Layers are this far apart afterwards, m.
+    /// Distance of the layers afterwards, m.
     const APART_M: f64 = 5e-4;
-    /// A vertex is moved by this at most in a round, m.
+    /// Greatest displacement of a vertex in a round, m.
     const STRIDE_M: f64 = 3e-3;
-    /// Rounds without fewer crossings after which it is given up.
+    /// Rounds without fewer crossings after which it ends.
     const PATIENCE: u32 = 24;
-    /// Cloth within this distance of a crossing is looked at again, m.
+    /// Distance from a crossing within which cloth is tested again, m.
     const NEAR_M: f64 = 0.05;
 }
 
-/// The cloth as a mesh that may meet itself.
+/// The cloth as a mesh that may intersect itself.
 pub struct Layers {
     edges: PairList,
     triangles: Vec<[usize; 3]>,
@@ -42,10 +42,11 @@ impl Layers {
         Self { edges, triangles: triangles.to_vec() }
     }
 
-    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached.
+    /// Moves vertices `x` (m) until no edge pierces a triangle, in at most `rounds`; ends with the fewest crossings
+    /// that it found.
     ///
-    /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
-    /// little between two looks, that is the end which should not have come through.
+    /// The end of an edge that has passed through less far goes back, and the triangle moves half of the way towards
+    /// it. As cloth moves little between two separations, that is the end on the wrong side.
     pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
         let mut pierced = intersections(x, self.edges.pairs(), &self.triangles);
         if pierced.is_empty() {
@@ -56,7 +57,7 @@ impl Layers {
         let (mut best, mut least, mut waited) = (x.to_vec(), pierced.len(), 0);
         let wings = Wings::new(&near.triangles);
         for round in 0..rounds {
-            // One way out gets stuck where the other goes on.
+            // The two methods get stuck in different places.
             if round % 2 == 0 {
                 apart(&pierced, x);
             } else {
@@ -76,7 +77,7 @@ impl Layers {
         Parted { found, left: least }
     }
 
-    /// The cloth round crossings.
+    /// The triangles near crossings.
     fn near(&self, pierced: &[Intersection], x: &[V3]) -> Self {
         let places: Vec<V3> = pierced.iter().map(|Intersection { edge, .. }| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
         let is_near = |v: usize| places.iter().any(|p| (x[v] - p).norm_squared() < NEAR_M * NEAR_M);
@@ -87,7 +88,7 @@ impl Layers {
     }
 }
 
-/// One round: every crossing asks for its way out, every vertex takes the mean of what it is asked for.
+/// One round: every crossing asks for a displacement of its vertices, every vertex takes the mean of those asked for.
 fn apart(pierced: &[Intersection], x: &mut [V3]) {
     let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
     for Intersection { edge, triangle } in pierced {
@@ -106,7 +107,7 @@ fn apart(pierced: &[Intersection], x: &mut [V3]) {
     moves.into_iter().for_each(|(v, (sum, n))| x[v] += sum / n);
 }
 
-/// One round along the way in which the lines of the crossings grow shorter.
+/// One round along the direction in which the intersection contours grow shorter.
 fn release(pierced: &[Intersection], wings: &Wings, x: &mut [V3]) {
     let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
     for release in pierced.iter().filter_map(|crossing| Release::of(x, wings, crossing)) {

@@ -1,4 +1,4 @@
-//! Finding the triangle of a plane mesh that holds a point.
+//! Point location: the triangle of a plane mesh that contains a point.
 
 use geom::V2;
 
@@ -13,7 +13,7 @@ pub struct Locator<'a> {
 }
 
 impl<'a> Locator<'a> {
-    /// Sorts counter-clockwise triangles into about as many buckets as there are triangles.
+    /// Sorts counter-clockwise triangles into buckets, about one for each triangle.
     #[must_use]
     pub fn new(points: &'a [V2], triangles: &'a [[usize; 3]]) -> Self {
         let low = points.iter().fold(V2::repeat(f64::MAX), |a, b| a.inf(b));
@@ -37,8 +37,8 @@ impl<'a> Locator<'a> {
         [0, 1].map(|k| (((p[k] - self.low[k]) / self.cell).max(0.0) as usize).min(self.count[k] - 1))
     }
 
-    /// The triangle that holds a point, or is least far from it among those near, with barycentric weights that are
-    /// not negative.
+    /// The triangle that contains a point, or the nearest of those about it, with barycentric weights clamped to be not
+    /// negative.
     #[must_use]
     pub fn locate(&self, p: V2) -> Option<(usize, [f64; 3])> {
         let [column, row] = self.bucket(p);

@@ -1,14 +1,15 @@
 //! Phase 1: every piece onto the surface of the form (5.2).
 //!
-//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc (a convex polygon on the unit circle)
-//! and thereby onto each other (cross-parameterisation, 5.2.3). The thesis maps the patch onto the pattern instead; armholes and
-//! necks are concave, and a map onto a concave outline may fold. Onto a disc it cannot.
+//! Features, then shortest paths between them, then the patch that the paths bound. Patch and piece are both mapped
+//! harmonically onto a disc (a convex polygon on the unit circle) and thereby onto each other (cross-parameterisation,
+//! 5.2.3). The thesis maps the patch onto the pattern. Armholes and necks are concave, though, and a harmonic map onto
+//! a concave domain may fold. Onto a disc it is bijective.
 
 use std::collections::BTreeMap;
 
 use super::assemble::{Assembly, assemble};
+use super::continuation;
 use super::features::{self, Face, Kind, Mapped};
-use super::follow;
 use super::form::Form;
 use super::harmonic;
 use super::locate::Locator;
@@ -23,9 +24,10 @@ use pattern::{Garment, PieceMesh, Role};
 
 geom::constants! {
     "hybrid.mapping",
-    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
+    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its
+    /// middle.
     pub const PATH_POINTS: usize = 9;
-    /// A piece does not run over faces that look the other way by more than this cosine.
+    /// Cosine beyond which a face looks away from a piece's side, and the piece does not run over it.
     const AWAY: f64 = 0.4;
 }
 
@@ -34,16 +36,16 @@ geom::constants! {
 pub struct OnForm {
     /// World position of each garment vertex, m; the two sides of a seam coincide.
     pub positions: Vec<V3>,
-    /// Triangles whose outside still faces the form.
+    /// Number of triangles whose outside still faces the form.
     pub flips: usize,
-    /// Patch of each piece on the form, pieces that lie side by side taken together.
+    /// Faces of the form under each piece; pieces that lie side by side are joined.
     pub patches: Vec<Vec<usize>>,
 }
 
-/// Lays a garment on the form that its kind hangs from.
+/// Lays a garment on the form of its kind.
 ///
 /// # Errors
-/// [`SimError::CannotPlace`] and [`SimError::CannotMap`], both before anything is computed that takes long.
+/// [`SimError::CannotPlace`] and [`SimError::CannotMap`], both before the long computations.
 pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let assembly = assemble(garment);
     let joined = &assembly.garment;
@@ -59,7 +61,7 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let partners = outline::partners(joined);
     let count = joined.rest.len();
     let mut laid = Laid { x: vec![V3::zeros(); count], outwards: vec![V3::zeros(); count] };
-    // Trunk pieces first: sleeves take the armholes' paths from them.
+    // Trunk pieces come first: sleeves take the paths of the armholes from them.
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by_key(|&p| features::face(joined.pieces[p].role) == Face::Round);
     let mut patches = vec![Vec::new(); pieces.len()];
@@ -76,8 +78,8 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     Ok(OnForm { positions, flips, patches })
 }
 
-/// The features of a piece with their nodes of the path graph, without those that come to lie on the node of the one before: sides of a
-/// waist that miss each other by a millimetre.
+/// The features of a piece with their nodes of the path graph. A feature on the node of the one before is left out, as
+/// at the sides of a waist that miss each other by a millimetre.
 fn on_nodes(graph: &PathGraph, mut piece: Mapped) -> (Mapped, Vec<usize>) {
     let nodes: Vec<usize> = piece.features.iter().map(|f| graph.nearest(&f.place, |_| true).unwrap_or(0)).collect();
     let n = nodes.len();
@@ -92,16 +94,24 @@ struct Outline {
     nodes: Vec<usize>,
     /// Place of each node on the circle, as a share of the whole turn.
     turns: Vec<f64>,
-    /// Boundary vertices of the piece with their place in the common domain and on the form, m.
-    boundary: Vec<(usize, V2, V3)>,
+    boundary: Vec<OnBoundary>,
 }
 
-/// Paths on the form, each searched once: the two sides of a seam share theirs.
+/// A boundary vertex of a piece.
+struct OnBoundary {
+    vertex: usize,
+    /// Place in the common domain.
+    domain: V2,
+    /// Place on the form, m.
+    place: V3,
+}
+
+/// Paths on the form. Each is searched once: the two sides of a seam share it.
 struct Paths<'a> {
     form: &'a Form,
     graph: &'a PathGraph<'a>,
     normals: Vec<V3>,
-    /// By the two pieces that meet there and the two nodes.
+    /// Path by the two pieces that meet there and the two end nodes.
     found: BTreeMap<([usize; 2], [usize; 2]), Vec<usize>>,
     taken: Taken,
     /// Node of each feature of each piece.
@@ -126,15 +136,15 @@ impl<'a> Paths<'a> {
         let whole =
             outline::length_m(garment, ring) + (garment.rest[ring[0]] - garment.rest[ring[ring.len() - 1]]).norm();
         let ends = self.ends[piece].clone();
-        let at = |vertex: usize| ring.iter().position(|&v| v == vertex).unwrap_or(0);
+        let index_of = |vertex: usize| ring.iter().position(|&v| v == vertex).unwrap_or(0);
         let mut outline = Outline { nodes: Vec::new(), turns: Vec::new(), boundary: Vec::new() };
         let mut done = 0.0;
         for (k, feature) in mapped.features.iter().enumerate() {
             let next = (k + 1) % ends.len();
-            let (from, to) = (at(feature.vertex), at(mapped.features[next].vertex));
+            let (from, to) = (index_of(feature.vertex), index_of(mapped.features[next].vertex));
             let to = if to <= from { to + ring.len() } else { to };
             let vertices: Vec<usize> = (from..=to).map(|i| ring[i % ring.len()]).collect();
-            // Both sides of a seam go by its middle: they may begin with a millimetre of another.
+            // The partner is that of the middle: the first millimetre may belong to another seam.
             let [a, b] = [vertices[(vertices.len() - 1) / 2], vertices[vertices.len().div_ceil(2)]];
             let pair = [a.min(b), a.max(b)];
             let partner = partners.get(&pair).copied().unwrap_or(usize::MAX);
@@ -149,16 +159,16 @@ impl<'a> Paths<'a> {
         Ok(outline)
     }
 
-    /// Finds the paths of seams that a piece has with itself before all others: an underarm leaves the trunk between the
-    /// two halves of its armhole, which must not have met above it.
+    /// Finds the paths of the seams that a piece has with itself before all others. An underarm seam leaves the trunk
+    /// between the two halves of its armhole, whose paths must not meet above it.
     fn find_underarms(&mut self, garment: &Garment, pieces: &[Mapped], partners: &BTreeMap<[usize; 2], usize>) {
         for (piece, mapped) in pieces.iter().enumerate() {
             for (k, feature) in mapped.features.iter().enumerate() {
-                let at = mapped.ring.iter().position(|&v| v == feature.vertex).unwrap_or(0);
-                let (a, b) = (feature.vertex, mapped.ring[(at + 1) % mapped.ring.len()]);
+                let index = mapped.ring.iter().position(|&v| v == feature.vertex).unwrap_or(0);
+                let (a, b) = (feature.vertex, mapped.ring[(index + 1) % mapped.ring.len()]);
                 if partners.get(&[a.min(b), a.max(b)]) == Some(&piece) {
                     let ends = [self.ends[piece][k], self.ends[piece][(k + 1) % mapped.features.len()]];
-                    // Where there is none, the piece itself will say so.
+                    // A missing path is reported with the outline of the piece.
                     let _ = self.path(garment, [piece, piece], ends);
                 }
             }
@@ -195,7 +205,7 @@ impl<'a> Paths<'a> {
     }
 }
 
-/// Whether a piece of a role can touch a face: by its region and the way it looks (5.2.2, figure 5-12).
+/// True if a piece of a role can touch a face, by the face's region and normal (5.2.2, figure 5-12).
 #[must_use]
 pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
     let forward = normal.y / normal.norm();
@@ -207,7 +217,7 @@ pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
         }
 }
 
-/// Whether a piece of a role can touch a region.
+/// True if a piece of a role can touch a region.
 fn touches(role: Role, region: Region) -> bool {
     use Region::*;
     let arm = |right: bool| match region {
@@ -232,7 +242,7 @@ fn touches(role: Role, region: Region) -> bool {
 }
 
 impl Outline {
-    /// Adds a stretch: `vertices` of the pattern along `path`, which takes the share `share` of the turn after `done`.
+    /// Adds a stretch: `vertices` of the pattern along `path`, which spans the share `share` of the turn after `done`.
     fn add(&mut self, graph: &PathGraph, garment: &Garment, path: &[usize], vertices: &[usize], done: f64, share: f64) {
         let places: Vec<V3> = path.iter().map(|&node| graph.position(node)).collect();
         let arcs = cumulated(places.windows(2).map(|ends| (ends[1] - ends[0]).norm()));
@@ -247,9 +257,10 @@ impl Outline {
             let along = arc / length * whole;
             let k = arcs.partition_point(|&a| a <= along).clamp(1, arcs.len() - 1);
             let t = (along - arcs[k - 1]) / (arcs[k] - arcs[k - 1]).max(f64::MIN_POSITIVE);
-            // On the chord between two nodes: patch and piece then have the same outline in the domain.
+            // On the chord between two nodes, so that patch and piece have the same polygon as domain.
             let turn = |node: usize| on_circle(done + share * arcs[node] / whole);
-            self.boundary.push((*vertex, turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t)));
+            let (domain, place) = (turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t));
+            self.boundary.push(OnBoundary { vertex: *vertex, domain, place });
         }
     }
 }
@@ -271,7 +282,7 @@ fn on_circle(turn: f64) -> V2 {
     V2::new(cos, sin)
 }
 
-/// Where vertices came to lie on the form.
+/// Vertices on the form.
 struct Laid {
     /// Places of the vertices on the form, m.
     x: Vec<V3>,
@@ -279,7 +290,7 @@ struct Laid {
     outwards: Vec<V3>,
 }
 
-/// Lays one piece on its patch; `None` where one of the two has no harmonic map.
+/// Lays one piece on its patch; `None` if one of the two has no harmonic map.
 fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, laid: &mut Laid) -> Option<()> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
@@ -287,7 +298,7 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, l
     let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
-    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
+    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|p| (p.vertex - first, p.domain)).collect();
     let domain = harmonic::map(&flat, &triangles, &fixed)?;
     let locator = Locator::new(&surface, &patch.mesh.triangles);
     for (v, place) in piece.vertices.clone().zip(domain) {
@@ -296,16 +307,17 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, l
         laid.x[v] = a * weights[0] + b * weights[1] + c * weights[2];
         laid.outwards[v] = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(V3::zeros);
     }
-    for &(v, _, place) in &outline.boundary {
-        laid.x[v] = place;
+    for &OnBoundary { vertex, place, .. } in &outline.boundary {
+        laid.x[vertex] = place;
     }
     Some(())
 }
 
-/// Brings the pieces as cut where the assembled ones lie, lets the others follow, and turns flipped triangles back.
+/// Places the pieces as cut where the joined ones lie, continues them onto the others, and turns flipped triangles
+/// back.
 fn spread(garment: &Garment, assembly: &Assembly, laid: &Laid) -> Result<(Vec<V3>, usize), SimError> {
     let mut positions: Vec<V3> = assembly.vertex_of.iter().map(|v| v.map_or_else(V3::zeros, |v| laid.x[v])).collect();
-    follow::place(garment, &assembly.followers, &mut positions)?;
+    continuation::place(garment, &assembly.followers, &mut positions)?;
     let welded = sewing::welded(garment);
     let count = welded.iter().max().map_or(0, |m| m + 1);
     let (mut x, mut outwards, mut copies) = (vec![V3::zeros(); count], vec![V3::zeros(); count], vec![0.0; count]);
@@ -316,7 +328,7 @@ fn spread(garment: &Garment, assembly: &Assembly, laid: &Laid) -> Result<(Vec<V3
     }
     x.iter_mut().zip(&copies).for_each(|(sum, n)| *sum /= *n);
     let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| welded[v])).collect();
-    // Followers look where they lie.
+    // Pieces that follow have their own normals.
     let own = TriMesh { positions: positions.clone(), triangles: garment.triangles.clone() }.vertex_normals();
     for &piece in &assembly.followers {
         garment.pieces[piece].vertices.clone().for_each(|v| outwards[welded[v]] += own[v]);

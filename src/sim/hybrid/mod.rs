@@ -1,15 +1,16 @@
 //! Hybrid-GS (chapter 5): geometry first, then physics; the pattern's size is kept on any body.
 //!
-//! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`sewn`] joins them, [`popup`] gives
-//! them back their size, and a short drape lets them come to rest on the fine mesh.
+//! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`welded_mesh`] joins them,
+//! [`popup`] gives them back their size, and a short drape lets them come to rest on the fine mesh.
 
 mod assemble;
+mod continuation;
 mod draw;
 mod elastic;
 pub mod features;
-mod follow;
 pub mod form;
 pub mod gap;
+mod girth_lines;
 mod give;
 pub mod harmonic;
 mod inset;
@@ -23,18 +24,20 @@ pub mod path;
 pub mod popup;
 pub mod pyramid;
 pub mod relax;
-mod ring;
-pub mod sewn;
 mod silhouette;
 pub mod sparse;
+mod underarms;
 mod untangle;
+pub mod welded_mesh;
 
 use crate::cloth::Cloth;
 use crate::contact::Skin;
+use crate::dressing::{self, Dressing, Wearer};
 use crate::levels::prolong;
+use crate::tries::{self, Criteria, Faults, Trial};
 use crate::walls::Walls;
 use crate::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
-use body::{Body, Layer};
+use body::Body;
 use geom::constants::Constant;
 use geom::{DistanceField, V3};
 use pattern::{Garment, Measurement};
@@ -43,7 +46,7 @@ pub use gap::{Closure, closures};
 pub use mapping::OnForm;
 pub use popup::Backend;
 pub use relax::RelaxParams;
-pub use sewn::Sewn;
+pub use welded_mesh::Sewn;
 
 use layers::Parted;
 use relax::{Push, Relaxation};
@@ -51,15 +54,15 @@ use relax::{Push, Relaxation};
 /// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
-    /// Numbers of measurements that are not controlled: what their chi is without.
+    /// Numbers of measurements that are not controlled, to see what their chi is then.
     pub uncontrolled: Vec<u32>,
-    /// How the size comes back in the pop-up.
+    /// Method by which the pop-up restores the size.
     pub popup: Backend,
-    /// Pop-up and drape.
+    /// Parameters of the steps of pop-up and drape.
     pub relax: RelaxParams,
     /// Steps of the drape in which the cloth slides over the body.
     pub push_steps: u32,
-    /// Steps after them, in which contact is firm.
+    /// Steps after these, in which contact is firm.
     pub firm_steps: u32,
 }
 
@@ -77,36 +80,39 @@ impl Default for Params {
 
 geom::constants! {
     "hybrid",
-    /// Rms movement in a step below which a drape counts as come to rest, m.
+    /// Rms movement in a step below which a drape counts as at rest, m.
     const AT_REST_M: f64 = 1e-3;
-    /// Steps of the drape after which it is judged anew where the garment is too small: it slides.
+    /// Steps of the drape after which it is judged anew where the garment is too small: the garment slides.
     const JUDGE_EVERY: u32 = 20;
-    /// Last steps after each of which cloth that is large enough is lifted out of the body.
+    /// Number of last steps after each of which cloth that is large enough is lifted out of the body.
     const LIFTS: u32 = 3;
-    /// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
+    /// Steps by which the drape goes on after layers were separated, and the greatest number of times that it does so.
     const AGAIN: u32 = 6;
     const MOST_AGAIN: u32 = 2;
     /// Mean error of the measurements above which a garment has not got its size.
     const OFF: f64 = 0.01;
-    /// How far the top of a garment may slide down, m: trousers and skirts that do not hold at the waist hold at the hips.
+    /// Greatest descent of a garment's top, m: trousers and skirts that do not hold at the waist hold at the hips.
     const MOST_DESCENT_M: f64 = 0.25;
-    /// Rounds in which cloth that runs through itself is pulled apart in the end.
+    /// Rounds in which layers that intersect are separated.
     const PARTINGS: u32 = 80;
 }
 
-/// What each phase left, positions of the garment's vertices in metres.
+/// Results of the phases, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
 pub struct Phases {
-    /// On the form, piece by piece; `None` where it cannot be mapped. The drape may have been drawn together all the same.
+    /// The garment on the form, piece by piece; `None` where it cannot be mapped. It may have been drawn together all
+    /// the same.
     pub mapped: Option<OnForm>,
-    /// Draped; its earlier stages are those sewn, smoothed and lifted onto the fine mesh, and popped up.
+    /// The drape; its earlier stages are the garment sewn, smoothed and lifted off the body, and popped up.
     pub drape: Drape,
 }
 
 /// Dresses a body in a garment.
 ///
-/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. What has features on the body is mapped onto it by
-/// them; all else, and what ends with a fault, is drawn together about the body from the mesh before the last (`draw`).
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. A garment whose corners have
+/// features on the body is mapped onto it by these. If its drape has a fault it is mapped again, with its layers kept
+/// apart. Any other garment, and one that still has a fault, is drawn together about the body on the mesh before the
+/// last (`draw`). The first drape without a fault is taken, failing that the best.
 ///
 /// # Errors
 /// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.
@@ -139,7 +145,7 @@ pub fn simulate(
     phases(body, field, garments, fabric, params, monitor).map(|phases| phases.drape)
 }
 
-/// [`simulate`] with what each phase left.
+/// [`simulate`] with the results of all phases.
 ///
 /// # Errors
 /// As there.
@@ -151,52 +157,33 @@ pub fn phases(
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Phases, SimError> {
-    let Some(garment) = garments.last() else { return Err(SimError::NoMesh) };
+    let layer = dressing::Layer { garments, fabric };
+    let garment = layer.finest()?;
     let skin = Skin::new(&body.mesh).ok();
-    let dressing = Dressing { body, skin: skin.as_ref(), field, garments, garment, fabric, params };
+    let dressing = Dressing { wearer: Wearer { body, field }, skin: skin.as_ref(), layer };
     let mut run = Simulation { garment, monitor, history: Vec::new() };
     let mapped = match mapping::map(body, garment) {
         Err(error @ (SimError::CannotMap { .. } | SimError::CannotPlace { .. })) => Err(error),
         mapped => Ok(mapped?),
     };
-    let (mut best, mut failed): (Option<(Faults, Drape)>, _) = (None, None);
-    for start in mapped.as_ref().map_or(&[Start::Drawn][..], |_| &Start::ALL) {
-        let sewn = match (start, &mapped) {
-            (Start::Drawn, _) | (_, Err(_)) => dressing.drawn(&mut run),
-            (_, Ok(mapped)) => Ok(Sewn::new(garment, &mapped.positions)),
-        };
-        match sewn.and_then(|sewn| dressing.dress(&sewn, *start != Start::Mapped, &mut run)) {
-            Ok(drape) => {
-                let faults = Faults::of(garment, &drape);
-                if best.as_ref().is_none_or(|(least, _)| faults.is_less(least)) {
-                    best = Some((faults, drape));
-                }
-            }
-            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-            Err(error) => failed = failed.or(Some(error)),
-        }
-        if best.as_ref().is_some_and(|(faults, _)| faults.is_none()) {
-            break;
-        }
-    }
-    match (best, mapped) {
-        (Some((_, drape)), mapped) => {
-            Ok(Phases { mapped: mapped.ok(), drape: Drape { history: run.history, ..drape } })
-        }
-        // What it could not be mapped for says more than what it could not be drawn together for.
-        (None, Err(refused)) => Err(refused),
-        (None, Ok(_)) => Err(failed.unwrap_or(SimError::NoMesh)),
+    let ways = mapped.as_ref().map_or(&[Start::Drawn][..], |_| &Start::ALL);
+    let mut reshaping = Reshaping { dressing, garment, params, mapped: mapped.as_ref().ok(), run: &mut run };
+    match (tries::best(&mut reshaping, None, ways.iter().copied()), mapped) {
+        (Ok(drape), mapped) => Ok(Phases { mapped: mapped.ok(), drape: Drape { history: run.history, ..drape } }),
+        // The refusal of the mapping says more than a failure to draw the pieces together.
+        (Err(error), Err(refused)) if !matches!(error, SimError::Cancelled) => Err(refused),
+        (Err(error), _) => Err(error),
     }
 }
 
-/// How a garment begins.
+/// The way in which a garment begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Start {
     /// Mapped onto the body.
     Mapped,
-    /// Likewise, with more care.
+    /// Likewise; the layers are kept apart, and the body gives way to all tight cloth.
     Careful,
-    /// Drawn together about the body.
+    /// Drawn together about the body, with the same care.
     Drawn,
 }
 
@@ -205,55 +192,56 @@ impl Start {
     const ALL: [Self; 3] = [Self::Mapped, Self::Careful, Self::Drawn];
 }
 
-/// What tells a worse drape from a better one.
-#[derive(Clone, Copy)]
-struct Faults {
-    moves: bool,
-    self_crossings: usize,
-    /// Mean error of the measurements.
-    off: f64,
-}
-
-impl Faults {
-    fn of(garment: &Garment, drape: &Drape) -> Self {
-        let error = |m: &Measurement| (m.length_m(&garment.rest, &drape.positions) / m.l2d_m - 1.0).abs();
-        let off = garment.measurements.iter().map(error).sum::<f64>() / garment.measurements.len().max(1) as f64;
-        Self { moves: !drape.converged, self_crossings: drape.self_crossings, off }
-    }
-
-    fn is_none(&self) -> bool {
-        !self.moves && self.self_crossings == 0 && self.off <= OFF
-    }
-
-    fn is_less(&self, other: &Self) -> bool {
-        let crossings = (self.moves, self.self_crossings).cmp(&(other.moves, other.self_crossings));
-        crossings.then(self.off.total_cmp(&other.off)).is_lt()
-    }
-}
-
-/// A garment and the body that is to wear it.
-#[derive(Clone, Copy)]
-struct Dressing<'a> {
-    body: &'a Body,
-    /// Its exact surface, where it bounds a solid.
-    skin: Option<&'a Skin<'a>>,
-    field: &'a DistanceField,
-    /// Meshes of the garment, coarse to fine.
-    garments: &'a [Garment],
-    /// The last of them.
+/// A garment that is put on anew where it ends with a fault.
+struct Reshaping<'a, 'r, 'm> {
+    dressing: Dressing<'a>,
+    /// Finest mesh of the garment.
     garment: &'a Garment,
-    fabric: &'a Fabric,
     params: &'a Params,
+    /// The garment on the form; `None` where it cannot be mapped.
+    mapped: Option<&'a OnForm>,
+    run: &'r mut Simulation<'m>,
 }
 
-impl Dressing<'_> {
-    /// Draws the pieces together about the body, on the mesh before the last, or, where their seams stay open on it, on the coarsest: fewer
-    /// vertices have less to be caught by.
-    fn drawn(&self, run: &mut Simulation) -> Result<Sewn, SimError> {
-        let Self { body, field, garments, garment, fabric, .. } = *self;
+impl Trial for Reshaping<'_, '_, '_> {
+    type Way = Start;
+
+    /// Depth counts for nothing: cloth that is too small keeps its size and lies inside the body. Rest comes first: it
+    /// is measured by movement, and cloth that moves by a millimetre in a step is still sliding. Its crossings and
+    /// lengths are not those that it would come to rest with.
+    const CRITERIA: Criteria = Criteria { depth_m: 0.0, length_error: OFF, is_rest_first: true };
+
+    fn put_on(&mut self, way: &Start) -> Result<Drape, SimError> {
+        let sewn = match (way, self.mapped) {
+            (Start::Drawn, _) | (_, None) => self.drawn()?,
+            (_, Some(mapped)) => Sewn::new(self.garment, &mapped.positions),
+        };
+        self.dress(&sewn, *way != Start::Mapped)
+    }
+
+    fn faults(&self, drape: &Drape) -> Faults {
+        let garment = self.garment;
+        let error = |m: &Measurement| (m.length_m(&garment.rest, &drape.positions) / m.l2d_m - 1.0).abs();
+        let length_error =
+            garment.measurements.iter().map(error).sum::<f64>() / garment.measurements.len().max(1) as f64;
+        let &Drape { converged, self_crossings, .. } = drape;
+        Faults { came_off: false, moves: !converged, self_crossings, depth_m: 0.0, length_error }
+    }
+
+    fn has_time(&self, _: &Faults) -> bool {
+        self.run.monitor.tries_again()
+    }
+}
+
+impl Reshaping<'_, '_, '_> {
+    /// Draws the pieces together about the body on the mesh before the last. Where their seams stay open on it, does so
+    /// on the coarsest: fewer vertices are caught by less.
+    fn drawn(&mut self) -> Result<Sewn, SimError> {
+        let Dressing { wearer, layer, .. } = self.dressing;
+        let (garments, fabric, garment) = (layer.garments, layer.fabric, self.garment);
         let finer = garments.iter().rev().nth(1).unwrap_or(garment);
         let mut together = |coarse: &Garment| {
-            let places = draw::together(body, field, coarse, fabric, |x| run.drawing(coarse, x))?;
+            let places = draw::together(wearer, coarse, fabric, |x| self.run.drawing(coarse, x))?;
             let mut sewn = Sewn::at(garment, &vec![V3::zeros(); garment.rest.len()]);
             let cloth = Cloth::new(garment, fabric, sewn.vertex_of.clone())?;
             sewn.x = prolong(coarse, &places, garment, &cloth, fabric);
@@ -265,14 +253,17 @@ impl Dressing<'_> {
         }
     }
 
-    /// Pop-up and drape of a sewn garment. With more care no cloth goes through cloth, and the body gives way to whatever is tight.
-    fn dress(&self, sewn: &Sewn, takes_care: bool, run: &mut Simulation) -> Result<Drape, SimError> {
-        let Self { body, field, garment, fabric, params, .. } = *self;
+    /// Pop-up and drape of a sewn garment. With care no cloth goes through cloth, and the body gives way to all tight
+    /// cloth.
+    fn dress(&mut self, sewn: &Sewn, takes_care: bool) -> Result<Drape, SimError> {
+        let Dressing { wearer: Wearer { body, field }, skin, layer } = self.dressing;
+        let (garment, params) = (self.garment, self.params);
+        let run = &mut *self.run;
         let controls: Vec<&Measurement> =
             garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
         let walls = Walls::new(body, garment, &sewn.vertex_of, &sewn.x);
-        let mut relaxation = Relaxation::new(field, garment, sewn, fabric, &controls, walls, params.relax)?
-            .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
+        let mut relaxation = Relaxation::new(field, garment, sewn, layer.fabric, &controls, walls, params.relax)?
+            .over_feet(body.control.ring_centre(body::Layer::AnkleRight).z);
         if takes_care {
             relaxation = relaxation.kept_apart(garment, sewn).giving_way();
         }
@@ -290,16 +281,16 @@ impl Dressing<'_> {
         })?;
         relaxation.part_layers(PARTINGS);
         let popped = sewn.unsewn(&relaxation.x);
-        let (last, self_crossings) = run.drape(&mut relaxation, body, sewn, params)?;
+        let Lain { moved_m, crossings } = run.drape(&mut relaxation, body, sewn, params)?;
         let positions = sewn.unsewn(&relaxation.x);
         Ok(Drape {
             stage: Stage::Drape,
-            converged: last <= AT_REST_M,
+            converged: moved_m <= AT_REST_M,
             iterations: run.history.len() as u32,
-            residual: last / AT_REST_M,
-            penetration_max_m: quality::penetration_by_field_m(self.skin, field, garment, &positions),
+            residual: moved_m / AT_REST_M,
+            penetration_max_m: quality::penetration_by_field_m(skin, field, garment, &positions),
             seam_gap_max_m: quality::seam_gap_m(garment, &positions),
-            self_crossings,
+            self_crossings: crossings,
             braced_n: None,
             is_stuck: false,
             welded_vertices: sewn.x.len(),
@@ -314,13 +305,21 @@ impl Dressing<'_> {
     }
 }
 
+/// End of a drape.
+struct Lain {
+    /// Rms movement of the vertices in the last step, m.
+    moved_m: f64,
+    /// Edges that still pierce the cloth.
+    crossings: usize,
+}
+
 /// E: mean chi over the measurements; positions of the garment's vertices in m.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
 }
 
-/// A run under way: what is recorded and reported of each step.
+/// A run under way, which records and reports each step.
 struct Simulation<'a> {
     garment: &'a Garment,
     monitor: &'a mut dyn Monitor,
@@ -328,15 +327,15 @@ struct Simulation<'a> {
 }
 
 impl Simulation<'_> {
-    /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth. What slides off the body by its
-    /// weight is laid on it without.
+    /// Phase 4: lets the cloth slide and come to rest. A garment that its weight draws off the body is laid on it again
+    /// without weight.
     fn drape(
         &mut self,
         relaxation: &mut Relaxation,
         body: &Body,
         sewn: &Sewn,
         params: &Params,
-    ) -> Result<(f64, usize), SimError> {
+    ) -> Result<Lain, SimError> {
         let popped = relaxation.place();
         let top_m = |x: &[V3]| quality::top_m(self.garment, &sewn.unsewn(x));
         let top_before_m = top_m(&relaxation.x);
@@ -348,7 +347,7 @@ impl Simulation<'_> {
         self.lay(relaxation, body, sewn, params, 0.0)
     }
 
-    /// Lets the cloth slide over the body with a share of its weight, and then lie.
+    /// Lets the cloth slide over the body with a share of its weight, then with firm contact.
     fn lay(
         &mut self,
         relaxation: &mut Relaxation,
@@ -356,7 +355,7 @@ impl Simulation<'_> {
         sewn: &Sewn,
         params: &Params,
         gravity: f64,
-    ) -> Result<(f64, usize), SimError> {
+    ) -> Result<Lain, SimError> {
         let steps = params.push_steps + params.firm_steps;
         let (mut step, mut end) = (0, steps);
         loop {
@@ -375,15 +374,15 @@ impl Simulation<'_> {
             let fraction = 0.6 + 0.4 * f64::from(step.min(steps)) / f64::from(steps.max(1));
             self.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
             match parted {
-                // What was pulled apart has lost its size there.
+                // Layers that were separated have lost their size there.
                 Some(Parted { found, .. }) if found > 0 && end < steps + MOST_AGAIN * AGAIN => end += AGAIN,
-                Some(Parted { left, .. }) => return Ok((last, left)),
+                Some(Parted { left, .. }) => return Ok(Lain { moved_m: last, crossings: left }),
                 None => {}
             }
         }
     }
 
-    /// Reports pieces that are being drawn together: `x` are the places of a coarser mesh's vertices, m.
+    /// Reports pieces that are being drawn together: `x` are the positions of a coarser mesh's vertices, m.
     fn drawing(&mut self, coarse: &Garment, x: &[V3]) -> Result<(), SimError> {
         let iteration = self.history.len() as u32 + 1;
         let seam_gap_m = quality::seam_gap_m(coarse, x);
@@ -392,6 +391,7 @@ impl Simulation<'_> {
         if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
 
+    /// Records and reports a step.
     fn record(
         &mut self,
         phase: &'static str,
@@ -429,8 +429,8 @@ pub(crate) fn constants() -> Vec<Constant> {
         CONSTANTS,
         popup::CONSTANTS,
         relax::CONSTANTS,
-        ring::CONSTANTS,
-        sewn::CONSTANTS,
+        girth_lines::CONSTANTS,
+        welded_mesh::CONSTANTS,
         silhouette::CONSTANTS,
         untangle::CONSTANTS,
     ]

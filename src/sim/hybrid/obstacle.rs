@@ -1,26 +1,27 @@
-//! The body as the cloth meets it: a distance field, off the skin by a little, and smaller where the garment cannot close.
+//! The body as an obstacle: its distance field with an offset from the skin, and with insets where the garment cannot
+//! close.
 
 use geom::{DistanceField, V3};
 
-/// A body that pushes sewn vertices out.
+/// A body with an offset and an inset for each sewn vertex.
 pub struct Obstacle<'a> {
     field: &'a DistanceField,
     /// Distance from the skin at which cloth is pushed, m.
     offset_m: f64,
-    /// By how much the body is smaller for each sewn vertex, m.
+    /// Inset of the body for each sewn vertex, m.
     insets_m: Vec<f64>,
-    /// Where each vertex was seen last, and how far it was from the skin there, m.
+    /// Place of each vertex at its last evaluation, and its distance from the skin there, m.
     seen: Vec<(V3, f64)>,
 }
 
 impl<'a> Obstacle<'a> {
-    /// The body itself, for so many vertices; pushes at `offset_m` from the skin.
+    /// The body without insets, for `count` vertices; it pushes at `offset_m` from the skin.
     #[must_use]
     pub fn new(field: &'a DistanceField, offset_m: f64, count: usize) -> Self {
         Self { field, offset_m, insets_m: vec![0.0; count], seen: vec![(V3::zeros(), f64::MIN); count] }
     }
 
-    /// Makes the body smaller, for each vertex by its own measure, m.
+    /// Sets the inset of each vertex, m.
     pub fn shrink(&mut self, insets_m: Vec<f64>) {
         self.insets_m = insets_m;
     }
@@ -34,7 +35,7 @@ impl<'a> Obstacle<'a> {
     pub fn contact_at(&mut self, offset_m: f64, vertex: usize, p: &V3) -> (f64, V3) {
         let reach = offset_m - self.insets_m[vertex];
         let (place, distance) = self.seen[vertex];
-        // No distance changes by more than the way.
+        // The distance changes by no more than the vertex moved (Lipschitz constant 1).
         if distance - (p - place).norm() > reach {
             return (0.0, V3::zeros());
         }
@@ -58,7 +59,7 @@ mod tests {
         let [(full, out), (shrunk, _)] = [0, 1].map(|v| ball.contact(v, &inside));
         assert!((full - 0.012).abs() < 1.5e-3 && out.x > 0.99, "{full} along {out:?}");
         assert!((full - shrunk - 0.01).abs() < 1e-9, "{shrunk} of {full}");
-        // Far off nothing is asked again until the way could have led there.
+        // Far off the field is not evaluated until the vertex could have come near.
         assert_eq!(ball.contact(0, &V3::new(0.22, 0.0, 0.0)).0, 0.0);
         assert_eq!(ball.contact(0, &V3::new(0.215, 0.0, 0.0)).0, 0.0);
         assert_eq!(ball.contact(0, &inside).0, full);

@@ -1,11 +1,11 @@
-//! The outline of a piece as the mapping sees it: stretches between what they are sewn to.
+//! The outline of a piece as the mapping sees it: stretches that are sewn to one other piece, or free.
 
 use std::collections::BTreeMap;
 
 use geom::V2;
 use pattern::{Garment, PieceMesh};
 
-/// What a stretch of outline is sewn to.
+/// The piece that a stretch of outline is sewn to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Partner {
     /// No other piece: the edge stays free.
@@ -17,14 +17,14 @@ pub enum Partner {
 /// A stretch of outline with one partner.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// What it is sewn to.
+    /// Piece that it is sewn to.
     pub partner: Partner,
     /// Garment vertices counter-clockwise, both ends included.
     pub vertices: Vec<usize>,
 }
 
 impl Chain {
-    /// From its first to its last vertex in the piece's plane, m.
+    /// Vector from its first to its last vertex in the piece's plane, m.
     #[must_use]
     pub fn chord(&self, garment: &Garment) -> V2 {
         garment.rest[self.last()] - garment.rest[self.first()]
@@ -76,7 +76,7 @@ pub fn partners(garment: &Garment) -> BTreeMap<[usize; 2], usize> {
 /// Boundary vertices of a piece, counter-clockwise; `None` when its outline is not one loop.
 #[must_use]
 pub fn boundary(garment: &Garment, piece: &PieceMesh) -> Option<Vec<usize>> {
-    // Inner edges are run through once each way and cancel.
+    // Inner edges are traversed once in each direction and cancel.
     let mut edges: BTreeMap<[usize; 2], i32> = BTreeMap::new();
     for t in &garment.triangles[piece.triangles.clone()] {
         for k in 0..3 {
@@ -91,10 +91,10 @@ pub fn boundary(garment: &Garment, piece: &PieceMesh) -> Option<Vec<usize>> {
         .collect();
     let (&start, _) = next.first_key_value()?;
     let mut ring = vec![start];
-    let mut at = *next.get(&start)?;
-    while at != start {
-        ring.push(at);
-        at = *next.get(&at)?;
+    let mut vertex = *next.get(&start)?;
+    while vertex != start {
+        ring.push(vertex);
+        vertex = *next.get(&vertex)?;
         if ring.len() > next.len() {
             return None;
         }

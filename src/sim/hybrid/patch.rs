@@ -7,7 +7,7 @@ use geom::{TriMesh, V3};
 
 /// A patch: a disc of triangles with its boundary.
 pub struct Patch {
-    /// Its own mesh; a cut has one copy of its vertices on each side.
+    /// Mesh of the patch; along a cut each side has its own copy of the vertices.
     pub mesh: TriMesh,
     /// Boundary vertices in the order of the loop that cut it out.
     pub boundary: Vec<usize>,
@@ -17,10 +17,10 @@ pub struct Patch {
 
 /// Cuts out the patch on the left of a closed loop of nodes, seen from outside.
 ///
-/// A loop may run along a stretch twice, there and back: a tube is cut open so.
+/// A loop may run along a stretch twice, forth and back, which cuts a tube open.
 ///
 /// # Errors
-/// What is wrong with the loop: it crosses itself, or does not bound a disc.
+/// When the loop crosses itself or does not bound a disc; the text says which.
 pub fn cut(graph: &PathGraph, nodes: &[usize]) -> Result<Patch, &'static str> {
     let barriers: BTreeSet<[usize; 2]> = steps(nodes).map(|[a, b]| [a.min(b), a.max(b)]).collect();
     let (triangles, face_of) = conforming(graph, &barriers)?;
@@ -47,7 +47,7 @@ fn steps(nodes: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
     (0..nodes.len()).map(|i| [nodes[i], nodes[(i + 1) % nodes.len()]])
 }
 
-/// Triangles over nodes, and their faces: faces that barriers touch are divided so that every barrier is an edge.
+/// Triangles over nodes, and their faces. Faces that barriers cross are divided so that every barrier is an edge.
 type Conforming = (Vec<[usize; 3]>, Vec<usize>);
 
 fn conforming(graph: &PathGraph, barriers: &BTreeSet<[usize; 2]>) -> Result<Conforming, &'static str> {
@@ -92,7 +92,7 @@ fn divide(ring: Vec<usize>, chords: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, &'
     if placed < rest.len() { Err("its outline crosses itself") } else { Ok(parts) }
 }
 
-/// Fills a convex polygon, which may have corners of 180 degrees, with triangles: best ear first.
+/// Triangulates a convex polygon, which may have corners of 180 degrees, by ear clipping, the best ear first.
 fn fill(graph: &PathGraph, mut ring: Vec<usize>) -> Vec<[usize; 3]> {
     let area = |t: [usize; 3]| {
         let [a, b, c] = t.map(|n| graph.position(n));
@@ -108,7 +108,7 @@ fn fill(graph: &PathGraph, mut ring: Vec<usize>) -> Vec<[usize; 3]> {
         let whole = total(&ring);
         let n = ring.len();
         let ear = |i: usize| [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
-        // An ear must not leave a mere line.
+        // An ear must not leave a polygon without area.
         let worth = |i: &usize| if whole - area(ear(*i)) > 1e-9 * whole { quality(ear(*i)) } else { -1.0 };
         let best = (0..n).max_by(|i, j| worth(i).total_cmp(&worth(j))).unwrap_or(0);
         triangles.push(ear(best));
@@ -118,7 +118,7 @@ fn fill(graph: &PathGraph, mut ring: Vec<usize>) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// Triangles reached from the seeds without crossing a barrier.
+/// Flood fill: true for triangles reached from the seeds without crossing a barrier.
 fn flood(
     triangles: &[[usize; 3]],
     across: &BTreeMap<[usize; 2], usize>,
@@ -167,7 +167,7 @@ impl Opened {
                 let node = triangles[t][k];
                 let vertex = opened.positions.len();
                 opened.positions.push(graph.position(node));
-                // Every triangle of the fan round the node, as far as the barriers.
+                // Every triangle of the fan round the node, up to the barriers.
                 let mut open = vec![t];
                 while let Some(t) = open.pop() {
                     let corner = triangles[t].iter().position(|&n| n == node);

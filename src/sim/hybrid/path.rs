@@ -1,4 +1,5 @@
-//! Shortest paths along a coarse surface (5.2.2): over its vertices and points set evenly on its edges.
+//! Approximate geodesics on a coarse surface (5.2.2): shortest paths over its vertices and points set evenly on its
+//! edges.
 //!
 //! Within a face a path runs straight from any side to any other, so that even a coarse mesh has nearly geodesic paths.
 
@@ -19,12 +20,12 @@ pub struct PathGraph<'a> {
     faces_of_vertex: Vec<Vec<usize>>,
 }
 
-/// What later paths keep clear of: the nodes of earlier ones and their ways through faces. Paths that part a surface into
-/// patches meet in their ends only.
+/// Obstacles for later paths: the nodes of earlier paths and their chords through faces. Paths that divide a surface
+/// into patches meet in their ends only.
 #[derive(Clone, Debug, Default)]
 pub struct Taken {
     nodes: BTreeSet<usize>,
-    /// Ways through each face, as pairs of nodes.
+    /// Chords through each face, as pairs of nodes.
     chords: BTreeMap<usize, Vec<[usize; 2]>>,
 }
 
@@ -45,7 +46,7 @@ impl Taken {
         }
     }
 
-    /// Whether the way from `a` to `b` through a face crosses one that is taken.
+    /// True if the chord from `a` to `b` through a face crosses one that is taken.
     fn crosses(&self, graph: &PathGraph, face: usize, a: usize, b: usize) -> bool {
         let Some(chords) = self.chords.get(&face) else { return false };
         let ring = graph.ring(face);
@@ -56,7 +57,7 @@ impl Taken {
     }
 }
 
-/// Where a node lies.
+/// Location of a node on the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// On a vertex.
@@ -96,7 +97,7 @@ impl<'a> PathGraph<'a> {
         self.mesh.positions.len() + self.edges.len() * self.points
     }
 
-    /// Whether there are no nodes.
+    /// True if there are no nodes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -108,7 +109,7 @@ impl<'a> PathGraph<'a> {
         self.mesh
     }
 
-    /// Where a node lies.
+    /// Location of a node on the mesh.
     #[must_use]
     pub fn place(&self, node: usize) -> Place {
         match node.checked_sub(self.mesh.positions.len()) {
@@ -178,8 +179,8 @@ impl<'a> PathGraph<'a> {
         self.search(from, to, |_| true, |_| 0.0, &Taken::default())
     }
 
-    /// The fast, oriented search (5.2.2): only over faces that the piece can touch, clear of what is taken, and towards the
-    /// goal, the straight distance to it being a lower bound of the way left.
+    /// The fast, oriented search (5.2.2): A* over the faces that the piece can touch, clear of taken paths. The
+    /// straight distance to the goal is the lower bound of the length left.
     #[must_use]
     pub fn shortest_within(
         &self,
@@ -205,7 +206,7 @@ impl<'a> PathGraph<'a> {
         let mut done = vec![false; self.len()];
         let mut queue = BinaryHeap::new();
         length[from] = 0.0;
-        // Lengths are not negative: their bits sort as they do.
+        // Lengths are not negative, so their bits sort in the same order.
         queue.push(Reverse((bound(from).to_bits(), from)));
         while let Some(Reverse((_, node))) = queue.pop() {
             if node == to {
@@ -239,8 +240,8 @@ impl<'a> PathGraph<'a> {
         None
     }
 
-    /// Calls `visit` for the nodes that a path can go to from `node` within a face: next along its own sides, anywhere on
-    /// the others.
+    /// Calls `visit` for the nodes that a path can go to from `node` within a face: the next ones along its own sides,
+    /// all on the others.
     fn for_neighbours(&self, face: usize, node: usize, mut visit: impl FnMut(usize)) {
         let vertices = self.mesh.positions.len();
         let t = self.mesh.triangles[face];
@@ -256,7 +257,7 @@ impl<'a> PathGraph<'a> {
                 (first..first + self.points).for_each(&mut visit);
                 continue;
             }
-            let at = if node == a {
+            let index = if node == a {
                 0
             } else if node == b {
                 self.points + 1
@@ -268,15 +269,15 @@ impl<'a> PathGraph<'a> {
                 i if i == self.points + 1 => b,
                 i => first + i - 1,
             };
-            if at > 0 {
-                visit(nth(at - 1));
+            if index > 0 {
+                visit(nth(index - 1));
             }
-            if at < self.points + 1 {
-                visit(nth(at + 1));
+            if index < self.points + 1 {
+                visit(nth(index + 1));
             }
         }
         if let Place::Edge(edge, _) = self.place(node) {
-            // The corner across.
+            // The opposite corner.
             t.into_iter().filter(|v| !self.edges[edge].contains(v)).for_each(visit);
         }
     }

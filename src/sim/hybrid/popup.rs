@@ -1,24 +1,24 @@
-//! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible and
-//! under control of every measurement of the style.
+//! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible
+//! and with every measurement of the style under control.
 
 use std::cmp::Ordering;
 
 use super::relax::{Push, Relaxation};
-use super::sewn::Sewn;
 use super::silhouette::Silhouette;
+use super::welded_mesh::Sewn;
 use body::Body;
 use geom::V3;
 use pattern::Garment;
 
 geom::constants! {
     "hybrid.popup",
-    /// Steps in which it grows, and in which it then comes to rest.
+    /// Number of steps in which it grows, and in which it then comes to rest.
     const STEPS: [u32; 2] = [12, 16];
-    /// Times that the controls are set anew in a step, at most.
+    /// Greatest number of corrections of the controls in a step.
     const CORRECTIONS: u32 = 2;
-    /// What a change of all controls' lengths changes their mean by, at first guess.
+    /// First guess for the change of the measurements' mean per change of all controls' lengths.
     const RESPONSE: f64 = 0.7;
-    /// Least and greatest response that a correction may have found, over that guess.
+    /// Least and greatest response that a correction may find, over that guess.
     const FOUND: [f64; 2] = [0.3, 2.0];
     /// Error that counts as none.
     const NONE: f64 = 2e-5;
@@ -30,7 +30,7 @@ pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
 
-/// How the size comes back.
+/// Method by which the size is restored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
@@ -44,14 +44,14 @@ pub enum Backend {
 /// A sewn garment.
 #[derive(Clone, Copy)]
 pub struct Cloth<'a> {
-    /// The garment as cut, whose sizes it takes back.
+    /// The garment as cut, whose size is restored.
     pub garment: &'a Garment,
     /// The same with the seams welded.
     pub sewn: &'a Sewn,
 }
 
-/// Pops a garment up with one of the backends; calls `each` with it and the rms movement (m) after every step, which ends it
-/// early with an error. `error` is how far the garment is from its size on average, signed.
+/// Pops a garment up with one of the backends. Calls `each` with it and the rms movement (m) after every step, which
+/// may end it early with an error. `error` gives the signed mean error of the garment's size.
 ///
 /// # Errors
 /// Those of `each`.
@@ -83,10 +83,11 @@ pub fn reconstruct<E>(
 
 /// Pops up as rigid as possible.
 ///
-/// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
-/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields where the garment is too small.
-/// A step that would go past the size, on its momentum or because controls are soft, or lead away from it, is done again with
-/// the controls' lengths set against that.
+/// Triangles and controls grow from the size at which they were sewn to that of the pattern in equal steps. Until then
+/// the body keeps its size and pushes the cloth out, or sleeves would swing through the arms while they grow. After
+/// that it yields where the garment is too small. A step may overshoot the size by its momentum or by the softness of
+/// the controls, or lead away from it. Such a step is repeated with corrected lengths of the controls, by the secant
+/// method.
 fn rigid<E>(
     cloth: Cloth,
     relaxation: &mut Relaxation,
@@ -123,7 +124,7 @@ fn rigid<E>(
     Ok(())
 }
 
-/// Whether an error is smaller than the last and has not changed sides, or is none.
+/// True if an error is no greater than the last and has the same sign, or is none.
 fn is_nearer(now: f64, last: f64) -> bool {
     now.abs() < NONE || (now.abs() <= last.abs() && now * last >= 0.0)
 }

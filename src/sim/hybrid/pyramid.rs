@@ -1,24 +1,35 @@
 //! Pyramid coordinates: a vertex by its ring of neighbours [T 5.4.3, Sheffer & Kraevoy 2004].
 //!
-//! The ring is projected along its normal; mean value coordinates of the projected vertex say where it stands over the
-//! ring's plane, and the angle at which it sees each neighbour how high above. A shape comes back from its coordinates
-//! wherever it was moved or turned to. With the weights and lengths of the pattern (5.7, 5.8) and the angles in between
-//! (5.9) a garment gets its size back while its curvature stays.
+//! The ring is projected along its normal. Mean value coordinates of the projected vertex give its foot in the ring's
+//! plane, and the angles at which it sees its neighbours give its height. The coordinates are invariant under rigid
+//! motions, and the shape is reconstructed from them. With the weights and lengths of the pattern (5.7, 5.8) and the
+//! angles in between (5.9) a garment gets its size back while its curvature stays.
 
 use std::collections::BTreeMap;
 
 use geom::{V2, V3};
 
-/// A vertex in terms of its ring.
+/// A vertex in the coordinates of its ring.
 #[derive(Clone, Debug)]
 struct Apex {
     vertex: usize,
-    /// Its neighbours, in order round it; first and last are neighbours too.
+    /// Its neighbours in cyclic order.
     ring: Vec<usize>,
     /// Mean value weight of each neighbour (5.7), with sum 1.
     weights: Vec<f64>,
     /// Length of the edge to each neighbour in the pattern (5.8), m.
     lengths_m: Vec<f64>,
+}
+
+/// A corner of a triangle in the pattern.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// Angle, rad.
+    angle: f64,
+    /// Length of the side to the next corner, m.
+    next_m: f64,
+    /// Length of the side to the last corner, m.
+    last_m: f64,
 }
 
 /// The pyramids of the inner vertices of a mesh.
@@ -27,7 +38,7 @@ pub struct Pyramids {
     apexes: Vec<Apex>,
 }
 
-/// The plane of a ring with what stands over it.
+/// The plane of a ring.
 struct Base {
     /// Unit normal of the plane.
     normal: V3,
@@ -44,13 +55,13 @@ impl Base {
         Some(Self { normal: area.try_normalize(1e-18)?, centre })
     }
 
-    /// Along the plane.
+    /// Projection of a vector onto the plane.
     fn flat(&self, way: &V3) -> V3 {
         way - self.normal * way.dot(&self.normal)
     }
 }
 
-/// Mean value weights (5.7) of the arms from a point to its ring, in one plane; `None` where they have no sum.
+/// Mean value weights (5.7) of the vectors from a point to its ring, in one plane; `None` if their sum is not positive.
 fn mean_value_weights(arms: &[V3]) -> Option<Vec<f64>> {
     let n = arms.len();
     let half_tangent = |i: usize| {
@@ -79,27 +90,27 @@ impl Pyramids {
         Self { apexes: rings.into_iter().filter_map(apex).collect() }
     }
 
-    /// The pyramids of a sewn garment of `count` vertices with the weights and lengths of its pattern: `rest` are the corners of each
-    /// triangle in its piece's plane, m.
+    /// The pyramids of a sewn garment of `count` vertices with the weights and lengths of its pattern: `rest` are the
+    /// corners of each triangle in its piece's plane, m.
     ///
-    /// Round a vertex on a seam the triangles of its pieces are laid side by side, and their angles count as they are.
+    /// Round a vertex on a seam the triangles of its pieces are laid side by side with their own angles, whatever these
+    /// add up to.
     #[must_use]
     pub fn of_pattern(triangles: &[[usize; 3]], rest: &[[V2; 3]], count: usize) -> Self {
-        // Angle and lengths of each triangle at each of its corners.
         let mut fans = vec![BTreeMap::new(); count];
         for (t, at) in triangles.iter().zip(rest) {
             for k in 0..3 {
                 let [next, last] = [at[(k + 1) % 3] - at[k], at[(k + 2) % 3] - at[k]];
                 let angle = next.perp(&last).abs().atan2(next.dot(&last));
-                fans[t[k]].insert(t[(k + 1) % 3], (angle, next.norm(), last.norm()));
+                fans[t[k]].insert(t[(k + 1) % 3], Corner { angle, next_m: next.norm(), last_m: last.norm() });
             }
         }
         let apex = |(vertex, ring): (usize, Vec<usize>)| {
-            let fan: Vec<(f64, f64, f64)> = ring.iter().map(|w| fans[vertex].get(w).copied()).collect::<Option<_>>()?;
+            let fan: Vec<Corner> = ring.iter().map(|w| fans[vertex].get(w).copied()).collect::<Option<_>>()?;
             let n = ring.len();
-            // A neighbour's length as the triangles on both its sides have it.
-            let lengths_m: Vec<f64> = (0..n).map(|i| (fan[i].1 + fan[(i + n - 1) % n].2) / 2.0).collect();
-            let half = |i: usize| (fan[i].0 / 2.0).tan();
+            // A neighbour's length is the mean of those in the triangles on both its sides.
+            let lengths_m: Vec<f64> = (0..n).map(|i| (fan[i].next_m + fan[(i + n - 1) % n].last_m) / 2.0).collect();
+            let half = |i: usize| (fan[i].angle / 2.0).tan();
             let raw: Vec<f64> = (0..n).map(|i| (half((i + n - 1) % n) + half(i)) / lengths_m[i]).collect();
             let sum: f64 = raw.iter().sum();
             let weights = (sum.is_finite() && sum > 0.0).then(|| raw.iter().map(|w| w / sum).collect())?;
@@ -109,10 +120,10 @@ impl Pyramids {
         Self { apexes: rings.into_iter().filter_map(apex).collect() }
     }
 
-    /// One round of the reconstruction: every vertex goes where its pyramid over its ring as it is now has its apex.
+    /// One round of the reconstruction: every vertex moves to the apex of its pyramid over its ring in the shape `x`.
     ///
-    /// The angle to each neighbour lies half way between that of the shape `x` and that of an edge of the wanted length
-    /// (5.9): wanted is `share` of the way from the length now to that of the pattern.
+    /// The angle to each neighbour is the mean of that in the shape `x` and that of an edge of the wanted length (5.9).
+    /// The wanted length lies `share` of the way from the present length to that of the pattern.
     #[must_use]
     pub fn rebuild(&self, x: &[V3], share: f64) -> Vec<V3> {
         let mut next = x.to_vec();
@@ -138,7 +149,7 @@ impl Apex {
             let wanted_m = now_m + (pattern_m - now_m) * share;
             let sine = |length_m: f64| (flat_m / length_m).min(1.0);
             let angle = (sine(now_m).asin() + sine(wanted_m).asin()) / 2.0;
-            // An apex above some neighbours and below others is on the side of each where it is now.
+            // An apex above some neighbours and below others stays on its present side of each.
             let rise = flat_m / angle.tan().max(1e-9) * way.dot(&base.normal).signum();
             foot += (x[w] - base.normal * (x[w] - base.centre).dot(&base.normal)) * *weight;
             height += weight * ((x[w] - base.centre).dot(&base.normal) + rise);
@@ -158,12 +169,12 @@ fn rings(triangles: &[[usize; 3]], count: usize) -> Vec<(usize, Vec<usize>)> {
     let ring = |(vertex, next): (usize, &BTreeMap<usize, usize>)| {
         let (&first, _) = next.first_key_value()?;
         let mut ring = vec![first];
-        let mut at = *next.get(&first)?;
-        while at != first && ring.len() <= next.len() {
-            ring.push(at);
-            at = *next.get(&at)?;
+        let mut neighbour = *next.get(&first)?;
+        while neighbour != first && ring.len() <= next.len() {
+            ring.push(neighbour);
+            neighbour = *next.get(&neighbour)?;
         }
-        (at == first && ring.len() == next.len() && ring.len() > 2).then_some((vertex, ring))
+        (neighbour == first && ring.len() == next.len() && ring.len() > 2).then_some((vertex, ring))
     };
     next.iter().enumerate().filter_map(ring).collect()
 }

@@ -1,16 +1,17 @@
-//! Steps of a sewn garment against a body: its size, gravity, bending, contact.
+//! Steps of a sewn garment on a body, under its own elasticity, gravity and contact.
 //!
-//! Contact pushes the cloth out of the body. Where a ring of cloth is too small to close round it, the body counts as smaller there, all round by as much
-//! as the ring needs: the cloth keeps its size and lies inside the body, evenly. Where the pattern is large enough it lies outside.
+//! Contact pushes the cloth out of the body. Where a ring of cloth is too small to close round the body, the body
+//! counts as smaller, all round by as much as the ring needs. There the cloth keeps its size and lies inside the body
+//! by an even depth. A garment that is large enough lies outside.
 
-use super::elastic::{Elastic, Pull};
-use super::gap::underarms;
+use super::elastic::{Controls, Elastic, Pull};
+use super::girth_lines::rings;
 use super::give::{Give, Lying};
-use super::inset::Insets;
+use super::inset::{Fit, Insets};
 use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
-use super::ring::rings;
-use super::sewn::Sewn;
+use super::underarms::underarms;
+use super::welded_mesh::Sewn;
 use crate::cloth::Cloth;
 use crate::contact::{ClothContact, ClothContactParams, contact_areas};
 use crate::walls::Walls;
@@ -25,27 +26,28 @@ use pattern::{Garment, Measurement};
 pub struct RelaxParams {
     /// Distance from the skin at which cloth is pushed, m.
     pub offset_m: f64,
-    /// Membrane stiffness that gravity and bending are set against, N/m. Higher than any cloth's at rest: size is kept.
+    /// Membrane stiffness by which gravity and bending are divided, N/m. Higher than that of any cloth at rest, to keep
+    /// the size.
     pub stiffness_n_m: f64,
-    /// Weight of contact, per area and over the stiffness, 1/m2.
+    /// Weight of contact per area and over the stiffness, 1/m2.
     pub contact: f64,
-    /// Weight of contact at the end, as a multiple of the stiffness with which a vertex is held by its neighbours: the
-    /// cloth slides no more then, as it would stick.
+    /// Weight of firm contact at the end, over the stiffness with which its neighbours hold a vertex. With it the cloth
+    /// slides no more, as under friction.
     pub firm_contact: f64,
-    /// Weight of a free vertex's last place, likewise: how far a step goes.
+    /// Weight of the last place of a vertex without contact, likewise; it bounds the length of a step.
     pub hold: f64,
-    /// Weight of a control: that of a strip of cloth this wide along it, m.
+    /// Weight of a control: that of a strip of cloth of this width along it, m.
     pub control_width_m: f64,
     /// Stretch of the cloth beyond which contact yields.
     pub yield_stretch: f64,
-    /// Bending rigidity at least, N m: keeps folds wider than the mesh.
+    /// Least bending rigidity, N m: it keeps folds wider than the mesh's edges.
     pub least_bending_nm: f64,
-    /// Share of the last step's movement that the next one begins with: slow modes, such as a whole front coming
-    /// forward, take a few steps instead of dozens.
+    /// Share of the last step's displacement with which the next one begins (momentum). Slow modes, such as the forward
+    /// motion of a whole front, then take a few steps instead of dozens.
     pub momentum: f64,
-    /// Steps between two looks at who is in contact.
+    /// Steps between two updates of the contacts.
     pub refresh: u32,
-    /// How far a vertex goes in a step at most, m.
+    /// Greatest displacement of a vertex in a step, m.
     pub stride_m: f64,
 }
 
@@ -79,28 +81,28 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     insets: Insets,
-    /// Where the body gives way besides; `None` where it does so to rings alone.
+    /// Insets for tight cloth beside those of rings; `None` where the body gives way to rings alone.
     give: Option<Give>,
     /// Edges of the cloth with their lengths in the pattern, m.
     sides: Vec<([usize; 2], f64)>,
     walls: Walls,
-    /// Vertices that had the weight of contact at the last look.
+    /// True for vertices that had the weight of contact at the last update.
     touching: Vec<bool>,
-    /// Whether that was the firm one.
+    /// True if that was the weight of firm contact.
     is_firm: bool,
     /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
-    /// Displacement of the last step, m.
+    /// Displacement of each vertex in the last step, m.
     last: Vec<V3>,
     layers: Layers,
-    /// What lengths of controls are multiplied by.
+    /// Factor on the lengths of controls.
     pub control: f64,
-    /// Below this height cloth lies on the feet and need not close around them, m.
+    /// Height below which cloth lies on the feet and need not close round them, m.
     feet_m: f64,
     steps: u32,
 }
 
-/// A place on the way of a garment to which it can go back.
+/// A state of a garment to which it can return.
 #[derive(Clone, Debug)]
 pub struct Place {
     x: Vec<V3>,
@@ -108,21 +110,21 @@ pub struct Place {
     steps: u32,
 }
 
-/// What a step does besides keeping size.
+/// Options of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// Whether contact is firm: at the end.
+    /// True if contact is firm, as at the end.
     pub firm: bool,
     /// Share of its weight that the cloth has.
     pub gravity: f64,
-    /// Size that it wants: 0 as it was sewn, 1 the pattern's.
+    /// Rest size: 0 as it was sewn, 1 the pattern's.
     pub share: f64,
-    /// By how much the sides of open seams want to come nearer, m.
+    /// Length by which the sides of open seams are drawn nearer, m.
     pub closer_m: f64,
 }
 
 impl<'a> Relaxation<'a> {
-    /// Starts from a sewn garment.
+    /// Starts from a sewn garment with some measurements under control.
     ///
     /// # Errors
     /// [`SimError::Degenerate`].
@@ -155,8 +157,8 @@ impl<'a> Relaxation<'a> {
             .map(|pair| pair.map(|v| sewn.vertex_of[v]))
             .filter(|[a, b]| a != b)
             .collect();
-        let width_m = params.control_width_m;
-        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, (controls, width_m), &bending, open, weights)
+        let controls = Controls { measurements: controls, weight: params.control_width_m };
+        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, &bending, open, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         Ok(Self {
@@ -181,7 +183,7 @@ impl<'a> Relaxation<'a> {
         })
     }
 
-    /// Has no cloth go through other cloth from here on, but for the two sides of seams that are still open.
+    /// Keeps cloth from going through other cloth from here on, except the two sides of seams that are still open.
     #[must_use]
     pub fn kept_apart(mut self, garment: &Garment, sewn: &'a Sewn) -> Self {
         let layers = ClothContactParams::default();
@@ -192,19 +194,19 @@ impl<'a> Relaxation<'a> {
         self
     }
 
-    /// Has the body give way to whatever lies on it stretched, and not to rings alone.
+    /// Lets the body give way to all tight cloth, and not to rings alone.
     #[must_use]
     pub fn giving_way(self) -> Self {
         Self { give: Some(Give::new(self.x.len())), ..self }
     }
 
-    /// Says how high the ankles are, m: below them the body stays as it is.
+    /// Sets the height of the ankles, m: below them the body keeps its size.
     #[must_use]
     pub fn over_feet(self, ankles_m: f64) -> Self {
         Self { feet_m: ankles_m, ..self }
     }
 
-    /// Lifts out what contact, which is soft, left inside. What lies deeper would lose its size.
+    /// Lifts out vertices that soft contact left inside the body. Cloth that lies deeper would lose its size by that.
     pub fn lift_out(&mut self) {
         let mut lifted = |(v, p): (usize, &V3)| {
             let (depth, out) = self.obstacle.contact_at(LEAST_CLEARANCE_M, v, p);
@@ -217,7 +219,7 @@ impl<'a> Relaxation<'a> {
         self.go_to(&goal);
     }
 
-    /// Puts the cloth somewhere else, m, from where the body pushes it out; returns the rms movement of the vertices, m.
+    /// Moves the cloth to `x`, m, and out of the body; returns the rms movement of the vertices, m.
     pub fn put(&mut self, x: Vec<V3>) -> f64 {
         let from = std::mem::replace(&mut self.x, x);
         for (v, p) in self.x.iter_mut().enumerate() {
@@ -227,30 +229,34 @@ impl<'a> Relaxation<'a> {
         (from.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>() / from.len() as f64).sqrt()
     }
 
-    /// Judges anew where the garment is too small for a body: there the body counts as smaller.
+    /// Judges anew which rings are too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &Body, garment: &Garment, sewn: &Sewn) {
         let rings = rings(body, garment, sewn, &self.x);
-        let RelaxParams { offset_m, yield_stretch, .. } = self.params;
         let is_hung = !underarms(garment).is_empty();
-        self.insets = Insets::judged(rings, &body.mesh, &self.x, offset_m, yield_stretch, is_hung);
+        self.insets = Insets::judged(rings, &body.mesh, &self.x, self.fit(), is_hung);
         self.shrink();
     }
 
-    /// Judges again where the garment is still too small.
+    /// Distance and stretch with which rings fit.
+    fn fit(&self) -> Fit {
+        Fit { offset_m: self.params.offset_m, share: self.params.yield_stretch }
+    }
+
+    /// Judges again which rings are still too small.
     pub fn judge_again(&mut self, body: &TriMesh) {
-        self.insets.judge_again(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.insets.judge_again(body, &self.x, self.fit());
         self.give_way(true);
         self.shrink();
     }
 
-    /// Corrects by how much the body counts as smaller.
+    /// Corrects the insets of the body.
     pub fn correct(&mut self) {
         self.insets.correct(&self.x, self.params.yield_stretch);
         self.give_way(false);
         self.shrink();
     }
 
-    /// Has the body give way to what lies on it stretched; `is_judged` says whether that is judged anew.
+    /// Lets the body give way to tight cloth that lies on it; `is_judged` is true where that is judged anew.
     fn give_way(&mut self, is_judged: bool) {
         let Some(give) = &mut self.give else { return };
         let stretches = self.elastic.stretches(&self.x);
@@ -264,6 +270,7 @@ impl<'a> Relaxation<'a> {
         give.correct(&lying, self.params.yield_stretch);
     }
 
+    /// Applies the insets to the body.
     fn shrink(&mut self) {
         let own = self.give.as_ref().map_or_else(|| vec![0.0; self.x.len()], |give| give.now_m.clone());
         let mut insets = self.insets.of_vertices(own, &self.sides);
@@ -271,20 +278,20 @@ impl<'a> Relaxation<'a> {
         self.obstacle.shrink(insets);
     }
 
-    /// Where it is now.
+    /// The present state.
     #[must_use]
     pub fn place(&self) -> Place {
         Place { x: self.x.clone(), last: self.last.clone(), steps: self.steps }
     }
 
-    /// Goes back to a place.
+    /// Returns to a state.
     pub fn go_back(&mut self, place: &Place) {
         self.x.clone_from(&place.x);
         self.last.clone_from(&place.last);
         self.steps = place.steps;
     }
 
-    /// Pulls cloth apart that runs through itself.
+    /// Separates layers that intersect.
     pub fn part_layers(&mut self, rounds: u32) -> Parted {
         self.layers.part(&mut self.x, rounds)
     }
@@ -321,7 +328,8 @@ impl<'a> Relaxation<'a> {
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
     }
 
-    /// Goes on from where the contact of the cloth with itself saw it last, as far as nothing meets.
+    /// Moves towards `goal` as far as the contact of the cloth with itself allows, in legs between which contacts are
+    /// sought.
     fn go_to(&mut self, goal: &[V3]) {
         let Some(contact) = &mut self.self_contact else {
             self.x.copy_from_slice(goal);
@@ -340,11 +348,11 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
+    /// Updates the weights of the vertices if enough of them have come into contact or left it.
     fn look_for_contacts(&mut self, firm: bool, ways_out: &[Option<V3>]) {
         let mut now = touching(&mut self.obstacle, &self.walls, self.params.offset_m, &self.x);
         now.iter_mut().zip(ways_out).for_each(|(touches, way)| *touches |= way.is_some());
-        // Firm contact brings cloth to where it is pushed no more: it must go on being held there.
+        // Firm contact brings cloth out of contact. It must be held there all the same.
         for (v, touches) in now.iter_mut().enumerate().filter(|(v, _)| firm && self.touching[*v]) {
             *touches |= self.obstacle.contact_at(self.params.offset_m + LET_GO_M, v, &self.x[v]).0 > 0.0;
         }
@@ -363,27 +371,27 @@ impl<'a> Relaxation<'a> {
 
 geom::constants! {
     "hybrid.relax",
-    /// Share of the vertices whose contact may have changed before the system is factorised again.
+    /// Share of the vertices whose contact may change before the matrix is factorised again.
     const SAME_CONTACTS: f64 = 0.01;
-    /// Cloth that contact held firmly is let go of when it is further out than it is pushed by this, m.
+    /// Distance beyond the offset at which firm contact lets go of cloth, m.
     const LET_GO_M: f64 = 1e-3;
-    /// Cloth that is large enough is this far from the skin in the end at least, m.
+    /// Least distance from the skin to which cloth that is large enough is lifted in the end, m.
     const LEAST_CLEARANCE_M: f64 = 1e-3;
-    /// Cloth is lifted out by this at most, m.
+    /// Depth up to which cloth is lifted out, m.
     const MOST_LIFT_M: f64 = 3e-3;
-    /// Legs of a way at most, after each of which cloth is sought that may come near in the next.
+    /// Greatest number of legs of a step, after each of which contacts of the cloth with itself are sought.
     const MOST_LEGS: usize = 4;
 }
 
 /// Sides of all triangles, as sewn, with their lengths in the pattern, m.
 fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
-    let of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let edges_of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
     let side =
         |[a, b]: [usize; 2]| ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm());
-    garment.triangles.iter().flat_map(of).map(side).collect()
+    garment.triangles.iter().flat_map(edges_of).map(side).collect()
 }
 
-/// Positions lifted out of the body: the control mesh, on which pieces are laid, cuts through the fine one.
+/// Positions lifted out of the body: pieces are laid on the control mesh, which lies partly inside the fine one.
 fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {
     let mut lift = |(v, p): (usize, &V3)| {
         let (depth, out) = obstacle.contact(v, p);
@@ -392,13 +400,13 @@ fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {
     x.iter().enumerate().map(&mut lift).collect()
 }
 
-/// Which vertices contact acts on: those near the body or beyond a wall.
+/// True for vertices that contact acts on: those near the body or beyond a wall.
 fn touching(obstacle: &mut Obstacle, walls: &Walls, offset_m: f64, x: &[V3]) -> Vec<bool> {
     let mut touches = |(v, p): (usize, &V3)| obstacle.contact(v, p).0 > 0.0 || walls.back(v, p, offset_m).is_some();
     x.iter().enumerate().map(&mut touches).collect()
 }
 
-/// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.
+/// Weights of the vertices' targets: those of contact for vertices in contact, lower ones for the others.
 fn soft_weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
     touching.iter().zip(areas).map(|(touches, a)| a * if *touches { params.contact } else { params.hold }).collect()
 }

@@ -1,7 +1,8 @@
-//! Pop-up by pyramid coordinates: the free edges first, by silhouette and length (5.4, 5.5), then all that lies between them.
+//! Pop-up by pyramid coordinates: the free edges first, by silhouette and length (5.4, 5.5), then the cloth between
+//! them.
 
 use super::pyramid::Pyramids;
-use super::sewn::Sewn;
+use super::welded_mesh::Sewn;
 use geom::{V2, V3};
 use pattern::Garment;
 
@@ -11,7 +12,7 @@ geom::constants! {
     const ROUNDS: u32 = 10;
 }
 
-/// A sewn garment that takes its pattern's size from its free edges inwards.
+/// A sewn garment that grows to its pattern's size from its free edges inwards.
 pub struct Silhouette {
     pyramids: Pyramids,
     loops: Vec<Loop>,
@@ -33,11 +34,11 @@ impl Silhouette {
     pub fn new(garment: &Garment, sewn: &Sewn) -> Self {
         let rest: Vec<[V2; 3]> = garment.triangles.iter().map(|t| t.map(|v| garment.rest[v])).collect();
         let sides = || {
-            let of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+            let edges_of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
             let side = |[a, b]: [usize; 2]| {
                 ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm())
             };
-            garment.triangles.iter().flat_map(of).map(side)
+            garment.triangles.iter().flat_map(edges_of).map(side)
         };
         let edge = |vertices: &Vec<usize>| {
             let n = vertices.len();
@@ -57,7 +58,8 @@ impl Silhouette {
         }
     }
 
-    /// One step from `x` (m): edges and lengths go `share` of the way to those of the pattern.
+    /// One step from `x` (m), in which edges and lengths change by `share` of their difference from those of the
+    /// pattern.
     #[must_use]
     pub fn step(&self, x: &[V3], share: f64) -> Vec<V3> {
         let mut now = x.to_vec();
@@ -79,9 +81,9 @@ impl Loop {
         let length_m: f64 = (0..n).map(|i| (arm(i + 1) - arm(i)).norm()).sum();
         let area: V3 = (0..n).map(|i| arm(i).cross(&arm(i + 1))).sum();
         let Some(normal) = area.try_normalize(1e-18) else { return };
-        // (5.4): every vertex further from the middle by the same.
+        // (5.4): every vertex moves away from the middle by the same distance.
         let wider = share * (self.length_m - length_m) / std::f64::consts::TAU;
-        // (5.5): along the normal by what the edges that end there lack, on average.
+        // (5.5): along the normal by the mean lack of the edges that end there.
         let lacks = self.inwards.iter().map(|&([v, w], pattern_m)| {
             let way = x[v] - x[w];
             (way * (pattern_m / way.norm().max(1e-9) - 1.0)).dot(&normal)
@@ -89,7 +91,7 @@ impl Loop {
         let longer = share * lacks.sum::<f64>() / self.inwards.len().max(1) as f64;
         for &v in &self.vertices {
             let out = (x[v] - centre) - normal * (x[v] - centre).dot(&normal);
-            // Never past the middle: beyond it, the edge would get longer by what it has to lose.
+            // Never past the middle: beyond it the edge would grow instead of shrinking.
             let by = wider.max(-0.5 * out.norm());
             x[v] += out.try_normalize(1e-9).unwrap_or_else(V3::zeros) * by + normal * longer;
         }

@@ -17,8 +17,8 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Factorises the `n` x `n` matrix whose lower triangle is the sum of `entries` (row, column, value); entries of the
-    /// upper triangle are ignored. `None` when the matrix is not positive definite.
+    /// Factorises the `n` x `n` matrix whose lower triangle is the sum of `entries` (row, column, value); entries of
+    /// the upper triangle are ignored. `None` when the matrix is not positive definite.
     #[must_use]
     pub fn new(n: usize, entries: &[(usize, usize, f64)]) -> Option<Self> {
         let lower = entries.iter().filter(|(i, j, _)| i >= j);

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use super::elastic::{Elastic, Pull};
+use super::elastic::{Controls, Elastic, Pull};
 use super::form::Form;
 use super::mapping::can_touch;
 use super::path::{PathGraph, Taken};
@@ -213,7 +213,8 @@ fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
     assert!(error.contains("cannot place role Skirt") && error.contains("over legs"), "{error}");
 }
 
-/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its sides.
+/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its
+/// sides.
 #[test]
 fn sides_need_not_meet() {
     for name in ["js_mean_all", "dress_pencil", "shirt_mean"] {
@@ -246,7 +247,7 @@ fn what_cannot_be_mapped_is_named_with_its_reason() {
     assert!(error.contains("cannot place role Other"), "{error}");
 }
 
-/// Numbers from 0 to `below`.
+/// Pseudo-random numbers below `below`.
 fn picks(count: usize, below: usize, seed: u64) -> Vec<usize> {
     noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
 }
@@ -273,8 +274,8 @@ fn the_fast_search_finds_the_path_of_the_full_one() {
 
 #[test]
 fn a_trouser_back_is_not_led_over_the_front_of_the_leg() {
-    // Figure 5-11: the shortest way between the two seams of a leg piece may run over the wrong side of the leg. On this
-    // body it always runs over the front, which is right for a front and wrong for a back.
+    // Figure 5-11: the shortest way between the two seams of a leg piece may run over the wrong side of the leg. On
+    // this body it always runs over the front, which is right for a front and wrong for a back.
     let form = Form::legs(&SLIM);
     let normals = form.mesh.triangle_normals();
     let graph = PathGraph::new(&form.mesh, 3);
@@ -321,7 +322,7 @@ fn a_tube_gets_its_length_and_girth_back() {
     };
     let own: Vec<usize> = (0..x.len()).collect();
     let mut elastic =
-        Elastic::new(&garment, &own, &x, (&[], 0.0), &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
+        Elastic::new(&garment, &own, &x, Controls::NONE, &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
     let none = vec![V3::zeros(); x.len()];
     let mut now = x.clone();
     let mut last = mean_edge_error(&garment, &now);
@@ -345,7 +346,7 @@ fn pieces_are_drawn_together_at_their_size_and_go_through_nothing() {
         let garment = garment(model, 1, 0.04);
         let cotton = &fabric::library()[0];
         let mut steps = 0;
-        let x = draw::together(&SLIM, &field, &garment, cotton, |_| {
+        let x = draw::together(Wearer { body: &SLIM, field: &field }, &garment, cotton, |_| {
             steps += 1;
             Ok(())
         });

@@ -1,4 +1,4 @@
-//! Flipped triangles turned back: vertices are moved within the surface into the kernel of the triangles round them.
+//! Untangling of flipped triangles: vertices are moved within the surface into the kernel of the triangles round them.
 
 use std::collections::BTreeSet;
 
@@ -6,24 +6,25 @@ use geom::V3;
 
 geom::constants! {
     "hybrid.untangle",
-    /// Rounds at most.
+    /// Greatest number of rounds.
     const ROUNDS: usize = 120;
-    /// Every so many rounds, neighbours move towards each other instead: a kernel may be empty.
+    /// Number of rounds after which one of Laplacian smoothing follows: a kernel may be empty.
     const SMOOTH_EVERY: usize = 4;
-    /// Corrections of a vertex in a round at most.
+    /// Greatest number of corrections of a vertex in a round.
     const CORRECTIONS: usize = 20;
-    /// Height of a triangle over its base that counts as not flipped.
+    /// Height of a triangle over its base from which on it counts as not flipped.
     const LEAST_HEIGHT: f64 = 0.1;
-    /// Share of what a vertex lacks that it is moved by: a little over, so that rounding leaves no rest of it.
+    /// Displacement of a vertex over its violation of a constraint: a little over 1, so that rounding leaves no
+    /// violation.
     const OVER: f64 = 1.01;
 }
 
 /// Turns flipped triangles of a sheet back; returns how many are left.
 ///
-/// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both maps of a mapping are bijective, but a
-/// piece is laid vertex by vertex. So a triangle may turn over where the surface bends or where the corner of an
-/// outline is wider on the body than in the pattern. Vertices move as little as they must [Motzkin & Schoenberg 1954];
-/// those of a seam move as one, so that no seam opens.
+/// `outwards` are normals of the surface on which the vertices `x` (m) lie. Both harmonic maps are bijective, but only
+/// the vertices of a piece are mapped. So a triangle may turn over where the surface bends, or where the corner of an
+/// outline is wider on the body than in the pattern. Vertices are relaxed towards the half-planes of their kernel
+/// [Motzkin & Schoenberg 1954]. Those of a seam move as one, so that no seam opens.
 pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usize {
     let mut around = vec![Vec::new(); x.len()];
     for (index, t) in triangles.iter().enumerate() {
@@ -45,6 +46,17 @@ pub fn untangle(triangles: &[[usize; 3]], outwards: &[V3], x: &mut [V3]) -> usiz
     sheet.flipped(x).count()
 }
 
+/// Half-plane beyond the far side of a triangle, in which its vertex must lie.
+struct Side {
+    /// A point of the side, m.
+    point: V3,
+    /// Unit vector into the triangle.
+    inwards: V3,
+    /// Least height of the vertex over the side, m.
+    least: f64,
+}
+
+/// The mesh with the normals of its surface.
 struct Sheet<'a> {
     triangles: &'a [[usize; 3]],
     outwards: &'a [V3],
@@ -70,24 +82,26 @@ impl Sheet<'_> {
         self.neighbours(v).map(|w| x[w]).sum::<V3>() / count
     }
 
-    /// The place nearest to a vertex from which it sees the far side of each of its triangles.
+    /// A place near a vertex in the kernel of its triangles, from which it sees the far side of each.
     fn in_kernel(&self, v: usize, x: &[V3]) -> V3 {
         let out = self.outwards[v].try_normalize(0.0).unwrap_or_else(V3::z);
-        let sides: Vec<(V3, V3, f64)> = self.around[v]
+        let sides: Vec<Side> = self.around[v]
             .iter()
             .filter_map(|&t| {
                 let t = self.triangles[t];
                 let k = t.iter().position(|&w| w == v)?;
                 let (a, b) = (x[t[(k + 1) % 3]], x[t[(k + 2) % 3]]);
                 let along = (b - a) - out * (b - a).dot(&out);
-                Some((a, out.cross(&along).try_normalize(0.0)?, LEAST_HEIGHT * along.norm()))
+                let inwards = out.cross(&along).try_normalize(0.0)?;
+                Some(Side { point: a, inwards, least: LEAST_HEIGHT * along.norm() })
             })
             .collect();
         let mut p = x[v];
         for _ in 0..CORRECTIONS {
-            let lacks = |(a, inwards, least): &(V3, V3, f64)| least - (p - a).dot(inwards);
+            let lacks = |side: &Side| side.least - (p - side.point).dot(&side.inwards);
             let worst = sides.iter().max_by(|l, r| lacks(l).total_cmp(&lacks(r)));
-            let Some((lack, inwards)) = worst.map(|side| (lacks(side), side.1)).filter(|(lack, _)| *lack > 0.0) else {
+            let Some((lack, inwards)) = worst.map(|side| (lacks(side), side.inwards)).filter(|(lack, _)| *lack > 0.0)
+            else {
                 break;
             };
             p += inwards * (OVER * lack);

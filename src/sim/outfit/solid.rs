@@ -1,8 +1,8 @@
-//! A body with cloth on it as one solid, over which more is worn.
+//! A body with cloth on it as one solid, on which the next layer is draped.
 
 use std::collections::BTreeMap;
 
-use super::Layer;
+use super::{Layer, Wearer};
 use crate::{SimError, sewing};
 use body::Body;
 use geom::winding::Winding;
@@ -13,22 +13,22 @@ geom::constants! {
     "outfit.solid",
     /// Distance beyond which only the side matters, m.
     const NEAR_M: f64 = 0.02;
-    /// Cells along the edge of a block of which one question may tell the side.
+    /// Cells along the edge of a block whose side one winding number may decide.
     const BLOCK: usize = 4;
-    /// How fast the side changes with the winding number, where an opening is bridged.
+    /// Slope of the side over the winding number, where an opening is bridged.
     const SHARPNESS: f64 = 4.0;
-    /// Distance from the middle of a block to its corners, over its edge: half its diagonal, and a little.
+    /// Distance from the middle of a block to its corners over its edge: half its diagonal, and a margin.
     const TO_CORNER: f64 = 0.9;
 }
 
-/// A body with layers on it, their vertices at `positions`, as a body of its own, and its field on the nodes of the body's and more. What is
-/// between cloth and skin is solid, and so much beyond the cloth as is given, m. A flap of cloth is seen where that is no less than the
-/// field's spacing.
+/// A body with layers on it, their vertices at `positions`, as a body of its own with its distance field. The field has
+/// the nodes of the body's own and more. All space between cloth and skin is solid, and so are `beyond_m` outside the
+/// cloth, m. A single layer of cloth is resolved where that is no less than the field's spacing.
 ///
 /// # Errors
 /// When the layers have no triangle, or the solid cannot be built.
 pub fn dressed(
-    (body, field): (&Body, &DistanceField),
+    Wearer { body, field }: Wearer,
     layers: &[Layer],
     positions: &[Vec<V3>],
     beyond_m: f64,
@@ -43,19 +43,20 @@ pub fn dressed(
     let changes: Vec<(usize, f64)> =
         outside.map(|(node, p, bare_m)| (node, bare_m.min(about.signed_m(p) - beyond_m))).collect();
     let mesh = field.with(changes.into_iter()).surface();
-    // Within, the nodes know the side and no distance: cloth that starts there has to find the way out.
+    // Inside, the nodes have the sign and no distance yet. Cloth that starts there needs a gradient to find the way
+    // out.
     let field = DistanceField::build(&mesh, field.spacing_m()).map_err(SimError::Solid)?;
     let is_on_trunk = |role: Role| !matches!(role, Role::SleeveRight | Role::SleeveLeft);
     let on_trunk = self::cloth(layers, positions, is_on_trunk)?;
     Ok((body.enclosed(mesh, &on_trunk), field))
 }
 
-/// The cloth, asked how far it is and on which side.
+/// Signed distance from the cloth.
 struct About {
     surface: Surface,
     winding: Winding,
     block_m: f64,
-    /// The blocks of nodes that were asked for, each with its side where it is far from the cloth.
+    /// Blocks of nodes asked for so far, each with its side where it is far from the cloth.
     blocks: BTreeMap<[i64; 3], Option<f64>>,
 }
 
@@ -65,12 +66,12 @@ impl About {
         Ok(Self { surface, winding: Winding::new(cloth), block_m: spacing_m * BLOCK as f64, blocks: BTreeMap::new() })
     }
 
-    /// The side of a place: 1 before the cloth, -1 behind it, in between where neither is.
+    /// Side of a point by its winding number: 1 before the cloth, -1 behind it, in between near an opening.
     fn side(&self, p: V3) -> f64 {
         (SHARPNESS * (0.5 - self.winding.number(p))).clamp(-1.0, 1.0)
     }
 
-    /// Distance from the cloth, as far as it is near, m, negative behind it.
+    /// Distance from the cloth, m, negative behind it; up to [`NEAR_M`].
     fn signed_m(&mut self, p: V3) -> f64 {
         let block = [0, 1, 2].map(|k| (p[k] / self.block_m).floor() as i64);
         let side_of_block = match self.blocks.get(&block) {
@@ -90,7 +91,7 @@ impl About {
     }
 }
 
-/// The pieces of all layers whose roles are wanted, sewn, as one mesh.
+/// All pieces of the layers with a wanted role, sewn, as one mesh.
 fn cloth(layers: &[Layer], positions: &[Vec<V3>], is_wanted: impl Fn(Role) -> bool) -> Result<TriMesh, SimError> {
     let mut all = TriMesh::default();
     for (layer, positions) in layers.iter().zip(positions) {

@@ -3,8 +3,10 @@ use crate::cloth::Cloth;
 use crate::fem::Params;
 use crate::laboratory::{garment, sheets::shaken, sheets::sheet};
 use crate::testing::{check_forces, fabric};
-use crate::{Silent, fabric, quality, sewing};
+use crate::{Fabric, Silent, fabric, quality, sewing};
+use body::Body;
 use body::{Dimension, Measurements, Sex};
+use geom::DistanceField;
 use pattern::draft::Model;
 use pattern::{SeamMesh, Style};
 
@@ -98,13 +100,14 @@ fn a_shirt_over_another_lies_outside_it_and_both_come_to_rest() {
     let (inner, outer) = ([mesh(1)], [mesh(2)]);
     let layers = [&inner, &outer].map(|garments| Layer { garments, fabric: &cotton });
     let params = Params::default();
-    let drapes = dress((&body, &field), &layers, &params, &mut Silent).expect("worn");
+    let wearer = Wearer { body: &body, field: &field };
+    let drapes = dress(wearer, &layers, &params, &mut Silent).expect("worn");
     assert!(drapes.iter().all(|drape| drape.converged && drape.self_crossings == 0));
-    let alone = params.alone((&body, &field), layers[1], 0.0, &mut Silent).expect("worn");
+    let alone = params.alone(wearer, layers[1], 0.0, &mut Silent).expect("worn");
     let top_m = |drape: &Drape| quality::top_m(&outer[0], &drape.positions);
     assert!(top_m(&drapes[1]) - top_m(&alone) > 1e-3, "{} m, alone {} m", top_m(&drapes[1]), top_m(&alone));
-    // The body with the inner one on is wider at the chest, by no more than the inner one and what stands off at the armholes.
-    let (dressed, _) = dressed((&body, &field), &layers[..1], &[drapes[0].positions.clone()], 0.0).expect("a solid");
+    // The body with the inner shirt on is wider at the chest, by no more than the shirt and its folds at the armholes.
+    let (dressed, _) = dressed(wearer, &layers[..1], &[drapes[0].positions.clone()], 0.0).expect("a solid");
     let girth_m = |body: &Body| body.girths.get(Dimension::ChestGirth).expect("a trunk");
     let pattern_m = inner[0].fit_levels.iter().find(|level| level.level == "chest").expect("a chest").girth_m;
     let (over_m, bare_m) = (girth_m(&dressed), girth_m(&body));

@@ -1,35 +1,34 @@
-//! Layers that are drawn within what is to be worn over them.
+//! Layers that are drawn within the garment that is to be worn over them.
 
-use super::{Layer, joined};
+use super::{Joined, Layer, joined};
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, contact_areas};
 use crate::cover::Cover;
 use crate::solver::{StepParams, Stepper, System};
 use crate::{Monitor, SimError};
-use body::Body;
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
 geom::constants! {
     "outfit.tuck",
-    /// Most steps in which a layer is drawn in.
+    /// Greatest number of steps in which layers are drawn in.
     const STEPS: u32 = 120;
-    /// Residual at which it lies within.
+    /// Residual at which they count as within.
     const LIES: f64 = 1.0;
 }
 
-/// Where the vertices of layers come to lie within a cover, from `positions`, m, each layer by itself in the end; as they are where
-/// nothing of them is beyond it.
+/// Draws layers from `positions`, m, within a cover; returns the positions of each layer. Layers of which nothing lies
+/// beyond the cover stay as they are.
 ///
 /// # Errors
 /// When a mesh is degenerate, or the monitor cancels.
 pub fn tucked(
-    (_, field): (&Body, &DistanceField),
+    field: &DistanceField,
     layers: &[Layer],
     positions: &[&[V3]],
     cover: Cover,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Vec<V3>>, SimError> {
-    let (garments, garment, cloth) = joined(layers)?;
+    let Joined { garments, all: garment, cloth } = joined(layers)?;
     let cover = cover.over(&garment, &cloth.vertex_of);
     let mut x = cloth.weld(&positions.concat());
     let between = ClothContactParams::default();
@@ -51,7 +50,7 @@ pub fn tucked(
     Ok(parted(&garments, &cloth.unweld(&x)))
 }
 
-/// What belongs to each of some garments of what belongs to all.
+/// Splits values at the vertices of several garments beside each other into those of each.
 pub fn parted<T: Copy>(garments: &[&Garment], all: &[T]) -> Vec<Vec<T>> {
     let mut rest = all;
     let own = |garment: &&Garment| {

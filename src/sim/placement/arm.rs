@@ -1,8 +1,9 @@
-//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about the arm.
+//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about
+//! the arm.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::form::{Axis, Form, Hand, arm_bones};
+use super::body_parts::{Axis, Cylindrical, Form, Hand, arm_bones};
 use super::layout::{Joins, Part, Sheet};
 use super::limb::{Limb, Station};
 use super::trunk::{BACKS, FRONTS};
@@ -11,37 +12,37 @@ use pattern::Role;
 
 geom::constants! {
     "placement.arm",
-    /// Least clearance of a sleeve from the arm before sewing, m.
+    /// Least distance of a sleeve from the arm before sewing, m.
     const SLEEVE_CLEARANCE_M: f64 = 0.012;
-    /// Most of a full turn that a sleeve is bent over: its underarm seam starts open.
+    /// Share of a full turn over which a sleeve is bent at most: its underarm seam starts open.
     const SLEEVE_TURN: f64 = 0.95;
-    /// A sleeve piece with less than this share of its cap on one side of the trunk belongs to the other side.
+    /// Share of its cap on one side of the trunk below which a sleeve piece belongs to the other side.
     const HALF_SLEEVE: f64 = 0.2;
-    /// One in so many vertices of a sleeve counts as its far end.
+    /// Number of a sleeve's vertices for each one that counts as its far end.
     const FAR_SHARE: usize = 10;
-    /// Farthest skin of an arm from its axis, m: what is farther away is the trunk's.
+    /// Greatest distance of an arm's skin from its axis, m: skin farther away is the trunk's.
     const ARM_RADIUS_M: f64 = 0.1;
-    /// A joint less than this below the one before is not followed, m.
+    /// Least descent from one joint to the next along the axis for the sleeve to follow it, m.
     const BENT_BACK_M: f64 = 0.05;
-    /// Where along the arm its girth is read, from the shoulder joint, m: well below the armpit.
+    /// Stretch of the arm in which its girth is measured, from the shoulder joint, m: well below the armpit.
     const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
-    /// How far on either side of the wrist its girth is read, m.
+    /// Half length of the wrist in which its girth is measured, m.
     const WRIST_M: f64 = 0.02;
 }
 
-/// Sleeve pieces of one arm, placed: where the points of each go.
+/// Sleeve pieces of one arm, placed.
 pub struct Sleeve {
-    /// The arm that the sleeve goes round.
+    /// The arm that it goes round.
     pub limb: Limb,
-    /// Pieces with the angle of their middle.
+    /// Pieces with the angles of their middles, rad.
     pub parts: Vec<(Sheet, f64)>,
     /// Height along the axis of the sheet's 0, m.
     top: f64,
 }
 
 impl Sleeve {
-    /// The pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Others are left to
-    /// follow what they are sewn to.
+    /// The pieces of one arm that are sewn to the trunk: a whole sleeve, or its front and back half. Other sleeve
+    /// pieces are placed later by the pieces that they are sewn to.
     pub fn new(form: &Form, joins: &Joins, hand: Hand) -> Self {
         let role = if hand > 0.0 { Role::SleeveRight } else { Role::SleeveLeft };
         let trunk = [joins.worn_as(&FRONTS), joins.worn_as(&BACKS)];
@@ -85,7 +86,7 @@ impl Sleeve {
         Self { limb, parts, top }
     }
 
-    /// Where a point of a part's sheet goes.
+    /// Place of a point of a part's sheet, whose middle lies at an angle.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
         let height = self.top + p.y;
         let radius = self.limb.station(height).radius;
@@ -93,14 +94,14 @@ impl Sleeve {
     }
 }
 
-/// An arm from the elbow over the wrist to the end of the hand, straight on where it is bent back. Beside it how wide a
-/// sleeve begins there that is `width` wide at a height and has some radius at the elbow.
+/// An arm from the elbow over the wrist to the tip of the hand, continued straight where it is bent back. Its stations
+/// have the initial radii of a sleeve that is `width` wide at a height and has the radius `radius` at the elbow.
 fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
-    let elbow = Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius };
+    let elbow = Station { height: axis.coordinates(&elbow).height, beside: V3::zeros(), radius };
     let mut below: Vec<Station> = Vec::new();
     for joint in [Some(wrist), form.tip(hand)].into_iter().flatten() {
-        let height = axis.coordinates(&joint).2;
+        let Cylindrical { height, .. } = axis.coordinates(&joint);
         let above = below.last().copied().unwrap_or(elbow);
         if height < above.height - BENT_BACK_M {
             let beside = joint - axis.point(0.0, 0.0, height);
@@ -112,7 +113,7 @@ fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: 
     Limb::bent(axis, elbow, below)
 }
 
-/// Middle of what lies farthest from the cap of a sleeve.
+/// Mean of the vertices that lie farthest from the cap of a sleeve.
 fn far_end(joins: &Joins, piece: usize, cap: V2) -> V2 {
     let mut vertices: Vec<usize> = joins.garment.pieces[piece].vertices.clone().collect();
     vertices.sort_by(|&a, &b| {
@@ -123,7 +124,7 @@ fn far_end(joins: &Joins, piece: usize, cap: V2) -> V2 {
     joins.mean_rest(vertices.into_iter().take(count)).unwrap_or(cap)
 }
 
-/// Brings the second half of a sleeve to the height at which its seams meet those of the first.
+/// Shifts the second half of a sleeve to the height at which its seams meet those of the first.
 fn level(joins: &Joins, parts: &mut [(Sheet, f64)]) {
     let [(one, _), (other, _)] = parts else { return };
     let (a, b) = (one.parts[0], other.parts[0]);
@@ -133,10 +134,10 @@ fn level(joins: &Joins, parts: &mut [(Sheet, f64)]) {
     other.shift(V2::new(0.0, rise / pairs.len().max(1) as f64));
 }
 
-/// Greatest distance of the skin from an arm's axis where it is some range below the origin, m.
+/// Greatest distance of the skin from an arm's axis within a range of depths below its origin, m.
 fn arm_radius(form: &Form, axis: &Axis, below: std::ops::Range<f64>) -> f64 {
     let near = form.arms.iter().filter_map(|p| {
-        let (_, radius, height) = axis.coordinates(p);
+        let Cylindrical { radius, height, .. } = axis.coordinates(p);
         (below.contains(&-height) && radius < ARM_RADIUS_M).then_some(radius)
     });
     near.fold(0.0, f64::max)

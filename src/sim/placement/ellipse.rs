@@ -6,15 +6,15 @@ use geom::V2;
 
 geom::constants! {
     "placement.ellipse",
-    /// Steps in which half the ellipse is measured.
+    /// Number of chords by which half the ellipse is measured.
     const STEPS: usize = 128;
-    /// Deepest ellipse that is tried, m.
+    /// Greatest depth of an ellipse, m.
     const DEEPEST_M: f64 = 3.0;
-    /// Depth that counts as found, m.
+    /// Tolerance of the bisection for the depth, m.
     const FOUND_M: f64 = 1e-4;
 }
 
-/// An ellipse with half axes across and ahead, walked from its apex ahead to both sides.
+/// An ellipse with half axes across and ahead, parametrised by the signed arc length from its apex ahead.
 pub struct Ellipse {
     half: V2,
     /// Arc lengths from the apex at even angles from 0 to half a turn.

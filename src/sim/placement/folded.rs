@@ -1,21 +1,22 @@
 //! Pieces that are folded onto the garment along their seam: lapels, collars that are turned down.
 //!
-//! Both sides of such a seam run the same way round. Sewn together with all else the piece would slip under a shoulder that is still
-//! open. So the garment is sewn without it, and it begins turned up: as the sewn cloth would go on beyond the seam. Begun as it
-//! is folded, flat on cloth into whose seam it runs, it ends within that cloth.
+//! Both sides of such a seam run the same way round. Sewn together with all other pieces it would slip under a shoulder
+//! seam that is still open. The garment is therefore sewn without it. The piece then begins turned up, as a
+//! continuation of the sewn cloth beyond the seam. If it began folded, flat on the cloth, it would end within that
+//! cloth.
 
 use std::collections::BTreeSet;
 
 use nalgebra::Point2;
 
-use super::follow::Similarity;
+use super::attachment::Similarity;
 use super::layout::Joins;
 use geom::{V2, V3, triangle};
 use pattern::{Garment, Role};
 
 geom::constants! {
     "placement.folded",
-    /// How far outside the cloth that it continues a piece begins, m.
+    /// Distance at which a piece begins outside the cloth that it continues, m.
     const ABOVE_M: f64 = 0.01;
 }
 
@@ -26,7 +27,7 @@ pub struct Folded {
 }
 
 impl Folded {
-    /// Of a garment; `None` where nothing is folded onto it.
+    /// The folded pieces of a garment; `None` where there are none.
     #[must_use]
     pub fn of(garment: &Garment) -> Option<Self> {
         let joins = Joins::of(garment);
@@ -66,7 +67,8 @@ fn over(p: V2) -> V2 {
     V2::new(-p.x, p.y)
 }
 
-/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes on.
+/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes
+/// on.
 fn above(rest: &[V2], triangles: &[[usize; 3]], p: V2, x: &[V3]) -> Option<V3> {
     let flat = |p: V2| V3::new(p.x, p.y, 0.0);
     let distance = |corners: &[usize; 3]| {
@@ -91,7 +93,7 @@ impl Turned {
         Self(garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect())
     }
 
-    /// Whether both sides of the seams between two pieces run the same way round.
+    /// True if both sides of the seams between two pieces run the same way round.
     fn is_folded(&self, pairs: &[[usize; 2]]) -> bool {
         let side = |ends: &[[usize; 2]], k: usize| {
             let [from, to] = [ends[0][k], ends[1][k]];

@@ -9,7 +9,7 @@ geom::constants! {
     "placement.layout",
     /// Space between parts of a sheet that no seam joins, m.
     const BESIDE_M: f64 = 0.01;
-    /// Cosine of the angle, 30 degrees, within which a direction of the grain counts as up.
+    /// Cosine of the angle, 30 degrees, up to which a direction of the grain counts as up.
     const NEAR_COSINE: f64 = 0.866;
 }
 
@@ -152,10 +152,10 @@ impl Sheet {
 
     /// Vertices of the sheet with their places in it.
     pub fn points<'s>(&'s self, garment: &'s Garment) -> impl Iterator<Item = (usize, V2)> + 's {
-        let of = move |part: &'s Part| {
+        let places_of = move |part: &'s Part| {
             garment.pieces[part.piece].vertices.clone().map(move |v| (v, part.at(garment.rest[v])))
         };
-        self.parts.iter().flat_map(of)
+        self.parts.iter().flat_map(places_of)
     }
 
     /// Least and greatest coordinates.
@@ -195,7 +195,7 @@ impl Sheet {
         let mut all = Self::default();
         for (k, mut sheet) in sheets.into_iter().enumerate() {
             let (low, high) = bounds[k];
-            // Of what lies to the left and to the right, each summed from here outwards.
+            // Widths to the left and to the right, each summed from here outwards.
             let [left, right]: [f64; 2] =
                 [bounds[..k].iter().rev().map(taken).sum(), bounds[k + 1..].iter().map(taken).sum()];
             sheet.shift(V2::new(0.5 * (left - right) - 0.5 * (low.x + high.x), -high.y));

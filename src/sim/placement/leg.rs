@@ -1,13 +1,14 @@
 //! Trouser legs: front and back of a leg about the leg, row by row, their upper part about that half of the body.
 //!
-//! Rows below the fork (the lower end of the centre seam) go round the leg: from its outside over the front (or back) to
-//! its inside. Rows well above it go round half the body: from its side to the median plane. Between them rows pass from
-//! one to the other. A row takes its whole half ring, so that all seams start nearly closed. Where a leg would reach below the
-//! instep, its front is drawn up there, as one does who puts trousers on: else toes end up on the wrong side of the cloth.
+//! Rows below the fork (the lower end of the centre seam) go round the leg: from its outside over the front (or back)
+//! to its inside. Rows well above it go round half the body: from its side to the median plane. The rows between are
+//! blended from one to the other. A row takes its whole half ring, so that all seams start nearly closed. Where a leg
+//! would reach below the instep, its front is drawn up there, as when one puts trousers on. Otherwise the toes would
+//! start outside the cloth.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::form::{Form, Hand};
+use super::body_parts::{Form, Hand};
 use super::layout::{Joins, Sheet};
 use super::trunk::CLEARANCE_M;
 use geom::{V2, V3, smooth_step};
@@ -15,24 +16,24 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "placement.leg",
-    /// How far below the body's crotch the garment's starts, m.
+    /// Distance of the garment's fork below the body's crotch before sewing, m.
     const BELOW_CROTCH_M: f64 = 0.02;
-    /// Distance from the median plane of what lies between the legs, m.
+    /// Least distance of the cloth from the median plane, m.
     const BESIDE_MEDIAN_M: f64 = 4e-3;
-    /// Height over which rows pass from the leg to the body, m.
+    /// Height over which rows are blended from the leg to the body, m.
     const PASSAGE_M: f64 = 0.12;
-    /// Height of the ankles: what hangs lower at the sides and behind is placed as if the foot were not there, m.
+    /// Height of the ankles, m: cloth that hangs lower at the sides and behind is placed as if there were no foot.
     const ANKLE_M: f64 = 0.09;
-    /// Height of the instep, m: the front of a leg that began lower would have the foot through it.
+    /// Height of the instep, m: the foot would pierce the front of a leg that began lower.
     const INSTEP_M: f64 = 0.11;
-    /// Sine of the angle from the side of a leg from which on all of it lies above the foot.
+    /// Sine of the angle from the side of a leg beyond which its front lies above the foot.
     const FRONT: f64 = 0.7;
-    /// Where the fork is sought in a leg without a centre seam: share of its height.
+    /// Height of the fork in a leg without a centre seam, as a share of the leg's height.
     const USUAL_FORK: f64 = 0.75;
-    /// A row counts as full with this share of the width of the row [`INNER_M`] further in.
+    /// Share of the width of the row [`INNER_M`] further in from which on a row counts as full.
     const FULL: f64 = 0.9;
     const INNER_M: f64 = 0.04;
-    /// Distance of the rows that are tried, m.
+    /// Spacing of the rows that are tried, m.
     const ROW_M: f64 = 5e-3;
 }
 
@@ -45,7 +46,7 @@ pub fn roles(hand: Hand) -> [Role; 3] {
     }
 }
 
-/// What of a leg a sheet is: its front, its back, or both in one piece, in the order of [`roles`].
+/// Side of the sheets of a leg, in the order of [`roles`]: 1 in front, -1 behind, `None` for both in one piece.
 pub const FACES: [Option<f64>; 3] = [Some(1.0), Some(-1.0), None];
 
 /// Front and back of a leg.
@@ -65,12 +66,12 @@ struct LegFace {
     fork: f64,
     /// Height in the sheet of its lowest point.
     hem: f64,
-    /// Heights between which rows go from side to side: beyond them slope the hem and the waist edge.
+    /// Heights between which rows go from side to side; beyond them hem and waist edge slope.
     full: [f64; 2],
 }
 
 impl LegFace {
-    /// Ends of the row at a height; beyond the full rows those of the nearest.
+    /// Ends of the row at a height; beyond the full rows those of the nearest full row.
     fn row(&self, garment: &Garment, height: f64) -> Option<(f64, f64)> {
         self.sheet.row(garment, height.clamp(self.full[0], self.full[1]))
     }
@@ -94,7 +95,7 @@ struct Ring {
 }
 
 impl<'a> Leg<'a> {
-    /// Sheets of one leg with their sides, as in [`FACES`]; `others` are the pieces of the other leg.
+    /// A leg of sheets with their sides, as in [`FACES`]; `others` are the pieces of the other leg.
     pub fn new(
         form: &'a Form,
         joins: &'a Joins,
@@ -114,11 +115,11 @@ impl<'a> Leg<'a> {
         Self { form, joins, hand, faces: sheets.into_iter().map(face).collect() }
     }
 
-    /// All sheets, and where each of their vertices goes.
+    /// All sheets, with the places of their vertices.
     pub fn places(&self) -> impl Iterator<Item = (&Sheet, Vec<(usize, V3)>)> {
         self.faces.iter().map(|face| {
-            let of = |(v, p): (usize, V2)| (v, self.at(face, p));
-            (&face.sheet, face.sheet.points(self.joins.garment).map(of).collect())
+            let placed = |(v, p): (usize, V2)| (v, self.at(face, p));
+            (&face.sheet, face.sheet.points(self.joins.garment).map(placed).collect())
         })
     }
 
@@ -139,7 +140,8 @@ impl<'a> Leg<'a> {
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
     }
 
-    /// Whether a point of a sheet lies in front (1) or behind (-1), and its share of the way from the outside of the leg to its inside.
+    /// Side of a point of a sheet, 1 in front or -1 behind, and its share of the way from the outside of the leg to its
+    /// inside.
     fn side_and_inwards(&self, face: &LegFace, p: V2) -> (f64, f64) {
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
         let share = |from: f64| if high > low { (from / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
@@ -154,8 +156,8 @@ impl<'a> Leg<'a> {
         }
     }
 
-    /// Where a point begins that would lie at `height` if its leg hung straight, `sin` the sine of its angle from the
-    /// side. The front of a leg that is too long is drawn up over the instep, all from half way down.
+    /// Initial height of a point that would lie at `height` if its leg hung straight; `sin` is the sine of its angle
+    /// from the side. The front of a leg that is too long is drawn up over the instep; its lower half shrinks evenly.
     fn above_instep(&self, face: &LegFace, side: f64, height: f64, sin: f64) -> f64 {
         let instep = INSTEP_M.min(self.crotch_m());
         let hem = self.crotch_m() + face.hem - face.fork;
@@ -177,13 +179,13 @@ impl<'a> Leg<'a> {
         face.row(self.joins.garment, face.fork + above).map(|(low, high)| high - low)
     }
 
-    /// About the leg; above the crotch and below the ankle as there.
+    /// The ring about the leg; above the crotch and below the ankle that of crotch and ankle.
     fn leg_ring(&self, height: f64) -> Ring {
         let crotch = self.crotch_m();
         self.ring(height.clamp(ANKLE_M.min(crotch), crotch), |p| p.x * self.hand > 0.0)
     }
 
-    /// About the body; below the crotch as there.
+    /// The ring about the body; below the crotch that of the crotch.
     fn body_ring(&self, height: f64) -> Ring {
         let ring = self.ring(height.max(self.form.body.levels.crotch_m + BELOW_CROTCH_M), |_| true);
         Ring { centre: V2::new(0.0, ring.centre.y), ..ring }

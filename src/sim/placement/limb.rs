@@ -1,16 +1,16 @@
-//! What a piece is worn about: a straight axis, and for an arm where it goes beside that from the elbow on.
+//! The limb that a piece is worn about: a straight axis, and the offset of the arm from it beyond the elbow.
 
-use super::form::Axis;
+use super::body_parts::{Axis, Cylindrical};
 use geom::V3;
 
-/// A place below the elbow that a sleeve goes about.
+/// A cross section of an arm at or below the elbow, with the sleeve about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Along the axis of the upper arm, m.
     pub height: f64,
-    /// From that axis to the arm's middle, across it, m.
+    /// Offset of the arm's middle from that axis, m.
     pub beside: V3,
-    /// Of the sleeve, m; 0 where there is none.
+    /// Radius of the sleeve, m; 0 where there is none.
     pub radius: f64,
 }
 
@@ -18,22 +18,22 @@ pub struct Station {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limb {
     pub axis: Axis,
-    /// From the elbow of an arm down, one on the axis of a straight limb; never empty.
+    /// Cross sections from the elbow of an arm down; a single one on the axis of a straight limb. Never empty.
     course: Vec<Station>,
 }
 
 impl Limb {
-    /// One that goes along its axis.
+    /// A limb along its axis.
     pub fn straight(axis: Axis) -> Self {
         Self::bent(axis, Station { height: 0.0, beside: V3::zeros(), radius: 0.0 }, Vec::new())
     }
 
-    /// An arm that goes on from the elbow over some stations, downwards.
+    /// An arm that continues from the elbow through some stations, downwards.
     pub fn bent(axis: Axis, elbow: Station, below: Vec<Station>) -> Self {
         Self { axis, course: [vec![elbow], below].concat() }
     }
 
-    /// The place at a height, beyond the ends as there.
+    /// The cross section at a height, by linear interpolation; constant beyond the ends.
     pub fn station(&self, height: f64) -> Station {
         let within = self.course.windows(2).find(|ends| height > ends[1].height);
         let last = self.course[self.course.len() - 1];
@@ -48,9 +48,9 @@ impl Limb {
         self.axis.point(angle, radius, height) + self.station(height).beside
     }
 
-    /// Angle (rad, within half a turn), distance from the limb's middle and height of a point.
-    pub fn coordinates(&self, p: &V3) -> (f64, f64, f64) {
-        let (_, _, height) = self.axis.coordinates(p);
+    /// Coordinates of a point about the limb's middle.
+    pub fn coordinates(&self, p: &V3) -> Cylindrical {
+        let Cylindrical { height, .. } = self.axis.coordinates(p);
         self.axis.coordinates(&(p - self.station(height).beside))
     }
 }
@@ -85,8 +85,9 @@ mod tests {
         let straight = Limb::straight(arm().axis);
         for limb in [arm(), straight] {
             for height in [0.1, -0.4, -0.7] {
-                let (angle, radius, found) = limb.coordinates(&limb.point(0.7, 0.05, height));
-                assert!((angle - 0.7).abs() < 1e-12 && (radius - 0.05).abs() < 1e-12 && (found - height).abs() < 1e-12);
+                let found = limb.coordinates(&limb.point(0.7, 0.05, height));
+                let off = [found.angle - 0.7, found.radius - 0.05, found.height - height];
+                assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?}");
             }
         }
     }

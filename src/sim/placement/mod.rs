@@ -1,18 +1,19 @@
-//! Automatic placement, the preposition of 4.2: every piece before, behind or about the limb it is worn on.
+//! Automatic placement, the preposition of 4.2: every piece before, behind or about the limb that it is worn on.
 //!
-//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`sheet`), then bent as one. Sleeves
-//! go about the arms. Circle skirts, their tiers, gores and what is sewn to itself go round the trunk (`tiers`, `ring`,
-//! `round`). A piece of no such role follows what it is sewn to (`follow`).
+//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn (`layout`), then bent as one. Sleeves
+//! go about the arms. Circle skirts, their tiers, gores and pieces that are sewn to themselves go round the trunk
+//! (`tiers`, `piece_ring`, `round`). Any other piece is placed by the pieces that it is sewn to (`attachment`).
 
 mod arm;
+mod attachment;
+mod body_parts;
 mod ellipse;
 mod folded;
-mod follow;
-mod form;
+mod interval;
 mod layout;
 mod leg;
 mod limb;
-mod ring;
+mod piece_ring;
 mod round;
 mod rows;
 mod tiers;
@@ -24,12 +25,12 @@ pub(crate) fn constants() -> Vec<Constant> {
         arm::CONSTANTS,
         ellipse::CONSTANTS,
         folded::CONSTANTS,
-        follow::CONSTANTS,
-        form::CONSTANTS,
+        attachment::CONSTANTS,
+        body_parts::CONSTANTS,
         layout::CONSTANTS,
         leg::CONSTANTS,
         CONSTANTS,
-        ring::CONSTANTS,
+        piece_ring::CONSTANTS,
         round::CONSTANTS,
         rows::CONSTANTS,
         tiers::CONSTANTS,
@@ -49,26 +50,26 @@ use pattern::{Garment, Role};
 
 pub use self::folded::Folded;
 use arm::Sleeve;
-use follow::Follower;
-use form::Form;
+use attachment::Follower;
+use body_parts::Form;
 use layout::{Joins, Part, Sheet};
 use leg::Leg;
 use limb::Limb;
 use tiers::Round;
 use trunk::Bent;
 
-/// How pieces of the trunk are bent.
+/// Bend of the trunk's pieces before sewing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Bend {
     /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
-    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
+    /// `None`: the least offset that clears the body all along the piece and brings its sides to the body's sides.
     pub offset_mu: Option<f64>,
-    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
+    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: half an ellipse as wide as the body.
     pub bend_angle_rad: Option<f64>,
 }
 
 impl Bend {
-    /// The thesis's arc for the slim; `None` where an offset or an angle was asked for.
+    /// Another bend, the thesis's arc for slim bodies; `None` where the study asks for an offset or an angle.
     #[must_use]
     pub fn otherwise(&self) -> Option<Self> {
         let follows_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
@@ -98,9 +99,10 @@ pub fn place(body: &Body, garment: &Garment, bend: &Bend) -> Result<Vec<V3>, Sim
 
 geom::constants! {
     "placement",
-    /// Share of its seams to what has a place that another piece sewn to it has, where the two are halves of one thing.
+    /// Share of a piece's seams to placed pieces that a second piece sewn to it must have, where the two are halves of
+    /// one part.
     const TWIN: f64 = 0.75;
-    /// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
+    /// Angle of the other bend, rad: that of [T] for slim bodies.
     const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 }
 
@@ -129,7 +131,7 @@ impl Placing<'_> {
         }
     }
 
-    /// Pieces that have a place.
+    /// Pieces that are placed.
     fn placed(&self) -> Vec<usize> {
         (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect()
     }
@@ -177,7 +179,8 @@ impl Placing<'_> {
         }
     }
 
-    /// Places what is left by what it is sewn to, the longest seams first; halves that flare go together.
+    /// Places each piece that is left by the placed pieces that it is sewn to, the longest seams first; halves that
+    /// flare go together.
     fn followers(&mut self) -> Result<(), SimError> {
         let halves = self.flared_halves();
         while let Some(open) = self.limb.iter().position(Option::is_none) {
@@ -190,7 +193,7 @@ impl Placing<'_> {
             }
             let places = |follower| {
                 let room_rad = Follower::room_rad(follower, &next, &self.positions);
-                follow::place(&self.form, &self.joins, follower, room_rad, &self.positions)
+                attachment::place(&self.form, &self.joins, follower, room_rad, &self.positions)
             };
             let places: Vec<Vec<V3>> = next.iter().map(places).collect();
             for (Follower { piece, limb, .. }, places) in next.iter().zip(places) {
@@ -201,9 +204,9 @@ impl Placing<'_> {
         Ok(())
     }
 
-    /// The piece without a place that is sewn most to those with one. About the trunk also what is sewn to it and as
-    /// much to those, as the other half of a hood is. One placed by the other would not lie beside it but follow it, as
-    /// halves of a cuff are to.
+    /// The piece not yet placed that has the longest seams to placed ones. About the trunk also a second piece that is
+    /// sewn to it and has about as long seams to them, as the other half of a hood. Placed by the first it would lie
+    /// beyond it, not beside it. The halves of a cuff are to lie so.
     fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());
@@ -222,11 +225,11 @@ impl Placing<'_> {
         next
     }
 
-    /// The limb about which a piece goes: that of those it is sewn to.
+    /// The limb about which a piece goes: that of the pieces that it is sewn to.
     fn limb_of_partners(&self, piece: usize) -> Limb {
         let partners = self.placed().into_iter().filter(|&p| !self.joins.between(piece, p).is_empty());
         let mut limbs = partners.filter_map(|p| self.limb[p].as_ref());
-        // What joins several limbs goes about the trunk, and so does half a waistband on one leg.
+        // A piece that joins several limbs goes about the trunk, and so does half a waistband on one leg.
         let is_waist = self.joins.garment.pieces[piece].role == Role::Waistband;
         let first = limbs.next().filter(|_| !is_waist);
         let only = first.filter(|first| limbs.all(|limb| limb == *first));
@@ -245,7 +248,7 @@ impl Placing<'_> {
 fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
     let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| {
         let pieces = joins.worn_as(roles).into_iter();
-        pieces.filter(|&piece| !without.contains(&piece) && !follow::is_in_a_slit(joins, piece)).collect::<Vec<_>>()
+        pieces.filter(|&piece| !without.contains(&piece) && !attachment::is_in_a_slit(joins, piece)).collect::<Vec<_>>()
     });
     let lay = |own: &[usize], other: &[usize]| {
         // A band between two pieces of this side lies with them.
@@ -259,7 +262,7 @@ fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
         Sheet::lay(joins, pieces.map(|p| Part::new(p, joins.up(p, V2::y()))).collect())
     };
     let [fronts, backs] = [lay(&in_front, &behind), lay(&behind, &in_front)];
-    // Where one side is in several parts, as open fronts are, its parts lie as their seams to the other side say.
+    // The parts of a side that is not in one, as open fronts, are ordered by their seams to the other side.
     let garment = joins.garment;
     if fronts.len() >= backs.len() {
         let back = Sheet::beside(backs, garment);
@@ -284,7 +287,7 @@ fn ordered(joins: &Joins, sheets: Vec<Sheet>, other: &Sheet) -> Vec<Sheet> {
         places.iter().sum::<f64>() / places.len().max(1) as f64
     };
     let mut placed: Vec<(f64, Sheet)> = sheets.into_iter().map(|sheet| (place(&sheet), sheet)).collect();
-    // What is right on one side is left on the other.
+    // Seen from outside, the right of one side is the left of the other.
     placed.sort_by(|a, b| b.0.total_cmp(&a.0));
     placed.into_iter().map(|(_, sheet)| sheet).collect()
 }

@@ -1,39 +1,43 @@
 //! Rings of pieces rolled about the trunk or another limb.
 //!
-//! A sector is rolled to the cone on which it closes, a strip to a cylinder. What is wider than fits between the arms
-//! is rolled to a steeper cone. What is gathered into an edge goes in waves about a cone that begins at that edge.
+//! A sector is rolled to the cone on which it closes, a strip to a cylinder. A ring that is too wide to fit between the
+//! arms is rolled to a steeper cone. A ring that is gathered into an edge goes in waves about a cone that begins at
+//! that edge.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::follow::body_radius as body_radius_about;
-use super::form::{Axis, Form};
+use super::attachment::body_radius as body_radius_about;
+use super::body_parts::{Axis, Cylindrical, Form};
+use super::interval::bounds;
 use super::limb::Limb;
-use super::ring::{Flat, bounds};
+use super::piece_ring::{Flat, Polar};
 use super::rows::InRow;
 use geom::{V2, V3};
 
 geom::constants! {
     "placement.round",
-    /// Share of a turn that a ring takes: its last seam starts open.
+    /// Share of a turn that a ring takes: one seam starts open.
     pub const ROUND: f64 = 0.95;
     /// Least distance from the skin, m.
     const CLEARANCE_M: f64 = 0.02;
-    /// Half height of the band of the body that a point keeps clear of, m.
+    /// Half height of the band of the body that a point must clear, m.
     const BAND_M: f64 = 0.02;
-    /// Least angle that a sector is taken to span, rad.
+    /// Least angle of a sector, rad.
     const LEAST_SPAN_RAD: f64 = 0.1;
-    /// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
+    /// Greatest and least sine of the half angle of a cone, where a wide skirt would take more, and the steps between.
     const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
-    /// Sine of the steepest cone that a sector starts on over that of the one on which it closes without waves: from there its hem would turn in.
+    /// Sine of the half angle of the cone on which a sector starts, over that of the cone on which it closes without
+    /// waves. On the latter its hem would turn in.
     const STEEPER: f64 = 0.7;
-    /// Waves of a skirt that is wider than its cone.
+    /// Number of waves of a skirt that is wider than its cone.
     const WAVES: f64 = 8.0;
-    /// Directions in which the length of a wave is taken.
+    /// Number of samples for the length of a wave.
     const SAMPLES: u32 = 32;
 }
 
-/// Vertices of a ring with their places, its upper edge at the height `top` and no further from the axis than `within`.
+/// Vertices of a ring with their places; its upper edge lies at the height `top` and no farther from the axis than
+/// `within`.
 pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
     let axis = form.trunk_axis();
     let unrolled = Unrolled::of(flat);
@@ -48,27 +52,32 @@ pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(us
     let (wide, narrow, steps) = SPREADS;
     let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
     let cones = (0..=steps).map(|k| off_body(unrolled.rolled(spread(k), within.unwrap_or(f64::INFINITY))));
-    // The widest that is clear of the arms, else the one that comes nearest to it.
+    // The widest cone that is clear of the arms, else the one that comes nearest to it.
     let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
     let rolled = cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default();
     rolled.iter().map(|p| (p.vertex, axis.point(p.angle, p.radius, top - p.below))).collect()
 }
 
-/// A vertex, and the angle, the distance from a limb's middle and the height of what it is sewn to.
-pub type Held = (usize, (f64, f64, f64));
-
-/// Mean of one of the coordinates.
-pub fn mean(held: &[Held], of: fn(&(f64, f64, f64)) -> f64) -> f64 {
-    held.iter().map(|(_, p)| of(p)).sum::<f64>() / held.len() as f64
+/// A vertex that is sewn to a placed one.
+pub struct Held {
+    /// The vertex.
+    pub vertex: usize,
+    /// Place of the other, about a limb.
+    pub partner: Cylindrical,
 }
 
-/// Vertices of a ring with their places about a limb, below and turned as those that are `held`.
+/// Mean of one of the partners' coordinates.
+pub fn mean(held: &[Held], coordinate: fn(&Cylindrical) -> f64) -> f64 {
+    held.iter().map(|held| coordinate(&held.partner)).sum::<f64>() / held.len() as f64
+}
+
+/// Vertices of a ring with their places about a limb; it hangs from the partners of the vertices that are `held`.
 pub fn place_about(form: &Form, limb: &Limb, flat: &Flat, held: &[Held]) -> Vec<(usize, V3)> {
-    let (within, top) = (mean(held, |p| p.1), mean(held, |p| p.2));
+    let (within, top) = (mean(held, |p| p.radius), mean(held, |p| p.height));
     let rolled = Unrolled::of(flat).rolled(SPREADS.0, within);
     let angles: BTreeMap<usize, f64> = rolled.iter().map(|p| (p.vertex, p.angle)).collect();
-    let (sin, cos) = held.iter().fold((0.0, 0.0), |(sin, cos), (vertex, p)| {
-        let turn = p.0 - angles.get(vertex).unwrap_or(&0.0);
+    let (sin, cos) = held.iter().fold((0.0, 0.0), |(sin, cos), Held { vertex, partner }| {
+        let turn = partner.angle - angles.get(vertex).unwrap_or(&0.0);
         (sin + turn.sin(), cos + turn.cos())
     });
     let lowest = rolled.iter().map(|p| top - p.below).fold(top, f64::min);
@@ -78,16 +87,25 @@ pub fn place_about(form: &Form, limb: &Limb, flat: &Flat, held: &[Held]) -> Vec<
     rolled.iter().map(|p| (p.vertex, limb.point(p.angle + turn, p.radius + wider, top - p.below))).collect()
 }
 
+/// A vertex on the cone, or the cylinder, on which its ring closes.
+struct OnCone {
+    vertex: usize,
+    /// From the front to the right seen from outside, rad.
+    angle: f64,
+    /// Radius of the circle that is as long as the ring there, m.
+    radius: f64,
+    /// Distance from the upper edge, along the cone, m.
+    length: f64,
+}
+
 /// A ring as it is rolled: on the cone, or the cylinder, on which it closes.
 struct Unrolled {
-    /// Vertex, angle from the front to the right seen from outside, rad, radius of the circle that is as long as the ring there, and
-    /// distance from the upper edge, m.
-    points: Vec<(usize, f64, f64, f64)>,
+    points: Vec<OnCone>,
     /// Radius of the upper edge, m.
     upper: f64,
     /// Greatest distance from the upper edge, m.
     height: f64,
-    /// Sine of the angle between the cone and its axis.
+    /// Sine of the cone's half angle.
     spread: f64,
 }
 
@@ -105,49 +123,62 @@ impl Unrolled {
     fn of(flat: &Flat) -> Self {
         match flat {
             Flat::Sector(points) => {
-                let [low, high] = bounds(points.iter().map(|p| p.1));
-                let [inner, outer] = bounds(points.iter().map(|p| p.2));
+                let [low, high] = bounds(points.iter().map(|p| p.angle));
+                let [inner, outer] = bounds(points.iter().map(|p| p.radius));
                 let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
-                let of = |&(v, angle, length): &(usize, f64, f64)| (v, angle / share, length * share, length - inner);
-                let points = points.iter().map(of).collect();
+                let on_cone = |&Polar { vertex, angle, radius }: &Polar| OnCone {
+                    vertex,
+                    angle: angle / share,
+                    radius: radius * share,
+                    length: radius - inner,
+                };
+                let points = points.iter().map(on_cone).collect();
                 Self { points, upper: inner * share, height: outer - inner, spread: share }
             }
             Flat::Strip(points) => {
                 let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
                 let [low, high] = bounds(points.iter().map(|(_, p)| p.y));
                 let radius = ((right - left) / (TAU * ROUND)).max(1e-3);
-                let of = |&(v, p): &(usize, V2)| (v, p.x / radius, radius, high - p.y);
-                Self { points: points.iter().map(of).collect(), upper: radius, height: high - low, spread: 0.0 }
+                let on_cylinder =
+                    |&(vertex, p): &(usize, V2)| OnCone { vertex, angle: p.x / radius, radius, length: high - p.y };
+                let points = points.iter().map(on_cylinder).collect();
+                Self { points, upper: radius, height: high - low, spread: 0.0 }
             }
             Flat::Rows(points) => {
                 let [top, hem] = bounds(points.iter().map(|p| p.below_m));
-                let of = |p: &InRow| (p.vertex, p.share * TAU * ROUND, p.row_m / (TAU * ROUND), p.below_m - top);
+                let on_cone = |p: &InRow| OnCone {
+                    vertex: p.vertex,
+                    angle: p.share * TAU * ROUND,
+                    radius: p.row_m / (TAU * ROUND),
+                    length: p.below_m - top,
+                };
                 let (upper, spread) = (flat.inner_m() / (TAU * ROUND), flat.turn_rad() / TAU);
-                Self { points: points.iter().map(of).collect(), upper, height: hem - top, spread }
+                Self { points: points.iter().map(on_cone).collect(), upper, height: hem - top, spread }
             }
         }
     }
 
-    /// On a cone, the tip above, that spreads by at most the sine `spread` from `within` at most; in waves where the ring is wider.
+    /// Rolls the ring to a cone, the tip above. The sine of its half angle is at most `spread`, its upper radius at most
+    /// `within`. A ring that is longer than the cone's circle goes in waves.
     fn rolled(&self, spread: f64, within: f64) -> Vec<Rolled> {
         let upper = self.upper.min(within);
         let gathered = (self.upper - upper) / self.height.max(f64::MIN_POSITIVE);
         let spread = (STEEPER * self.spread + gathered).min(spread);
         let steep = (1.0 - spread * spread).sqrt();
-        let roll = |&(vertex, angle, widest, length): &(usize, f64, f64, f64)| {
+        let roll = |&OnCone { vertex, angle, radius, length }: &OnCone| {
             let mean = upper + length * spread;
-            let wave = wave(widest / mean) * (WAVES * angle).cos();
+            let wave = wave(radius / mean) * (WAVES * angle).cos();
             Rolled { vertex, angle, radius: mean * (1.0 + wave), below: length * steep }
         };
         self.points.iter().map(roll).collect()
     }
 }
 
-/// Height of waves about a circle over its radius that makes them `ratio` times as long as the circle.
+/// Amplitude over the radius of waves about a circle that are `ratio` times as long as the circle.
 fn wave(ratio: f64) -> f64 {
     let length = |height: f64| {
-        let at = |k: u32| height * WAVES * (TAU * f64::from(k) / f64::from(SAMPLES)).sin();
-        (0..SAMPLES).map(|k| at(k).hypot(1.0)).sum::<f64>() / f64::from(SAMPLES)
+        let slope = |k: u32| height * WAVES * (TAU * f64::from(k) / f64::from(SAMPLES)).sin();
+        (0..SAMPLES).map(|k| slope(k).hypot(1.0)).sum::<f64>() / f64::from(SAMPLES)
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..30 {
@@ -159,13 +190,13 @@ fn wave(ratio: f64) -> f64 {
 
 /// Greatest distance of the trunk's skin from its axis about a height.
 fn body_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
-    form.between(height - BAND_M, height + BAND_M).map(|p| axis.coordinates(p).1).fold(0.0, f64::max)
+    form.between(height - BAND_M, height + BAND_M).map(|p| axis.coordinates(p).radius).fold(0.0, f64::max)
 }
 
 /// Least distance of the arms' skin from the axis of the trunk about a height.
 fn arm_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
     let near = form.arms.iter().filter(|p| (p.z - height).abs() < BAND_M);
-    near.map(|p| axis.coordinates(p).1).fold(f64::INFINITY, f64::min)
+    near.map(|p| axis.coordinates(p).radius).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -200,10 +231,10 @@ mod tests {
             // Outwards is outside: counter-clockwise triangles face away from the axis.
             let [a, b, c] = garment.triangles[garment.triangles.len() / 2].map(|v| x[v]);
             assert!((b - a).cross(&(c - a)).dot(&V3::new(a.x, a.y, 0.0)) > 0.0, "inside out");
-            let clears = |p: &V3| form.trunk_axis().coordinates(p).1 < arm_radius(&form, &form.trunk_axis(), p.z);
+            let clears = |p: &V3| form.trunk_axis().coordinates(p).radius < arm_radius(&form, &form.trunk_axis(), p.z);
             assert!(!is_within_arms || x.iter().all(clears), "about the arms");
             // No triangle reaches over the gap that is left open.
-            let angle = |v: &usize| form.trunk_axis().coordinates(&x[*v]).0;
+            let angle = |v: &usize| form.trunk_axis().coordinates(&x[*v]).angle;
             for triangle in &garment.triangles {
                 let [low, high] = bounds(triangle.iter().map(angle));
                 let spread = (high - low).min(TAU - (high - low));
@@ -228,13 +259,13 @@ mod tests {
     fn waves_are_as_long_as_asked() {
         assert!(wave(1.0) < 1e-4);
         for ratio in [1.1, 1.5, 3.0] {
-            let at = |k: u32| {
+            let place = |k: u32| {
                 let angle = TAU * f64::from(k) / 20_000.0;
                 let radius = 1.0 + wave(ratio) * (WAVES * angle).cos();
                 V2::new(angle, radius)
             };
             // Unrolled: the waves lie along a line, not about a circle.
-            let length: f64 = (0..20_000).map(|k| (at(k + 1) - at(k)).norm()).sum();
+            let length: f64 = (0..20_000).map(|k| (place(k + 1) - place(k)).norm()).sum();
             assert!((length / (ratio * TAU) - 1.0).abs() < 2e-3, "{ratio}: {}", length / TAU);
         }
     }

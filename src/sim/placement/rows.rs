@@ -1,12 +1,13 @@
 //! Rings of long straight pieces, as tiers of ruffles are, laid out row by row.
 //!
-//! Where their sides slant, such pieces are no part of a sector: about its tip a straight strip runs as an arch, its ends far
-//! below its middle. Each height of the ring is a row of its own, from side to side of every piece.
+//! If their sides slant, such pieces look like parts of a sector. Laid about its tip a straight strip would become an
+//! arch, its ends far below its middle. Each height of the ring is therefore a row of its own, from side to side of
+//! every piece.
 
 use nalgebra::Rotation2;
 
+use super::interval::{bounds, front};
 use super::layout::Joins;
-use super::ring::{self, bounds};
 use geom::V2;
 
 geom::constants! {
@@ -34,7 +35,7 @@ pub struct Strip {
     points: Vec<(usize, V2)>,
     /// Its left and right side seen from outside, from below.
     sides: [Vec<V2>; 2],
-    /// Whether the next piece lies to the right.
+    /// True if the next piece lies to the right.
     is_rightwards: bool,
     /// Height of its sides' upper ends, m.
     top: f64,
@@ -42,16 +43,17 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// A piece with the vertices that are sewn to the piece before and to the next; `None` where it is not long and straight.
+    /// A piece with the vertices that are sewn to the piece before and to the next; `None` where it is not long and
+    /// straight.
     pub fn of(joins: &Joins, piece: usize, before: &[usize], next: &[usize], is_in_front: bool) -> Option<Self> {
         let upright = Rotation2::rotation_between(&joins.up(piece, V2::y()), &V2::y());
-        let at = |v: usize| upright * joins.garment.rest[v];
+        let turned = |v: usize| upright * joins.garment.rest[v];
         let side = |vertices: &[usize]| {
-            let mut side: Vec<V2> = vertices.iter().map(|&v| at(v)).collect();
+            let mut side: Vec<V2> = vertices.iter().map(|&v| turned(v)).collect();
             side.sort_by(|p, q| p.y.total_cmp(&q.y));
             side
         };
-        let points: Vec<(usize, V2)> = joins.garment.pieces[piece].vertices.clone().map(|v| (v, at(v))).collect();
+        let points: Vec<(usize, V2)> = joins.garment.pieces[piece].vertices.clone().map(|v| (v, turned(v))).collect();
         let (before, next) = (side(before), side(next));
         let mean = |side: &[V2]| side.iter().map(|p| p.x).sum::<f64>() / side.len() as f64;
         let is_rightwards = mean(&before) < mean(&next);
@@ -64,7 +66,7 @@ impl Strip {
         is_strip.then_some(Self { points, sides, is_rightwards, top, is_in_front })
     }
 
-    /// Where the row at a distance from the top begins and ends, m.
+    /// Ends of the row at a distance from the top, m.
     fn row(&self, below: f64) -> [f64; 2] {
         [0, 1].map(|side| across(&self.sides[side], self.top - below))
     }
@@ -83,7 +85,7 @@ pub fn laid_out(strips: &[Strip]) -> Vec<InRow> {
     let starts = strips.iter().map(|strip| {
         let share = strip.width(middle) / row_m(middle);
         begun += share;
-        // Of the turn: where the strip's left end lies, and how much it takes.
+        // The strip's left end and its width, as shares of the turn.
         (if strip.is_rightwards { begun - share } else { -begun }, share)
     });
     let starts: Vec<(f64, f64)> = starts.collect();
@@ -91,20 +93,20 @@ pub fn laid_out(strips: &[Strip]) -> Vec<InRow> {
         let some = strips.iter().zip(&starts).filter(|(strip, _)| strip.is_in_front || !is_in_front);
         some.map(|(_, (start, share))| start + 0.5 * share).collect()
     };
-    let front = ring::front(&middles(true), ring::front(&middles(false), 0.0));
-    let of = |(strip, &(start, share)): (&Strip, &(f64, f64))| {
-        let at = |&(vertex, p): &(usize, V2)| {
+    let front = front(&middles(true), front(&middles(false), 0.0));
+    let rows_of = |(strip, &(start, share)): (&Strip, &(f64, f64))| {
+        let in_row = |&(vertex, p): &(usize, V2)| {
             let below = (strip.top - p.y).max(0.0);
             let [left, right] = strip.row(below);
             let share = start + share * (p.x - left) / (right - left) - front;
             InRow { vertex, share, row_m: row_m(below), below_m: below }
         };
-        strip.points.iter().map(at).collect::<Vec<_>>()
+        strip.points.iter().map(in_row).collect::<Vec<_>>()
     };
-    strips.iter().zip(&starts).flat_map(of).collect()
+    strips.iter().zip(&starts).flat_map(rows_of).collect()
 }
 
-/// Where a side, its points from below, lies at a height.
+/// Sideways place of a side, whose points are sorted from below, at a height.
 fn across(side: &[V2], y: f64) -> f64 {
     let next = side.partition_point(|p| p.y < y).clamp(1, side.len() - 1);
     let [a, b] = [side[next - 1], side[next]];
@@ -118,11 +120,11 @@ mod tests {
 
     use serde_json::json;
 
-    use super::super::ring::{Flat, Ring};
+    use super::super::piece_ring::{Flat, Ring};
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// Two trapezoids sewn to each other at both sides: length of the upper edge, by how much the lower one is longer at each side,
+    /// Two trapezoids sewn to each other at both sides: length of the upper edge, excess of the lower one at each side,
     /// and height, cm.
     fn tier(lengths: [f64; 2], slant: f64, height: f64) -> Garment {
         let panel = |length: f64| {

@@ -144,7 +144,7 @@ fn what_is_gathered_often_goes_round_as_one() {
             garment.pieces.iter().filter(|piece| piece.role != Role::Waistband).flat_map(|p| p.vertices.clone());
         let skirt = Vec::from_iter(skirt);
         let upper = skirt.iter().filter(|&&v| garment.rest[v].y > 0.45 - 1e-6);
-        let radii = Vec::from_iter(upper.map(|&v| axis.coordinates(&x[v]).1));
+        let radii = Vec::from_iter(upper.map(|&v| axis.coordinates(&x[v]).radius));
         let mean = radii.iter().sum::<f64>() / radii.len() as f64;
         assert!(mean < 0.3, "gathered {ratio}: its waist lies {mean} m from the axis, on its own it would 0.56");
         let sides = garment.seams.iter().filter(|seam| seam.pairs.iter().flatten().all(|v| skirt.contains(v)));
@@ -221,7 +221,7 @@ fn check_godet(half_width: f64, height: f64) {
     let piece = |name: &str| garment.pieces.iter().position(|piece| piece.id == name).expect("a piece");
     let joins = Joins::of(&garment);
     let in_slits: Vec<bool> =
-        ["front", "back", "front_godet"].map(|name| follow::is_in_a_slit(&joins, piece(name))).to_vec();
+        ["front", "back", "front_godet"].map(|name| attachment::is_in_a_slit(&joins, piece(name))).to_vec();
     assert_eq!(in_slits, [false, false, true]);
     let body = body();
     let x = place(&body, &garment, &Bend::default()).expect("a skirt");
@@ -233,13 +233,14 @@ fn check_godet(half_width: f64, height: f64) {
     assert!(widest < 0.05 + 0.5e-2 * (30.0 - height), "its seams begin {widest} m open");
     let axis = Form::of(&body).trunk_axis();
     let hem = garment.pieces[piece("front_godet")].vertices.clone().filter(|&v| garment.rest[v].y < 1e-6);
-    let [near, far] = ring::bounds(hem.map(|v| axis.coordinates(&x[v]).1));
+    let [near, far] = interval::bounds(hem.map(|v| axis.coordinates(&x[v]).radius));
     assert!(far - near > 0.9e-2 * half_width, "its hem lies from {near} to {far} m");
 }
 
 #[test]
 fn the_halves_of_a_skirt_are_no_godets() {
-    // About as wide as the sides of a skirt are long, no turn takes one half's sides nearer to the other's than another does.
+    // About as wide as the sides of a skirt are long, no turn takes one half's sides nearer to the other's than another
+    // does.
     for half_width in [20.0, 24.0, 25.0, 26.0, 30.0] {
         let half = [[-half_width, 0.0], [half_width - 2.0, 1.0], [half_width, 86.0], [1.0 - half_width, 86.0]];
         let mirrored: Vec<[f64; 2]> = half.iter().rev().map(|[x, y]| [-x, *y]).collect();
@@ -247,7 +248,7 @@ fn the_halves_of_a_skirt_are_no_godets() {
         let stitches = [stitch(("front", 1), ("back", 1)), stitch(("front", 3), ("back", 3))];
         let garment = sewn(&panels, &stitches, skirt_role);
         let joins = Joins::of(&garment);
-        assert_eq!([0, 1].map(|piece| follow::is_in_a_slit(&joins, piece)), [false, false], "{half_width}");
+        assert_eq!([0, 1].map(|piece| attachment::is_in_a_slit(&joins, piece)), [false, false], "{half_width}");
         let x = place(&body(), &garment, &Bend::default()).expect("a skirt");
         let gap = garment.seams.iter().flat_map(|seam| gaps(seam, &x)).fold(0.0, f64::max);
         assert!(gap < 0.3, "{half_width}: its sides begin {gap} m open");
@@ -256,7 +257,8 @@ fn the_halves_of_a_skirt_are_no_godets() {
 
 #[test]
 fn halves_that_follow_stay_beside_each_other() {
-    // Two flaps on a skirt's waist, as the halves of a hood stand on a neck, each with a wing that would reach into the other.
+    // Two flaps on a skirt's waist, as the halves of a hood stand on a neck, each with a wing that would reach into the
+    // other.
     let half = [[-30.0, 0.0], [30.0, 0.0], [25.0, 60.0], [0.0, 60.0], [-25.0, 60.0]];
     let flap = [[-25.0, 0.0], [0.0, 0.0], [25.0, 0.0], [25.0, 20.0], [-65.0, 20.0], [-65.0, 0.0]];
     let panels = json!({
@@ -281,7 +283,7 @@ fn halves_that_follow_stay_beside_each_other() {
     let axis = Form::of(&body).trunk_axis();
     for (id, side) in [("flap_left", 1.0), ("flap_right", -1.0)] {
         let flap = garment.pieces.iter().find(|piece| piece.id == id).expect("a piece");
-        let [low, high] = ring::bounds(flap.vertices.clone().map(|v| side * axis.coordinates(&x[v]).0));
+        let [low, high] = interval::bounds(flap.vertices.clone().map(|v| side * axis.coordinates(&x[v]).angle));
         assert!(low > -0.1 && high < PI + 0.1, "{id} goes from {low} to {high} rad");
     }
 }

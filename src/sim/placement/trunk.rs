@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::Bend;
+use super::body_parts::Form;
 use super::ellipse::Ellipse;
-use super::form::Form;
 use super::layout::{Joins, Sheet};
 use geom::{V2, V3};
 use pattern::Role;
@@ -15,15 +15,16 @@ geom::constants! {
     pub const CLEARANCE_M: f64 = 0.02;
     /// Room between the ends of front and back, m.
     const BETWEEN_M: f64 = 0.01;
-    /// Share of the half width within which skin bounds how far ahead a piece starts: at the sides the ellipse has no depth.
+    /// Share of the half width within which the skin bounds the depth of the ellipse: at the sides the ellipse has no
+    /// depth.
     const BOUNDING: f64 = 0.9;
-    /// Share of a turn that a piece takes which goes round the body alone.
+    /// Share of a turn that a piece takes if it goes round the body alone.
     const ROUND: f64 = 0.95;
-    /// Seams wider than this share of their height join shoulders, steeper ones sides.
+    /// Width of a seam over its height beyond which it is a shoulder seam; steeper ones are side seams.
     const SHOULDER_SLOPE: f64 = 1.0;
-    /// The offset and the angle of [T], where only one of them is asked for.
+    /// Offset and angle of [T], for the one that the study does not give.
     const USUAL: (f64, f64) = (2.1, PI);
-    /// Angle up to which a piece counts as flat, rad: one that is not bent at all has no radius.
+    /// Least angle of an arc, rad: a flat piece has no radius.
     const FLAT_RAD: f64 = 0.01;
 }
 
@@ -34,7 +35,7 @@ pub const FRONTS: [Role; 3] = [Role::Front, Role::BodiceFront, Role::SkirtFront]
 /// Roles behind the trunk.
 pub const BACKS: [Role; 3] = [Role::Back, Role::BodiceBack, Role::SkirtBack];
 
-/// One side of the trunk, bent: where the points of its sheet go.
+/// The sheet of one side of the trunk, bent.
 pub struct Bent {
     /// 1 in front, -1 behind.
     side: f64,
@@ -46,7 +47,7 @@ pub struct Bent {
 }
 
 impl Bent {
-    /// Bends the sheet of one side; `is_alone` where nothing is worn on the other.
+    /// Bends the sheet of one side; `is_alone` is true where nothing is worn on the other.
     ///
     /// By default it follows half an ellipse that clears the body by [`CLEARANCE_M`], as wide as the trunk and as deep
     /// as the piece needs to reach from side to side. With an offset or an angle given it follows the thesis's arc.
@@ -74,7 +75,7 @@ impl Bent {
         Self { side, curve: Ellipse::reaching(half_width, least, half_round), centre_y: axis, lift }
     }
 
-    /// Where a point of the sheet goes.
+    /// Place of a point of the sheet.
     pub fn at(&self, p: V2) -> V3 {
         let bent = self.curve.at(p.x);
         // Seen from outside, x runs to the subject's left in front and to the right behind.
@@ -86,8 +87,8 @@ fn has_tops(joins: &Joins, sheet: &Sheet) -> bool {
     sheet.parts.iter().any(|part| TOPS.contains(&joins.garment.pieces[part.piece].role))
 }
 
-/// Height of the sheet's 0: the highest point of a top goes to the side neck points, or to the armpits where nothing is
-/// sewn over the shoulders; the upper edge of a skirt to the waist.
+/// Height of the sheet's 0. The highest point of a top lies at the side neck points, or at the armpits if no seam holds
+/// it over the shoulders. The upper edge of a skirt lies at the waist.
 fn lift(form: &Form, joins: &Joins, sheet: &Sheet) -> f64 {
     let body = form.body;
     let tops = joins.worn_as(&TOPS);
@@ -101,7 +102,7 @@ fn lift(form: &Form, joins: &Joins, sheet: &Sheet) -> f64 {
     }
 }
 
-/// Whether a seam over the shoulders holds the sheet: one to the other side that runs sideways, or one to a sleeve.
+/// True if a seam over the shoulders holds the sheet: one to the other side that runs sideways, or one to a sleeve.
 fn has_shoulders(joins: &Joins, sheet: &Sheet) -> bool {
     let own = sheet.pieces();
     let others: Vec<usize> = joins.worn_as(&TOPS).into_iter().filter(|p| !own.contains(p)).collect();

@@ -1,4 +1,4 @@
-//! Features of what goes round a limb: sleeves, fronts and backs of legs, skirts in one piece.
+//! Features of pieces that go round a limb: sleeves, fronts and backs of legs, skirts in one piece.
 
 use super::line::{between, joined, nth, run};
 use super::{Face, Found, Mapper, OnTube, face, is_leg};
@@ -14,12 +14,12 @@ geom::constants! {
     const UNDER_ARM: i32 = 4;
     /// Line of the trunk down the centre of the back.
     const CENTRE_BACK: i32 = 18;
-    /// A sleeve reaches onto the arm by this at least, m.
+    /// Least length of a sleeve on the arm, m.
     const LEAST_SLEEVE_M: f64 = 0.02;
 }
 
 impl Mapper<'_> {
-    /// A sleeve in one piece: its opening round the arm at the length of the underarm seam.
+    /// Features of a sleeve in one piece: its opening goes round the arm at the length of the underarm seam.
     pub(super) fn sleeve(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let [rising, falling] = self.lengthwise(piece, chains)?;
         let opening = joined(run(falling, rising, chains));
@@ -33,12 +33,12 @@ impl Mapper<'_> {
         let root = arm.at(mesh, UNDER_ARM, 0.0);
         let left = chains[rising].length_m(self.garment) - (root - underarm).norm();
         let below = arm.further(mesh, UNDER_ARM, 0.0, left.max(LEAST_SLEEVE_M));
-        // Over the top of the arm, from the shoulder by the sleeve's height there.
+        // The opening over the top of the arm lies below the shoulder by the sleeve's height there.
         let start = arm.at(mesh, TOP_OF_ARM, 0.0);
         let shoulder = self.place(top).map_or(0.0, |p| (p - start).norm());
         let height = self.v(top) - self.v(nth(self.garment, &opening, 0.5 * outline::length_m(self.garment, &opening)));
         let above = arm.further(mesh, TOP_OF_ARM, 0.0, shoulder + height.max(LEAST_SLEEVE_M));
-        // On the right, +u is the front: from below over the back, the top and the front.
+        // On the right, +u is the front: the opening runs from below over the back, the top and the front.
         let turn = if side == 0 { -24.0 } else { 24.0 };
         self.round(&arm, &opening, &|share| OnTube {
             line: f64::from(UNDER_ARM) + turn * share,
@@ -58,8 +58,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// Where the underarm seam of a sleeve meets the trunk, whose line along the armhole begins and ends there: at a side, or on the way
-    /// from the side to the shoulder, by its share of the armhole between.
+    /// Point at which the underarm seam of a sleeve meets the trunk, the ends of the cap: at a side seam, or else
+    /// interpolated between the nearest placed points of the cap by arc length.
     fn underarm(&mut self, cap: &[usize]) -> Option<V3> {
         let (first, last) = (*cap.first()?, *cap.last()?);
         if let Some(place) = self.place(first) {
@@ -75,14 +75,15 @@ impl Mapper<'_> {
         Some(place)
     }
 
-    /// A piece that goes all round the trunk, sewn to itself: its seam down the centre of the back from the waist.
+    /// Features of a piece that goes all round the trunk, sewn to itself: its seam runs down the centre back from the
+    /// waist.
     pub(super) fn wrap(&mut self, piece: usize, chains: &[Chain]) -> Found {
         let [a, b] = own_seam(piece, chains)?;
         let lines = [joined(run(a, b, chains)), joined(run(b, a, chains))];
         if lines.iter().any(|line| line.len() < 2) {
             return Err("it has no hem or no waist line");
         }
-        // However it is drawn, as a ring or as a trapeze: the waist is the shorter of the two.
+        // Whether it is drawn as a ring or as a trapeze, the waist is the shorter of the two lines.
         let length = |line: &Vec<usize>| outline::length_m(self.garment, line);
         let [one, other] = &lines;
         let (top, bottom) = if length(one) < length(other) { (one, other) } else { (other, one) };
@@ -98,7 +99,7 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// A leg in one piece: its inseam down the inside, its waist from centre front to centre back.
+    /// Features of a leg in one piece: its inseam runs down the inside, its waist from centre front to centre back.
     pub(super) fn whole_leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let [rising, falling] = self.lengthwise(piece, chains)?;
         let other =
@@ -133,14 +134,14 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// Where the legs meet on the form.
+    /// Point at which the legs meet on the form.
     fn fork_place(&self) -> V3 {
         let mesh = &self.form.mesh;
         let sides = [self.form.legs[0].at(mesh, 12, 0.0), self.form.legs[1].at(mesh, 0, 0.0)];
         sides[0].lerp(&sides[1], 0.5)
     }
 
-    /// A front or back of one leg.
+    /// Features of the front or back of one leg.
     pub(super) fn leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let own = face(self.garment.pieces[piece].role);
         let role_of = |chain: &Chain| match chain.partner {
@@ -175,7 +176,7 @@ impl Mapper<'_> {
         let tube = self.form.legs[side].clone();
         let inner_line = if side == 0 { 12 } else { 0 };
         let fork_place = self.fork_place();
-        // Waist: as high above the fork as the pattern has it.
+        // The waist lies above the fork by the rise of the pattern.
         let rise = self.v(centre) - self.v(fork);
         let trunk = self.form.trunk.clone();
         let (line_c, line_o) = match (own, side) {

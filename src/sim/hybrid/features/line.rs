@@ -1,4 +1,4 @@
-//! Lines of garment vertices: stretches of outline put together and divided.
+//! Lines of garment vertices: stretches of outline joined and divided.
 
 use super::OnTube;
 use crate::hybrid::outline::Chain;
@@ -18,8 +18,18 @@ pub(super) fn run(from: usize, to: usize, chains: &[Chain]) -> impl Iterator<Ite
     (1..n).map(move |k| (from + k) % n).take_while(move |&i| i != to).map(|i| &chains[i])
 }
 
-/// Groups of chains between key chains, counter-clockwise: key before, those between, key after.
-pub(super) fn groups<K>(keys: &[Option<K>], start: usize) -> Vec<(usize, Vec<usize>, usize)> {
+/// Chains between two consecutive key chains.
+pub(super) struct Group {
+    /// Key chain before them.
+    pub before: usize,
+    /// Chains between.
+    pub inner: Vec<usize>,
+    /// Key chain after them.
+    pub after: usize,
+}
+
+/// Groups of chains between key chains, counter-clockwise.
+pub(super) fn groups<K>(keys: &[Option<K>], start: usize) -> Vec<Group> {
     let n = keys.len();
     let mut found = Vec::new();
     let mut before = start;
@@ -27,7 +37,7 @@ pub(super) fn groups<K>(keys: &[Option<K>], start: usize) -> Vec<(usize, Vec<usi
     for k in 1..=n {
         let i = (start + k) % n;
         if keys[i].is_some() {
-            found.push((before, std::mem::take(&mut inner), i));
+            found.push(Group { before, inner: std::mem::take(&mut inner), after: i });
             before = i;
         } else {
             inner.push(i);
@@ -46,16 +56,16 @@ pub(super) fn joined<'c>(chains: impl Iterator<Item = &'c Chain>) -> Vec<usize> 
     vertices
 }
 
-/// The vertex of a line that is nearest to arc length `arc_m`.
+/// The vertex of a line whose arc length is nearest to `arc_m`.
 pub(super) fn nth(garment: &Garment, vertices: &[usize], arc_m: f64) -> usize {
-    let mut at = 0.0;
+    let mut length_m = 0.0;
     let mut best = (f64::MAX, vertices[0]);
     for (k, &v) in vertices.iter().enumerate() {
         if k > 0 {
-            at += (garment.rest[v] - garment.rest[vertices[k - 1]]).norm();
+            length_m += (garment.rest[v] - garment.rest[vertices[k - 1]]).norm();
         }
-        if (at - arc_m).abs() < best.0 {
-            best = ((at - arc_m).abs(), v);
+        if (length_m - arc_m).abs() < best.0 {
+            best = ((length_m - arc_m).abs(), v);
         }
     }
     best.1

@@ -1,10 +1,10 @@
 //! Feature mapping (5.2.1): the corners of a piece's outline onto features of the body, lengths preserved.
 //!
-//! The outline is read by what its stretches are sewn to, not by names. A seam between front and back that runs upright
-//! is a side, one that runs across is a shoulder. What lies between a side and a shoulder is an armhole, and so on.
-//! Points are then found in this order: shoulder ends on the shoulder line (Algorithm 5.1), underarm and hem down the
-//! side line, neck on the centre line. For trousers they are the fork on the crotch, the waist above it, the hem down
-//! the inseam.
+//! The stretches of an outline are classified by the pieces that they are sewn to, not by names. An upright seam
+//! between front and back is a side seam, one that runs across is a shoulder seam. The stretch between a side and a
+//! shoulder is an armhole, and so on. Points are then found in this order: shoulder ends on the shoulder line
+//! (Algorithm 5.1), underarm and hem down the side line, neck on the centre line. For trousers they are the fork on the
+//! crotch, the waist above it, the hem down the inseam.
 
 mod limb;
 mod line;
@@ -22,7 +22,7 @@ use pattern::{Garment, Role};
 
 geom::constants! {
     "hybrid.features",
-    /// Auxiliary points on a hem, waist or opening: it is a curve round the body, which three points keep level.
+    /// Number of auxiliary points on a hem, waist or opening: three points keep such a curve round the body level.
     const AUXILIARY: usize = 3;
 }
 
@@ -44,7 +44,7 @@ pub struct Mapped {
     pub features: Vec<Feature>,
 }
 
-/// What kind of garment it is, as far as mapping goes.
+/// Kind of a garment, as far as mapping goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Hangs from shoulders or waist: tops, dresses, skirts.
@@ -55,14 +55,14 @@ pub enum Kind {
     Suit,
 }
 
-/// Whether pieces of a role are worn on a leg.
+/// True if pieces of a role are worn on a leg.
 #[must_use]
 pub fn is_leg(role: Role) -> bool {
     is_whole_leg(role)
         || matches!(role, Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft)
 }
 
-/// Whether pieces of a role are a leg in one piece.
+/// True if pieces of a role are a leg in one piece.
 fn is_whole_leg(role: Role) -> bool {
     matches!(role, Role::LegRight | Role::LegLeft)
 }
@@ -72,10 +72,10 @@ fn is_whole_leg(role: Role) -> bool {
 /// # Errors
 /// [`SimError::CannotPlace`] for a skirt over trousers.
 pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
-    let of = |is_it: fn(Role) -> bool| garment.pieces.iter().find(|piece| is_it(piece.role));
+    let first = |is_wanted: fn(Role) -> bool| garment.pieces.iter().find(|piece| is_wanted(piece.role));
     let is_top = |role: Role| !is_leg(role);
     let is_round = |role: Role| is_skirt(role) || matches!(role, Role::Other | Role::Waistband);
-    match (of(is_leg), of(is_round), of(is_top)) {
+    match (first(is_leg), first(is_round), first(is_top)) {
         (None, ..) => Ok(Kind::Hung),
         (Some(_), Some(skirt), _) => Err(SimError::CannotPlace {
             piece: skirt.id.clone(),
@@ -108,12 +108,12 @@ pub fn face(role: Role) -> Face {
     }
 }
 
-/// Whether a piece is the lower part of a dress, or a skirt.
+/// True if pieces of a role are the lower part of a dress, or a skirt.
 fn is_skirt(role: Role) -> bool {
     matches!(role, Role::SkirtFront | Role::SkirtBack)
 }
 
-/// Whether a piece is worn below the waist.
+/// True if pieces of a role are worn below the waist.
 fn is_low(role: Role) -> bool {
     is_skirt(role) || is_leg(role)
 }
@@ -140,7 +140,7 @@ pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mappe
     }
     let mut mapper = Mapper { body, form, garment, welded: sewing::welded(garment), places: BTreeMap::new() };
     let mut order: Vec<usize> = (0..pieces.len()).collect();
-    // Sleeves hang on bodices, skirts and legs too: trunk first.
+    // The trunk comes first: sleeves hang on bodices, skirts and legs as well.
     order.sort_by_key(|&p| (face(garment.pieces[p].role) == Face::Round, is_low(garment.pieces[p].role)));
     // Shoulders and underarms of all trunk pieces before anything is hung on them.
     for &p in &order {
@@ -166,8 +166,10 @@ pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mappe
     mapped.collect()
 }
 
+/// Result of the search for the features of a piece, with the reason where they are not found.
 type Found = Result<(), &'static str>;
 
+/// A garment with the features found so far.
 struct Mapper<'a> {
     body: &'a Body,
     form: &'a Form,
@@ -199,18 +201,20 @@ impl Mapper<'_> {
         (features.len() >= 3).then_some(Mapped { ring, features })
     }
 
-    /// Points along a line round a tube where it goes over from one piece that it is sewn to to the next.
+    /// Places the joints of a line round a tube, at which one of the pieces that it is sewn to ends and the next
+    /// begins.
     fn joints(&mut self, tube: &Tube, vertices: &[usize], joints: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
         let whole = outline::length_m(self.garment, vertices);
         for joint in joints {
-            let Some(at) = vertices.iter().position(|v| v == joint) else { continue };
-            let OnTube { line, along } = on_tube(outline::length_m(self.garment, &vertices[..=at]) / whole);
+            let Some(index) = vertices.iter().position(|v| v == joint) else { continue };
+            let OnTube { line, along } = on_tube(outline::length_m(self.garment, &vertices[..=index]) / whole);
             let [before, after] = [line.floor(), line.ceil()].map(|l| tube.at(&self.form.mesh, l as i32, along));
             self.set(*joint, before.lerp(&after, line - line.floor()));
         }
     }
 
-    /// Auxiliary points along a line round a tube, given by share of its length; ends without a place get theirs.
+    /// Places auxiliary points along a line round a tube, by their share of its length, and its ends if they have no
+    /// place yet.
     fn round(&mut self, tube: &Tube, vertices: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
         let whole = outline::length_m(self.garment, vertices);
         let point = |share: f64| {
@@ -219,14 +223,14 @@ impl Mapper<'_> {
         };
         let places: Vec<(f64, V3)> =
             (0..=AUXILIARY + 1).map(|k| k as f64 / (AUXILIARY + 1) as f64).map(|share| (share, point(share))).collect();
-        // A line sewn to one that is placed takes its points.
+        // A line that is sewn to a placed one shares its points.
         let inner = &vertices[1..vertices.len() - 1];
         let taken = inner.iter().any(|&v| self.place(v).is_some());
         for (share, place) in places {
             let is_end = share == 0.0 || share == 1.0;
             if is_end || !taken {
-                let at = line::nth(self.garment, vertices, share * whole);
-                self.set(at, place);
+                let vertex = line::nth(self.garment, vertices, share * whole);
+                self.set(vertex, place);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Features of the pieces of the trunk: fronts and backs, with or without shoulders.
 
 use super::limb::TOP_OF_ARM;
-use super::line::{between, groups, joined};
+use super::line::{Group, between, groups, joined};
 use super::{Face, Found, Mapper, OnTube, face, is_low};
 use crate::hybrid::outline::{Chain, Partner};
 use body::Layer;
@@ -10,11 +10,11 @@ use pattern::Role;
 
 geom::constants! {
     "hybrid.features.trunk",
-    /// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
-    /// the middle of the upper arm: what is longer still the pop-up gives back.
+    /// Share of the way from armscye to the middle of the upper arm up to which a shoulder seam longer than the
+    /// shoulder reaches onto the arm. The pop-up restores any length beyond.
     const MOST_DROP: f64 = 0.25;
-    /// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
-    /// pop-up gives them their depth.
+    /// Greatest depth of an underarm point below the armpit, m: deeper armholes would leave no arm for the sleeve, and
+    /// the pop-up restores their depth.
     const MOST_DEPTH_M: f64 = 0.005;
     /// Distance from the middle within which a point of a trunk lies at its centre, m.
     const CENTRE_M: f64 = 0.02;
@@ -29,7 +29,7 @@ enum Key {
 }
 
 impl Mapper<'_> {
-    /// A front or back piece, whole or half, with or without shoulders.
+    /// Features of a front or back piece, whole or half, with or without shoulders.
     pub(super) fn trunk(&mut self, piece: usize, chains: &[Chain]) -> Found {
         let role = self.garment.pieces[piece].role;
         let own = face(role);
@@ -40,7 +40,7 @@ impl Mapper<'_> {
         }
         let start = keys.iter().position(Option::is_some).ok_or("nothing is sewn to it")?;
         let n = chains.len();
-        // Shoulders give the places from which sides are measured, sides those of bottoms.
+        // Sides are measured from the shoulders, hems from the sides.
         let groups = groups(&keys, start);
         for (chain, key) in chains.iter().zip(&keys) {
             if *key == Some(Key::Shoulder) {
@@ -55,7 +55,7 @@ impl Mapper<'_> {
                 self.side(own, chain, chains, &keys)?;
             }
         }
-        for (before, inner, after) in groups {
+        for Group { before, inner, after } in groups {
             let (Some(a), Some(b)) = (keys[before], keys[after]) else { continue };
             let up = |c: usize| chains[c].chord(self.garment).y > 0.0;
             let vertices = joined(inner.iter().map(|&i| &chains[i % n]));
@@ -81,7 +81,7 @@ impl Mapper<'_> {
         let other = self.garment.pieces[other].role;
         let chord = chain.chord(self.garment);
         match (face(role), face(other)) {
-            // A waist, whose sides need not meet those of what hangs from it.
+            // A waist seam: the sides above it need not meet those below.
             _ if is_low(role) != is_low(other) => None,
             (Face::Front, Face::Back) | (Face::Back, Face::Front) => {
                 Some(if chord.y.abs() > chord.x.abs() { Key::Side } else { Key::Shoulder })
@@ -91,14 +91,15 @@ impl Mapper<'_> {
         }
     }
 
-    /// Wearer's side (0 right, 1 left) of a key seam: seen from outside, the front's `+u` is the left, the back's the right.
+    /// Wearer's side (0 right, 1 left) of a key seam: seen from outside, the front's `+u` is the left, the back's the
+    /// right.
     fn wearer_side(&self, own: Face, chain: &Chain) -> usize {
         // Counter-clockwise, seams at +u run upwards.
         let plus = chain.chord(self.garment).y > 0.0;
         usize::from((own == Face::Front) == plus)
     }
 
-    /// Ends of a shoulder seam onto the shoulder line (Algorithm 5.1), and beyond its end down the arm.
+    /// Places the ends of a shoulder seam on the shoulder line (Algorithm 5.1), or beyond its end on the arm.
     fn shoulder(&mut self, own: Face, chain: &Chain) {
         let side = self.wearer_side(own, chain);
         let (outer, inner) = if chain.chord(self.garment).y > 0.0 {
@@ -138,7 +139,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// The upper end of a side at the depth of the armhole, the lower end down the side line by the seam's length.
+    /// Places the upper end of a side at the depth of the armhole, and the lower end down the side line by the seam's
+    /// length.
     fn side(&mut self, own: Face, chain: &Chain, chains: &[Chain], keys: &[Option<Key>]) -> Found {
         let side = self.wearer_side(own, chain);
         let up = chain.chord(self.garment).y > 0.0;
@@ -167,7 +169,7 @@ impl Mapper<'_> {
         Ok(())
     }
 
-    /// The lowest point of a neckline on the centre line, at its depth below the side neck point.
+    /// Places the lowest point of a neckline on the centre line, at its depth below the side neck point.
     fn neck(&mut self, own: Face, vertices: &[usize], chains: &[Chain], keys: &[Option<Key>]) {
         let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
         let shoulder = chains.iter().zip(keys).find(|(_, key)| **key == Some(Key::Shoulder));
@@ -203,8 +205,8 @@ impl Mapper<'_> {
         }
     }
 
-    /// A hem or waist line round the trunk between two placed ends, with auxiliary points and, at `joints`, those where it goes over from
-    /// one piece that it is sewn to to the next.
+    /// Places a hem or waist line round the trunk between its ends, with auxiliary points and the `joints` at which one
+    /// of the pieces that it is sewn to ends and the next begins.
     fn level(&mut self, own: Face, vertices: &[usize], joints: &[usize]) -> Found {
         let ends = [vertices[0], vertices[vertices.len() - 1]];
         let lines = ends.map(|v| self.place(v).map(|p| self.trunk_line(own, &p)));

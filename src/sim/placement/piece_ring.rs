@@ -1,40 +1,43 @@
 //! Rings of pieces about the trunk: gores, the halves of a circle skirt, a circle skirt or a tube of one piece.
 //!
-//! A ring is cut open at one seam and laid out flat, each piece moved so that its side lies on that of the piece before. The
-//! motion that takes the side at one end onto that at the other says what it is: a turn about the tip of a sector, or a shift
-//! along a strip.
+//! A ring is cut open at one seam and developed into the plane, each piece moved so that its side lies on that of the
+//! piece before. The rigid motion that takes the side at one end onto the side at the other tells the shape: a rotation
+//! about the tip of a sector, or a translation along a strip.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
 
-use super::follow::Similarity;
+use super::attachment::Similarity;
+use super::interval::{bounds, front, middle};
 use super::layout::Joins;
 use super::rows::{self, InRow};
 use geom::V2;
 
 geom::constants! {
     "placement.ring",
-    /// Sides of a ring lie on each other when laid out flat, up to this, rms m.
+    /// Greatest distance of the two sides of a seam in a ring that is laid out flat, rms m.
     const FLAT_M: f64 = 0.03;
-    /// A turn by less than this is a shift, rad.
+    /// Rotation below which a motion counts as a translation, rad.
     const SHIFT_RAD: f64 = 0.05;
-    /// Shift of a ring's middle by the motion of its ends, over the rms distance of its points from there, below which it goes all
-    /// round: along a strip it is 1.5 or more.
+    /// Displacement of a ring's middle by the motion of its ends, over the rms distance of its points from there, below
+    /// which the ring goes all round. Along a strip it is 1.5 or more.
     const CLOSED: f64 = 0.5;
-    /// What a motion moves its points apart by, over their distance, below which it does not say where it turns about.
+    /// Displacement of points by a motion over their distance from its centre, below which the centre is poorly
+    /// determined.
     const SURE: f64 = 0.15;
-    /// Weight of the ring's middle against that of a side's line, in where the lines meet.
+    /// Weight of the ring's middle over that of a side's line in the least squares for the point where the lines meet.
     const UNSURE: f64 = 1e-3;
-    /// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
+    /// Sum of the vectors from the tip to a piece's vertices, over the sum of their lengths, below which the piece goes
+    /// all round the tip.
     const ALL_ROUND: f64 = 0.01;
 }
 
 /// Pieces each of which is sewn to the next, and the last to the first; or one piece sewn to itself.
 pub struct Ring {
     members: Vec<Member>,
-    /// Takes the first piece's side at the cut onto the last one's.
+    /// Motion that takes the first piece's side at the cut onto the last one's.
     closing: Isometry2<f64>,
     /// The seam at the cut, the last piece's vertices first.
     cut: Vec<[usize; 2]>,
@@ -42,7 +45,7 @@ pub struct Ring {
 
 struct Member {
     piece: usize,
-    /// From the piece's plane to that of the ring.
+    /// Motion from the piece's plane to that of the ring.
     motion: Isometry2<f64>,
     /// Seam to the member before, its vertices first; none of the first.
     seam: Vec<[usize; 2]>,
@@ -50,20 +53,30 @@ struct Member {
 
 /// A ring laid out flat: its vertices with their places.
 pub enum Flat {
-    /// Angle about the tip, counter-clockwise from the middle, rad, and distance from it, m.
-    Sector(Vec<(usize, f64, f64)>),
+    /// Polar coordinates about the tip.
+    Sector(Vec<Polar>),
     /// To the right of the middle and up, m.
     Strip(Vec<(usize, V2)>),
     /// Row by row.
     Rows(Vec<InRow>),
 }
 
+/// A vertex in polar coordinates about the tip of a sector.
+#[derive(Clone, Copy, Debug)]
+pub struct Polar {
+    pub vertex: usize,
+    /// Counter-clockwise from the middle, rad.
+    pub angle: f64,
+    /// Distance from the tip, m.
+    pub radius: f64,
+}
+
 impl Flat {
-    /// What a sector takes of a turn, rad; 0 of a strip.
+    /// Angle of a sector, rad; 0 for a strip.
     pub fn turn_rad(&self) -> f64 {
         match self {
             Self::Sector(points) => {
-                let [low, high] = bounds(points.iter().map(|p| p.1));
+                let [low, high] = bounds(points.iter().map(|p| p.angle));
                 high - low
             }
             Self::Strip(_) => 0.0,
@@ -78,7 +91,7 @@ impl Flat {
     /// Length of the upper edge, m: nearest the tip of a sector, or all along a strip.
     pub fn inner_m(&self) -> f64 {
         match self {
-            Self::Sector(points) => self.turn_rad() * bounds(points.iter().map(|p| p.2))[0],
+            Self::Sector(points) => self.turn_rad() * bounds(points.iter().map(|p| p.radius))[0],
             Self::Strip(points) => {
                 let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
                 right - left
@@ -109,13 +122,13 @@ impl Ring {
         some.iter().filter_map(alone).collect()
     }
 
-    /// Rings of several pieces among some; what else these are sewn to is left out of account.
+    /// Rings of several pieces among some; their other seams are ignored.
     pub fn of_several(joins: &Joins, some: &[usize]) -> Vec<Self> {
         Self::among(joins, some, &between_pieces(joins, some))
     }
 
-    /// The same of skirts: of two pieces that are sewn to each other at both sides, as those of a tier are, all that is above and below
-    /// is left out of account as well.
+    /// The same for skirts. Two pieces that are sewn to each other at both sides are a tier, and their seams to other
+    /// pieces are ignored as well.
     pub fn of_tiers(joins: &Joins, some: &[usize]) -> Vec<Self> {
         let mut links = between_pieces(joins, some);
         let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.pieces).collect();
@@ -134,7 +147,8 @@ impl Ring {
         some.iter().filter_map(|&first| Self::beginning(joins, links, &ends, first)).collect()
     }
 
-    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only other.
+    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only
+    /// other.
     fn beginning(joins: &Joins, links: &[Link], ends: &BTreeMap<usize, Vec<usize>>, first: usize) -> Option<Self> {
         let two = |piece: usize| <[usize; 2]>::try_from(ends.get(&piece)?.as_slice()).ok();
         let [mut at, cut] = two(first)?;
@@ -186,7 +200,8 @@ impl Ring {
     /// The pieces of a ring of several that are all long and straight.
     fn strips(&self, joins: &Joins, in_front: &[usize]) -> Option<Vec<rows::Strip>> {
         let count = self.members.len();
-        // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that before it.
+        // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that
+        // before it.
         let cut = self.cut.iter().map(|&[a, b]| [b, a]).collect();
         let seams: Vec<&Vec<[usize; 2]>> =
             std::iter::once(&cut).chain(self.members.iter().skip(1).map(|member| &member.seam)).collect();
@@ -198,7 +213,7 @@ impl Ring {
         (count > 1).then(|| self.members.iter().enumerate().map(strip).collect())?
     }
 
-    /// Where the ring's ends turn onto each other; `None` where they are shifted.
+    /// Centre of the rotation that takes the ring's ends onto each other; `None` where they are translated.
     fn tip(&self, joins: &Joins) -> Option<Point2<f64>> {
         let points: Vec<V2> =
             self.members.iter().flat_map(|member| member.places(joins)).map(|(_, p)| p.coords).collect();
@@ -207,12 +222,12 @@ impl Ring {
         let size = (points.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() / count).sqrt();
         let shift = self.closing * Point2::from(middle) - Point2::from(middle);
         let turn = self.closing.rotation;
-        // A full circle turns by nothing about its middle, one of unlike halves is shifted a little besides.
+        // A full circle rotates by nothing about its middle; if its halves differ it is translated a little as well.
         let damping = if shift.norm() < CLOSED * size { SURE * SURE } else { 0.0 };
         if damping == 0.0 && turn.angle().abs() < SHIFT_RAD {
             return None;
         }
-        // The point that moves least, and of those the nearest to where all sides point.
+        // The point that moves least; of several the nearest to the focus of the sides.
         let middle = self.focus(joins, &middle);
         let shift = self.closing * Point2::from(middle) - Point2::from(middle);
         let apart = Matrix2::identity() - turn.to_rotation_matrix().into_inner();
@@ -226,7 +241,7 @@ impl Ring {
         self.members.iter().skip(1).map(side).chain([self.last_side(joins)]).collect()
     }
 
-    /// Where the lines on which the sides lie meet; what these leave open is as near to `middle` as can be.
+    /// Least-squares intersection of the lines on which the sides lie, regularised towards `middle`.
     fn focus(&self, joins: &Joins, middle: &V2) -> V2 {
         let (mut matrix, mut goal) = (Matrix2::identity() * UNSURE, middle * UNSURE);
         for side in self.sides(joins).into_iter().filter(|side| side.len() > 1) {
@@ -241,7 +256,7 @@ impl Ring {
         matrix.try_inverse().map_or(*middle, |inverse| inverse * goal)
     }
 
-    fn sector(&self, joins: &Joins, in_front: &[usize], tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
+    fn sector(&self, joins: &Joins, in_front: &[usize], tip: &Point2<f64>) -> Vec<Polar> {
         let mut points = Vec::new();
         let mut fronts = Vec::new();
         // Of the member before: the angle of its middle, and that of each of its vertices from there.
@@ -249,17 +264,17 @@ impl Ring {
         let cut = mean(&self.last_side(joins));
         for member in &self.members {
             let polar = member.polar(joins, tip, &cut);
-            let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
+            let own: BTreeMap<usize, f64> = polar.iter().map(|p| (p.vertex, p.angle)).collect();
             let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
             let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
-            points.extend(polar.into_iter().map(|(v, angle, length)| (v, middle + angle, length)));
+            points.extend(polar.into_iter().map(|p| Polar { angle: middle + p.angle, ..p }));
             if in_front.contains(&member.piece) {
                 fronts.push(middle);
             }
             before = (middle, own);
         }
-        let front = front(&fronts, middle(points.iter().map(|p| p.1)));
-        points.iter_mut().for_each(|p| p.1 -= front);
+        let front = front(&fronts, middle(points.iter().map(|p| p.angle)));
+        points.iter_mut().for_each(|p| p.angle -= front);
         points
     }
 
@@ -289,17 +304,22 @@ impl Member {
         self.motion * Point2::from(joins.garment.rest[v])
     }
 
-    /// Its vertices with the angle about a tip from the piece's middle, which lies opposite `cut` where it goes all round, rad, and the
-    /// distance from the tip, m.
-    fn polar(&self, joins: &Joins, tip: &Point2<f64>, cut: &Point2<f64>) -> Vec<(usize, f64, f64)> {
+    /// Its vertices in polar coordinates about a tip. The angle is 0 in the piece's middle, or opposite `cut` where the
+    /// piece goes all round the tip.
+    fn polar(&self, joins: &Joins, tip: &Point2<f64>, cut: &Point2<f64>) -> Vec<Polar> {
         let places = self.places(joins);
         let mean: V2 = places.iter().map(|(_, p)| p - tip).sum();
         let far: f64 = places.iter().map(|(_, p)| (p - tip).norm()).sum();
         if mean.norm() >= ALL_ROUND * far {
-            let polar = |(v, p): &(usize, Point2<f64>)| (*v, angle(&mean, &(p - tip)), (p - tip).norm());
+            let polar = |(v, p): &(usize, Point2<f64>)| Polar {
+                vertex: *v,
+                angle: angle(&mean, &(p - tip)),
+                radius: (p - tip).norm(),
+            };
             return places.iter().map(polar).collect();
         }
-        // Both sides of the cut lie where the angle jumps: on which side of it a vertex is, its triangles say.
+        // Both sides of the cut lie where the angle jumps. The triangles of a vertex tell on which side of the cut it
+        // is.
         let opposite = tip - cut;
         let mut within: BTreeMap<usize, V2> = BTreeMap::new();
         for triangle in &joins.garment.triangles[joins.garment.pieces[self.piece].triangles.clone()] {
@@ -310,7 +330,8 @@ impl Member {
         }
         let polar = |(v, p): &(usize, Point2<f64>)| {
             let side = within.get(v).map_or(0.0, |within| opposite.perp(within));
-            (*v, angle(&opposite, &(p - tip)).abs().copysign(side), (p - tip).norm())
+            let angle = angle(&opposite, &(p - tip)).abs().copysign(side);
+            Polar { vertex: *v, angle, radius: (p - tip).norm() }
         };
         places.iter().map(polar).collect()
     }
@@ -326,7 +347,7 @@ impl Link {
         }
     }
 
-    /// Whether another joins the same pieces and goes on where this one ends.
+    /// True if another link joins the same pieces and shares a vertex with this one.
     fn meets(&self, other: &Self) -> bool {
         let shares = |p: &[usize; 2]| other.pairs.iter().any(|q| p[0] == q[0] || p[1] == q[1]);
         self.pieces == other.pieces && self.pairs.iter().any(shares)
@@ -380,27 +401,11 @@ fn onto(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>) -> Isometr
     Similarity::of(&own, &goals).motion()
 }
 
-/// How far apart the sides of a seam lie when laid out, rms m.
+/// Distance of the two sides of a seam when laid out, rms m.
 fn misfit_m(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>, motion: &Isometry2<f64>) -> f64 {
     let rest = |v: usize| Point2::from(joins.garment.rest[v]);
     let squares = pairs.iter().map(|&[a, b]| (placed * rest(a) - motion * rest(b)).norm_squared());
     (squares.sum::<f64>() / pairs.len().max(1) as f64).sqrt()
-}
-
-/// Where the front of a ring lies: at the mean of its front pieces' middles, or, with none of these, at the middle of all.
-pub fn front(middles: &[f64], of_all: f64) -> f64 {
-    if middles.is_empty() { of_all } else { middles.iter().sum::<f64>() / middles.len() as f64 }
-}
-
-/// Half way between the least and the greatest.
-fn middle(values: impl Iterator<Item = f64>) -> f64 {
-    let [low, high] = bounds(values);
-    0.5 * (low + high)
-}
-
-/// Least and greatest.
-pub fn bounds(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::MAX, f64::MIN], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 #[cfg(test)]
@@ -412,8 +417,8 @@ mod tests {
     use super::*;
     use pattern::{Garment, garmentcode};
 
-    /// `count` gores of a sector: a turn in all, an inner radius, on the left half larger by a little, and a length, cm; each drawn
-    /// where `moved` puts it.
+    /// `count` gores of a sector of an angle, an inner radius that is a little larger on the left half, and a length,
+    /// cm; each is drawn after the motion `moved`.
     fn gores(
         count: usize,
         turn_rad: f64,
@@ -423,8 +428,7 @@ mod tests {
     ) -> Garment {
         let half = 0.5 * turn_rad / count as f64;
         let point = |k: usize, side: f64, radius: f64| {
-            let at = Point2::new(side * half.sin(), -half.cos()) * radius;
-            let p = moved(k) * at;
+            let p = moved(k) * (Point2::new(side * half.sin(), -half.cos()) * radius);
             [p.x, p.y]
         };
         let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
@@ -466,7 +470,8 @@ mod tests {
             assert!((flat.turn_rad() / turn_rad - 1.0).abs() < 0.01, "{count} gores turn by {}", flat.turn_rad());
             assert!((flat.inner_m() / 0.8 - 1.0).abs() < 0.02, "{count} gores: {} m round", flat.inner_m());
             let Flat::Sector(points) = flat else { panic!("{count} gores are no strip") };
-            let places: BTreeMap<usize, (f64, f64)> = points.into_iter().map(|(v, a, r)| (v, (a, r))).collect();
+            let places: BTreeMap<usize, (f64, f64)> =
+                points.into_iter().map(|p| (p.vertex, (p.angle, p.radius))).collect();
             // Sides meet, but for one seam, which is a whole turn of the sector apart.
             for seam in &garment.seams {
                 let apart = |[a, b]: &[usize; 2]| (places[a].0 - places[b].0).abs();

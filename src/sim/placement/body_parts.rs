@@ -1,4 +1,4 @@
-//! What placement needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
+//! The body as placement sees it: trunk and legs apart from the arms, and axes of the limbs.
 
 use crate::hands;
 use body::{Body, Joint};
@@ -6,32 +6,43 @@ use geom::{V2, V3};
 
 geom::constants! {
     "placement.form",
-    /// Half height of the band of the body in which its depth is read, m.
+    /// Half height of the band of the body in which its depth is measured, m.
     const LEVEL_BAND_M: f64 = 0.02;
-    /// Farthest skin of an arm from its bone, m.
+    /// Greatest distance of an arm's skin from its bone, m.
     const ARM_REACH_M: f64 = 0.1;
-    /// Distance below the shoulder joint from which skin near the bone is the arm's, not the shoulder's, m.
+    /// Distance from the shoulder joint along the bone beyond which skin near it is the arm's, not the shoulder's, m.
     const SHOULDER_M: f64 = 0.1;
-    /// How far a hand reaches beyond the wrist, m.
+    /// Length of a hand beyond the wrist, m.
     const HAND_M: f64 = 0.25;
-    /// How far within the shoulder joint an arm's skin begins, m.
+    /// Distance towards the median plane from the start of the arm's bone at which its skin begins, m.
     const WITHIN_JOINT_M: f64 = 0.03;
 }
 
-/// Right (`1.0`) or left (`-1.0`) of the body.
+/// Side of the body: `1.0` right, `-1.0` left.
 pub type Hand = f64;
 
-/// A direction of a limb with two directions across it: a cylinder about the limb, unrolled to (angle, height).
+/// Axis of a limb: a cylindrical coordinate system about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     pub origin: V3,
     pub up: V3,
-    /// Where the angle is 0.
+    /// Direction of angle 0.
     pub outward: V3,
 }
 
+/// Cylindrical coordinates about a limb.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylindrical {
+    /// Within half a turn, rad.
+    pub angle: f64,
+    /// Distance from the limb's middle, m.
+    pub radius: f64,
+    /// Along the axis, m.
+    pub height: f64,
+}
+
 impl Axis {
-    /// To the right of `outward`, seen from outside: where the angle grows.
+    /// Direction to the right of `outward` seen from outside, in which the angle grows.
     fn rightward(&self) -> V3 {
         self.up.cross(&self.outward)
     }
@@ -42,27 +53,27 @@ impl Axis {
         self.origin + self.up * height + (self.outward * cos + self.rightward() * sin) * radius
     }
 
-    /// Angle (rad, within half a turn), distance from the axis and height of a point.
-    pub fn coordinates(&self, p: &V3) -> (f64, f64, f64) {
+    /// Coordinates of a point.
+    pub fn coordinates(&self, p: &V3) -> Cylindrical {
         let d = p - self.origin;
         let (a, b) = (d.dot(&self.outward), d.dot(&self.rightward()));
-        (b.atan2(a), a.hypot(b), d.dot(&self.up))
+        Cylindrical { angle: b.atan2(a), radius: a.hypot(b), height: d.dot(&self.up) }
     }
 }
 
 /// The body as placement sees it.
 pub struct Form<'a> {
     pub body: &'a Body,
-    /// Skin that is no arm's.
+    /// Points of the skin of trunk and legs.
     pub trunk: Vec<V3>,
-    /// Skin of the arms.
+    /// Points of the skin of the arms.
     pub arms: Vec<V3>,
-    /// Ends of the right and the left hand, m, where they are told from the rest.
+    /// Tips of the right and the left hand, m; `None` where a hand cannot be told from the rest.
     tips: [Option<V3>; 2],
 }
 
 impl<'a> Form<'a> {
-    /// Tells the arms from the rest.
+    /// Separates the skin of the arms from the rest.
     pub fn of(body: &'a Body) -> Self {
         let hands = [1.0, -1.0].map(|side| hands::Hand::of(body, side));
         let is_hand = |v: &usize| hands.iter().flatten().any(|hand| hand.skin.binary_search(v).is_ok());
@@ -73,7 +84,7 @@ impl<'a> Form<'a> {
         Self { body, trunk: places(trunk), arms: places(arms), tips }
     }
 
-    /// The end of a hand, m; `None` where no skin is a hand's.
+    /// Tip of a hand, m; `None` where no skin is a hand's.
     pub fn tip(&self, hand: Hand) -> Option<V3> {
         self.tips[usize::from(hand < 0.0)]
     }
@@ -90,7 +101,7 @@ impl<'a> Form<'a> {
         self.between(low, high).map(|p| p.x.abs()).fold(0.0, f64::max)
     }
 
-    /// Trunk and legs between two heights.
+    /// Skin of trunk and legs between two heights.
     pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = &V3> {
         self.trunk.iter().filter(move |p| (low..=high).contains(&p.z))
     }
@@ -118,7 +129,7 @@ impl<'a> Form<'a> {
     /// Height along the arm's axis of the shoulder point.
     pub fn shoulder_height(&self, hand: Hand) -> f64 {
         let tip = self.body.landmarks.shoulder[usize::from(hand < 0.0)];
-        self.arm_axis(hand).coordinates(&tip).2
+        self.arm_axis(hand).coordinates(&tip).height
     }
 }
 
@@ -132,7 +143,7 @@ pub fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
     joints.map(|joint| body.skeleton.at(joint))
 }
 
-/// Whether a point of the skin belongs to an arm.
+/// True if a point of the skin belongs to an arm.
 fn is_arm(body: &Body, p: &V3) -> bool {
     [1.0, -1.0].into_iter().any(|hand| {
         let [shoulder, elbow, wrist] = arm_bones(body, hand);

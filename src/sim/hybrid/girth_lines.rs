@@ -1,9 +1,10 @@
-//! The rings in which cloth goes round trunk, legs and arms: closed lines that planes cut into it, and that stay on it.
+//! Girth lines: closed lines on the cloth round trunk, legs and arms. They are plane sections once, and then material
+//! lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::gap::underarms;
-use super::sewn::Sewn;
+use super::underarms::underarms;
+use super::welded_mesh::Sewn;
 use body::{Body, Layer};
 use geom::section::Plane;
 use geom::{V2, V3};
@@ -13,11 +14,12 @@ geom::constants! {
     "hybrid.ring",
     /// Distance between the planes, m.
     const STEP_M: f64 = 0.02;
-    /// How far below the underarms the last line round the trunk runs, in edges: where both sides cross one edge of the seam.
+    /// Distance of the last line round the trunk below the underarms, in edges: both sides cross the same edge of the
+    /// seam there.
     const BELOW_UNDERARM: f64 = 0.3;
 }
 
-/// Where a ring crosses an edge of the cloth: sewn vertices, and the share of the way from the first to the second.
+/// Crossing of a ring with an edge of the cloth: sewn vertices, and the share of the way from the first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cut {
     edge: [usize; 2],
@@ -30,8 +32,8 @@ pub struct Ring {
     cuts: Vec<Cut>,
     /// Length in the pattern, m.
     pub rest_m: f64,
-    /// Number of its plane, of no meaning for the line below the underarms: those with the next numbers are the rings
-    /// above and below.
+    /// Number of its plane; the planes above and below have the next numbers. Without meaning for the line below the
+    /// underarms.
     level: i32,
 }
 
@@ -39,19 +41,28 @@ pub struct Ring {
 struct Limb {
     triangles: Vec<usize>,
     axis: V3,
-    /// Whether it may have armholes.
+    /// True if it may have armholes.
     is_trunk: bool,
 }
 
-/// The rings of a sewn garment with positions `x` (m), limb by limb, and which of them lie next to each other on the cloth.
+/// Rings on a cloth.
+#[derive(Clone, Debug, Default)]
+pub struct Rings {
+    /// The rings, limb by limb.
+    pub rings: Vec<Ring>,
+    /// Pairs of rings that lie next to each other on the cloth.
+    pub beside: Vec<[usize; 2]>,
+}
+
+/// The rings of a sewn garment with positions `x` (m).
 #[must_use]
-pub fn rings(body: &Body, garment: &Garment, sewn: &Sewn, x: &[V3]) -> (Vec<Ring>, Vec<[usize; 2]>) {
+pub fn rings(body: &Body, garment: &Garment, sewn: &Sewn, x: &[V3]) -> Rings {
     let (mut rings, mut beside) = (Vec::new(), Vec::new());
     for limb in limbs(body, garment) {
         let first = rings.len();
         rings.extend(cut(garment, sewn, x, &limb));
         beside.extend(neighbours(&rings, first));
-        // Planes leave out the last stretch below the armholes, which do not lie level.
+        // The armholes do not lie level, so the planes miss the last stretch below them.
         if limb.is_trunk {
             let highest = (first..rings.len()).max_by_key(|&k| rings[k].level);
             for ring in at_underarm(garment, sewn) {
@@ -60,7 +71,7 @@ pub fn rings(body: &Body, garment: &Garment, sewn: &Sewn, x: &[V3]) -> (Vec<Ring
             }
         }
     }
-    (rings, beside)
+    Rings { rings, beside }
 }
 
 /// Sleeves go round their arms, everything else round trunk and legs.
@@ -69,23 +80,27 @@ fn limbs(body: &Body, garment: &Garment) -> [Limb; 3] {
     let arm = |[armscye, elbow]: [Layer; 2]| {
         (body.control.ring_centre(armscye) - body.control.ring_centre(elbow)).try_normalize(1e-9).unwrap_or_else(V3::z)
     };
-    let of = |is_in: &dyn Fn(Role) -> bool| {
+    let triangles_of = |is_in: &dyn Fn(Role) -> bool| {
         let pieces = garment.pieces.iter().filter(|p| is_in(p.role));
         pieces.flat_map(|p| p.triangles.clone()).collect()
     };
     let is_sleeve = |role| matches!(role, Role::SleeveRight | Role::SleeveLeft);
     [
-        Limb { triangles: of(&|role| !is_sleeve(role)), axis: V3::z(), is_trunk: true },
+        Limb { triangles: triangles_of(&|role| !is_sleeve(role)), axis: V3::z(), is_trunk: true },
         Limb {
-            triangles: of(&|role| role == Role::SleeveRight),
+            triangles: triangles_of(&|role| role == Role::SleeveRight),
             axis: arm([ArmscyeRight, ElbowRight]),
             is_trunk: false,
         },
-        Limb { triangles: of(&|role| role == Role::SleeveLeft), axis: arm([ArmscyeLeft, ElbowLeft]), is_trunk: false },
+        Limb {
+            triangles: triangles_of(&|role| role == Role::SleeveLeft),
+            axis: arm([ArmscyeLeft, ElbowLeft]),
+            is_trunk: false,
+        },
     ]
 }
 
-/// A way of a plane through a triangle: the edges that it crosses, and its length in the pattern, m.
+/// Intersection of a plane with a triangle: the edges that it crosses, and its length in the pattern, m.
 struct Segment {
     ends: [Cut; 2],
     rest_m: f64,
@@ -107,7 +122,7 @@ fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
     levels.iter().flat_map(|(&level, segments)| chained(level, segments)).collect()
 }
 
-/// The closed line round the trunk just below the underarms, level in each piece; none where it does not close.
+/// The closed line round the trunk just below the underarms, level in each piece; empty where it does not close.
 #[must_use]
 pub fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
     let below_m = garment.edge_length_m * BELOW_UNDERARM;
@@ -122,14 +137,14 @@ pub fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
     chained(0, &segments)
 }
 
-/// The way of a level through a triangle.
+/// Intersection of a level with a triangle.
 fn segment(garment: &Garment, sewn: &Sewn, corners: [usize; 3], heights: [f64; 3], level: i32) -> Option<Segment> {
     let cuts: Vec<(Cut, V2)> = (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
     let [(a, from), (b, to)] = cuts.as_slice() else { return None };
     Some(Segment { ends: [*a, *b], rest_m: (to - from).norm() })
 }
 
-/// Where side `k` of a triangle passes through a level, on the sewn cloth and in the pattern.
+/// Intersection of side `k` of a triangle with a level, on the sewn cloth and in the pattern.
 fn crossing(
     garment: &Garment,
     sewn: &Sewn,
@@ -145,13 +160,13 @@ fn crossing(
     }
     let share = below / (below - above);
     let [a, b] = [corners[k], corners[next]];
-    let at = garment.rest[a].lerp(&garment.rest[b], share);
+    let place = garment.rest[a].lerp(&garment.rest[b], share);
     let [a, b] = [a, b].map(|v| sewn.vertex_of[v]);
     let cut = if a < b { Cut { edge: [a, b], share } } else { Cut { edge: [b, a], share: 1.0 - share } };
-    Some((cut, at))
+    Some((cut, place))
 }
 
-/// Closed lines of segments that meet in edges of the cloth.
+/// Chains segments that meet in edges of the cloth to closed lines.
 fn chained(level: i32, segments: &[Segment]) -> Vec<Ring> {
     let mut at_edge: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
     for (index, segment) in segments.iter().enumerate() {
@@ -193,12 +208,12 @@ fn neighbours(rings: &[Ring], first: usize) -> Vec<[usize; 2]> {
 }
 
 impl Ring {
-    /// The vertices next to it.
+    /// Ends of the edges that it crosses.
     pub fn vertices(&self) -> impl Iterator<Item = usize> + '_ {
         self.cuts.iter().flat_map(|cut| cut.edge)
     }
 
-    /// Whether a vertex is next to this ring and to another.
+    /// True if this ring and another cross edges of the same vertex.
     fn is_beside(&self, other: &Self) -> bool {
         let own: BTreeSet<usize> = self.vertices().collect();
         other.vertices().any(|v| own.contains(&v))
@@ -217,7 +232,7 @@ impl Ring {
         points.iter().zip(next).map(|(a, b)| (b - a).norm()).sum()
     }
 
-    /// The plane in which it lies as nearly as may be: through its middle, across its area; `None` for a line without area.
+    /// The plane through its middle and normal to its area vector; `None` for a line without area.
     #[must_use]
     pub fn plane(&self, x: &[V3]) -> Option<Plane> {
         let points: Vec<V3> = self.points(x).collect();
@@ -232,22 +247,22 @@ impl Ring {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::inset::Insets;
+    use super::super::inset::{Fit, Insets};
     use super::*;
     use geom::shapes::sphere;
 
     const COUNT: usize = 48;
 
     /// A ring over its own vertices.
-    fn ring(rest_m: f64) -> (Vec<Ring>, Vec<[usize; 2]>) {
+    fn ring(rest_m: f64) -> Rings {
         let cuts = (0..COUNT).map(|v| Cut { edge: [v, v], share: 0.0 }).collect();
-        (vec![Ring { cuts, rest_m, level: 0 }], vec![])
+        Rings { rings: vec![Ring { cuts, rest_m, level: 0 }], beside: vec![] }
     }
 
     /// A level circle of vertices, m.
     fn circle(radius: f64, z: f64) -> Vec<V3> {
-        let at = |k: usize| (k as f64 / COUNT as f64 * TAU).sin_cos();
-        (0..COUNT).map(at).map(|(sin, cos)| V3::new(radius * cos, radius * sin, z)).collect()
+        let direction = |k: usize| (k as f64 / COUNT as f64 * TAU).sin_cos();
+        (0..COUNT).map(direction).map(|(sin, cos)| V3::new(radius * cos, radius * sin, z)).collect()
     }
 
     /// Inset at the first vertex, m.
@@ -257,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_ring_knows_its_length_and_its_plane() {
-        let (rings, _) = ring(0.7);
+        let Rings { rings, .. } = ring(0.7);
         let x = circle(0.1, 0.15);
         assert!((rings[0].length_m(&x) - TAU * 0.1).abs() < 1e-3);
         let plane = rings[0].plane(&x).expect("it has an area");
@@ -271,7 +286,8 @@ mod tests {
         // The ball's girth 0.15 above its middle.
         let radius = (0.2_f64.powi(2) - 0.15_f64.powi(2)).sqrt();
         let x = circle(radius, 0.15);
-        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share, true);
+        let fit = Fit { offset_m: offset, share };
+        let mut insets = Insets::judged(ring(0.7), &ball, &x, fit, true);
         let lack = radius + offset - 0.7 * (1.0 + share) / TAU;
         assert!((inset(&insets) - lack).abs() < 1e-3, "{} instead of {lack}", inset(&insets));
         // The cloth is still as wide as the body: that must not make the body smaller and smaller.
@@ -286,11 +302,12 @@ mod tests {
     #[test]
     fn a_ring_that_is_large_enough_is_held_up_where_the_body_is_wider() {
         let ball = sphere(0.2, 48);
-        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3, false);
+        let fit = Fit { offset_m: 2e-3, share: 2e-3 };
+        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), fit, false);
         assert_eq!(inset(&insets), 0.0);
         // Round the ball's middle it would lack 0.36.
         let below = circle(0.2, 0.0);
-        insets.judge_again(&ball, &below, 2e-3, 2e-3);
+        insets.judge_again(&ball, &below, fit);
         insets.correct(&below, 2e-3);
         assert_eq!(inset(&insets), 0.0);
     }

@@ -1,12 +1,12 @@
-//! Pieces that follow what they are sewn to: waistbands, cuffs, collars, hoods, pockets.
+//! Pieces placed by those that they are sewn to: waistbands, cuffs, collars, hoods, pockets.
 //!
-//! The places of their partners are unrolled about the limb; the similarity that takes the piece's seam nearest to
-//! them says how the piece is turned, where it lies and how wide it is bent. A godet, both sides of which are sewn into one slit, is
-//! folded outwards there.
+//! The places of their partners are unrolled about the limb. The least-squares similarity that takes the piece's seam
+//! to them gives the piece its rotation, its place and its bend. A godet, both sides of which are sewn into one slit,
+//! is folded outwards there.
 
 use std::f64::consts::{PI, TAU};
 
-use super::form::Form;
+use super::body_parts::{Cylindrical, Form};
 use super::layout::Joins;
 use super::limb::Limb;
 use geom::{V2, V3};
@@ -15,39 +15,42 @@ geom::constants! {
     "placement.follow",
     /// Least distance from the skin, m.
     const CLEARANCE_M: f64 = 0.012;
-    /// Share of the room round a limb that a piece takes.
+    /// Share of the room round a limb that a piece may take.
     const ROUND: f64 = 0.97;
-    /// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
+    /// Sideways scale from a piece's seams to its partners', over the upward scale, below which they are the sides of a
+    /// slit.
     const SLIT: f64 = 0.4;
-    /// Least mean square of the height of such seams over that of their breadth, and where the slit is taller than it is broad.
+    /// Least mean square of the height of such seams over that of their breadth; the second where the slit is taller
+    /// than broad.
     const UPRIGHT: [f64; 2] = [0.1, 0.01];
-    /// Greatest mean square by which partners miss the mirror image of a piece's seams, over that by which they miss the seams as they are,
-    /// where the piece is their other half.
+    /// Squared residual of the similarity of a piece's mirrored seams to its partners, over that of the seams as they
+    /// are, below which the piece is their other half.
     const OTHER_HALF: f64 = 0.5;
-    /// Least share of its width that a piece in a slit takes up sideways.
+    /// Least share of its width that a piece in a slit takes sideways.
     const OPEN: f64 = 0.2;
-    /// Least and greatest scale of a fit: a seam is not gathered more.
+    /// Least and greatest scale of a similarity: no seam is gathered more.
     const SCALE: [f64; 2] = [0.3, 4.0];
 }
 
-/// A piece that is to follow others.
+/// A piece that is to be placed by others.
 pub struct Follower {
     pub piece: usize,
-    /// Its vertices that are sewn to what has a place, each before the vertex there.
+    /// Pairs of its vertices with the vertices of placed pieces that they are sewn to.
     pub pairs: Vec<[usize; 2]>,
-    /// What it goes about.
+    /// Limb that it goes about.
     pub limb: Limb,
 }
 
 impl Follower {
-    /// About which angle its partners, which are `placed`, lie, rad.
+    /// Circular mean of the angles of its partners, which are at `placed`, rad.
     fn angle(&self, placed: &[V3]) -> f64 {
-        let angles = self.pairs.iter().map(|pair| self.limb.coordinates(&placed[pair[1]]).0);
+        let angles = self.pairs.iter().map(|pair| self.limb.coordinates(&placed[pair[1]]).angle);
         let (sin, cos) = angles.fold((0.0, 0.0), |(sin, cos), angle: f64| (sin + angle.sin(), cos + angle.cos()));
         sin.atan2(cos)
     }
 
-    /// How far it may go round to either side, rad: half a turn, or half the way to the nearest of those that go round beside it.
+    /// Angle that it may take to either side, rad: half a turn, or half the angle to the nearest of the pieces beside
+    /// it.
     pub fn room_rad(&self, beside: &[Self], placed: &[V3]) -> f64 {
         let others = beside.iter().filter(|other| other.piece != self.piece && other.limb == self.limb);
         let apart = |other: &Self| {
@@ -58,32 +61,32 @@ impl Follower {
     }
 }
 
-/// Places of the vertices of a follower of vertices at `placed`, no farther round than there is room.
+/// Places of the vertices of a piece whose partners are at `placed`; it goes no farther round than there is room.
 pub fn place(form: &Form, joins: &Joins, follower: &Follower, room_rad: f64, placed: &[V3]) -> Vec<V3> {
     let rest = &joins.garment.rest;
     let Follower { piece, pairs, limb } = follower;
     let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[0]]).collect();
     let partners: Vec<_> = pairs.iter().map(|pair| limb.coordinates(&placed[pair[1]])).collect();
-    let radius = partners.iter().map(|p| p.1).sum::<f64>() / partners.len() as f64;
-    let angles = unwrapped(&own, &partners.iter().map(|p| p.0).collect::<Vec<_>>());
-    let goal: Vec<V2> = angles.iter().zip(&partners).map(|(angle, p)| V2::new(angle * radius, p.2)).collect();
+    let radius = partners.iter().map(|p| p.radius).sum::<f64>() / partners.len() as f64;
+    let angles = unwrapped(&own, &partners.iter().map(|p| p.angle).collect::<Vec<_>>());
+    let goal: Vec<V2> = angles.iter().zip(&partners).map(|(angle, p)| V2::new(angle * radius, p.height)).collect();
     let fit = Similarity::of(&own, &goal);
     let vertices = joins.garment.pieces[*piece].vertices.clone();
     let places: Vec<V2> = vertices.map(|v| fit.turned(rest[v])).collect();
-    let sides = Sides::new(&fit, &own, &goal, partners.iter().map(|p| p.1));
+    let sides = Sides::new(&fit, &own, &goal, partners.iter().map(|p| p.radius));
     if sides.are_a_slit {
         return places.iter().map(|p| sides.fold(p, &fit.to, radius, limb)).collect();
     }
     let heights = places.iter().map(|p| fit.to.y + p.y);
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
-    // Bent to the angle its partners take up; no nearer to the axis than the body lets it.
+    // Bent to the angle that its partners take, but outside the body.
     let bent = (radius / fit.scale).min(radius).max(body_radius(form, limb, low, high) + CLEARANCE_M);
     let span = places.iter().fold(0.0, |most: f64, p| most.max(p.x.abs())) * fit.scale / radius;
     let per_m = fit.scale / radius * (ROUND * room_rad / span).min(1.0);
     places.iter().map(|p| limb.point(fit.to.x / radius + p.x * per_m, bent, fit.to.y + p.y)).collect()
 }
 
-/// Whether a piece is sewn to one other only, with both its sides into a slit in that: a godet.
+/// True for a godet: a piece that is sewn to one other only, with both its sides into a slit in that.
 pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
     let rest = &joins.garment.rest;
     let others: Vec<usize> = (0..joins.garment.pieces.len()).filter(|&other| other != piece).collect();
@@ -97,8 +100,8 @@ pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
     is_only_partner && sides.are_a_slit && !is_other_half(&own, &goal)
 }
 
-/// Whether places lie as the mirror image of their partners, as those of front and back of a skirt do; along the two sides of a slit
-/// they lie so as well as not.
+/// True if places fit their partners much better as a mirror image, as for front and back of a skirt. Along the two
+/// sides of a slit they fit about as well without mirroring.
 fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
     let error = |own: &[V2]| {
         let fit = Similarity::of(own, goal);
@@ -111,11 +114,11 @@ fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
 
 /// The points at which a piece is sewn, in its own plane.
 struct Sides {
-    /// Sideways and up from the middle, and the distance of the partner from the axis, m.
+    /// Place sideways and up from the middle, and the partner's distance from the axis, m.
     points: Vec<(V2, f64)>,
-    /// How far apart, sideways, the partners lie over how far apart the points do.
+    /// Sideways scale from the points to their partners.
     squeezed: f64,
-    /// Whether both sides are sewn into one slit.
+    /// True if both sides are sewn into one slit.
     are_a_slit: bool,
 }
 
@@ -134,7 +137,7 @@ impl Sides {
         Self { points: own.into_iter().zip(from_axis).collect(), squeezed: scale.x, are_a_slit }
     }
 
-    /// A point of what is folded outwards from the slit at `middle`, like a tent.
+    /// Place of a point of a piece that is folded outwards from the slit at `middle`, like a tent.
     fn fold(&self, p: &V2, middle: &V2, radius: f64, limb: &Limb) -> V3 {
         let [half_width, from_axis] = self.beside(p).unwrap_or([p.x.abs(), radius]);
         let open = self.squeezed.max(OPEN);
@@ -142,7 +145,7 @@ impl Sides {
         limb.point((middle.x + p.x * open) / radius, from_axis + CLEARANCE_M + outwards, middle.y + p.y)
     }
 
-    /// Of the side nearer to a point, at its height: the distance from the middle, and the partner's from the axis, m.
+    /// Distance from the middle of the nearer side at a point's height, and the partner's distance from the axis, m.
     fn beside(&self, p: &V2) -> Option<[f64; 2]> {
         let own_side = || self.points.iter().filter(|(side, _)| side.x * p.x >= 0.0);
         let from = |y: f64| move |a: &&(V2, f64), b: &&(V2, f64)| (a.0.y - y).abs().total_cmp(&(b.0.y - y).abs());
@@ -155,7 +158,7 @@ impl Sides {
     }
 }
 
-/// Angles made continuous along the piece: neighbours on its longer side differ by less than half a turn.
+/// Angles unwrapped along the principal axis of the piece: neighbours differ by at most half a turn.
 fn unwrapped(own: &[V2], angles: &[f64]) -> Vec<f64> {
     let mean = own.iter().sum::<V2>() / own.len() as f64;
     let spread = own.iter().map(|p| (p - mean) * (p - mean).transpose()).sum::<nalgebra::Matrix2<f64>>();
@@ -208,11 +211,11 @@ impl Similarity {
 
 /// Greatest distance of the limb's skin from its middle between two heights.
 pub fn body_radius(form: &Form, limb: &Limb, low: f64, high: f64) -> f64 {
-    // An arm's axis slopes, the others are upright.
+    // Only an arm's axis slopes.
     let skin = if limb.axis.up == V3::z() { &form.trunk } else { &form.arms };
     let own_side = |p: &&V3| limb.axis.origin.x == 0.0 || p.x * limb.axis.origin.x > 0.0;
     let near = skin.iter().filter(own_side).filter_map(|p| {
-        let (_, radius, height) = limb.coordinates(p);
+        let Cylindrical { radius, height, .. } = limb.coordinates(p);
         (low..=high).contains(&height).then_some(radius)
     });
     near.fold(0.0, f64::max)

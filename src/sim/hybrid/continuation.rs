@@ -1,22 +1,22 @@
-//! Pieces that follow others: cuffs, collars, bands. Such a piece goes on where the surface that it is sewn to ends.
+//! Continuation of the mapped surface over its edge onto pieces that only hang on others: cuffs, collars, bands.
 
 use crate::SimError;
 use geom::{V2, V3};
 use pattern::Garment;
 
-/// A place of a seam from which a piece goes on.
+/// A point of a seam with a tangent frame, from which a piece continues.
 struct Anchor {
-    /// The piece's own vertex.
+    /// Place of the piece's own vertex in its plane, m.
     rest: V2,
-    /// Along the seam and into the piece, in its plane.
+    /// Directions along the seam and into the piece, in its plane.
     axes: [V2; 2],
     place: V3,
     /// The same directions in space.
     ways: [V3; 2],
 }
 
-/// Places the pieces `followers`, each by what it is sewn to, those with the longest such seams first. `placed` says of each
-/// piece whether it is placed already.
+/// Places the pieces `followers`, each by the placed pieces that it is sewn to, those with the longest such seams
+/// first.
 ///
 /// # Errors
 /// [`SimError::CannotPlace`] when a piece is sewn to nothing that is placed.
@@ -48,16 +48,16 @@ fn anchors(garment: &Garment, pairs: &[[usize; 2]], positions: &[V3]) -> Vec<Anc
     let (rest, n) = (&garment.rest, pairs.len());
     let anchor = |k: usize| {
         let [own, other] = pairs[k];
-        // Both neighbours on the seam where it goes on on the same piece.
+        // Neighbours on the seam count where they lie near on the same piece.
         let far = 3.0 * garment.edge_length_m;
         let next_to = |j: usize| j < n && (rest[pairs[j][0]] - rest[own]).norm() < far && pairs[j][0] != own;
         let before = k.checked_sub(1).filter(|&j| next_to(j)).unwrap_or(k);
         let after = Some(k + 1).filter(|&j| next_to(j)).unwrap_or(k);
         let along = (rest[pairs[after][0]] - rest[pairs[before][0]]).try_normalize(0.0)?;
         let way = (positions[pairs[after][1]] - positions[pairs[before][1]]).try_normalize(0.0)?;
-        let middle = |v: usize, at: &dyn Fn(usize) -> V3| {
+        let middle = |v: usize, place: &dyn Fn(usize) -> V3| {
             let around: Vec<V3> =
-                garment.triangles.iter().filter(|t| t.contains(&v)).flatten().map(|&w| at(w)).collect();
+                garment.triangles.iter().filter(|t| t.contains(&v)).flatten().map(|&w| place(w)).collect();
             around.iter().sum::<V3>() / around.len().max(1) as f64
         };
         let flat = |w: usize| V3::new(rest[w].x, rest[w].y, 0.0);
@@ -70,7 +70,8 @@ fn anchors(garment: &Garment, pairs: &[[usize; 2]], positions: &[V3]) -> Vec<Anc
     (0..n).filter_map(anchor).collect()
 }
 
-/// Where a point of a piece goes: as each anchor would have it, the near ones above all.
+/// Place of a point of a piece: the mean of its places by all anchors, weighted by the inverse fourth power of their
+/// distance.
 fn continued(anchors: &[Anchor], p: V2) -> V3 {
     let (mut sum, mut weights) = (V3::zeros(), 0.0);
     for anchor in anchors {

@@ -9,13 +9,13 @@ use pattern::Garment;
 
 geom::constants! {
     "hybrid.sewn",
-    /// Share of the way to the middle of its neighbours that a vertex goes each time [T 5.3.3].
+    /// Share of the way to the middle of its neighbours by which a vertex moves each time [T 5.3.3].
     const SMOOTHING: f64 = 0.1;
-    /// Times [T 5.3.3].
+    /// Number of smoothing steps [T 5.3.3].
     const TIMES: u32 = 100;
 }
 
-/// A garment as one mesh.
+/// A garment as one mesh, the vertices of each seam pair welded.
 #[derive(Clone, Debug)]
 pub struct Sewn {
     /// Sewn vertex of each garment vertex.
@@ -46,7 +46,7 @@ impl Sewn {
         Self { x: sewing::merged(&vertex_of, positions), vertex_of, triangles, loops }
     }
 
-    /// Its pieces before they are sewn.
+    /// The pieces before they are sewn, no vertex welded.
     #[must_use]
     pub fn pieces(garment: &Garment, positions: &[V3]) -> Self {
         let (vertex_of, triangles) = (sewing::unsewn(garment), garment.triangles.clone());
@@ -59,7 +59,7 @@ impl Sewn {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Laplacian smoothing of the free edges (5.3), so many times.
+    /// Smooths the free edges (5.3) by a number of steps of explicit Laplacian smoothing.
     pub fn smooth(&mut self, times: u32) {
         for ring in &self.loops {
             let n = ring.len();
