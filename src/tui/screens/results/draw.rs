@@ -8,8 +8,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 use crate::overlays::explanation::Selected;
 use crate::screens::measurements::{self, draw as measured};
 use crate::screens::page::Draw;
-use crate::screens::picture_pane::actions::drape_in;
-use crate::screens::picture_pane::actions::requests;
+use crate::screens::picture_pane::actions::{drape_in, requests};
 use crate::screens::picture_pane::draw::draw_drape;
 use crate::screens::results::ResultsScreen;
 use crate::screens::state::State;
@@ -53,7 +52,7 @@ impl Draw for ResultsScreen {
     }
 
     fn explained(&self, state: &State) -> Selected {
-        measurements::draw::explained(state)
+        measured::explained(state)
     }
 
     fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {

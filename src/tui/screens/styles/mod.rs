@@ -17,8 +17,7 @@ use crate::screens::catalogue::may_change;
 use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page, open_editor};
 use crate::screens::state::State;
-use crate::screens::styles::state::Own;
-use crate::screens::styles::state::StylesScreen;
+use crate::screens::styles::state::{Own, StylesScreen};
 use study::Part;
 
 impl Page for StylesScreen {

@@ -1,7 +1,7 @@
 //! Drawing the subjects.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Rect, Size};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
@@ -14,10 +14,8 @@ use crate::screens::subjects::state::{SHOWN, SubjectOrder, SubjectsScreen};
 use crate::widgets::jump::{self, Target};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{listed, no_rows, pane, scrolled};
-use crate::widgets::picture::PictureRequest;
-use crate::widgets::picture::Pictured;
+use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
-use ratatui::layout::Size;
 use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
