@@ -60,7 +60,7 @@ fn letters_go_to_cells_rows_panes_and_edges() {
     bench.press("3");
     let keys = letters(&mut bench, |goal| goal == Goal::Item(6));
     bench.press(&keys);
-    let layout = bench.app.screens.styles.layout(&bench.app.state).and_then(Result::ok).expect("laid out");
+    let layout = bench.layout();
     assert_eq!(Some(&bench.app.screens.styles.edge), layout.edges().get(6));
     assert!(bench.app.state.in_second_pane());
 

@@ -22,6 +22,7 @@ use ratatui::layout::Size;
 use crate::app::{App, frame};
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
+use crate::messages::seams::SizeLayout;
 use crate::messages::snapshot::Snapshot;
 use crate::screens::state::Abilities;
 use crate::widgets::picture::{PictureRequest, Pictured};
@@ -131,6 +132,11 @@ impl Bench {
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
         terminal.draw(|frame| frame::draw(frame, &self.app)).expect("a test backend never fails");
         terminal.backend().clone()
+    }
+
+    /// The layout of the selected size.
+    fn layout(&self) -> &SizeLayout {
+        self.app.screens.styles.laid_out(&self.app.state).expect("laid out")
     }
 
     /// The screen as text.

@@ -16,12 +16,12 @@ use wardrobe::{Part, StyleGiven};
 
 /// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {
-    bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.desk.seams.clone()
+    bench.layout().out.desk.seams.clone()
 }
 
 /// Name of the selected edge's seam.
 fn seam(bench: &Bench) -> String {
-    let layout = bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits");
+    let layout = bench.layout();
     layout.seam_at(bench.app.screens.styles.edge).map_or("none".into(), |k| layout.out.desk.seams[k].name.clone())
 }
 
@@ -58,8 +58,7 @@ fn lines_and_edges_are_walked_together() {
     bench.press("j");
     assert_eq!(seam(&bench), seams(&bench)[1].name);
     bench.press("g");
-    let pieces =
-        bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.desk.pieces.clone();
+    let pieces = bench.layout().out.desk.pieces.clone();
     let edges: usize = pieces.iter().map(|piece| piece.edges.len()).sum();
     let start = bench.app.screens.styles.edge;
     for _ in 0..edges {
@@ -130,7 +129,7 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     let before = seams(&bench);
     bench.press("xjx");
     let [one, other] = [before[0].a[0], before[2].a[0]];
-    let layout = bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits");
+    let layout = bench.layout();
     let mm = |(piece, edge): (usize, usize)| layout.out.desk.pieces[piece].edges[edge].length_mm;
     assert!((mm(one) - mm(other)).abs() > 1.0, "the example needs unlike edges");
     bench.app.screens.styles.marks = vec![one, other];
@@ -145,7 +144,7 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
 
 /// Number of things to decide.
 fn undecided(bench: &Bench) -> usize {
-    bench.app.screens.styles.layout(&bench.app.state).expect("laid out").expect("it fits").out.undecided.len()
+    bench.layout().out.undecided.len()
 }
 
 #[test]

@@ -75,12 +75,10 @@ impl JobsScreen {
         let order = self.order;
         let name = |title: &str, by: JobOrder| {
             let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
-            let mark = if order.by != by {
-                ""
-            } else if rises {
-                "▲"
-            } else {
-                "▼"
+            let mark = match (order.by == by, rises) {
+                (false, _) => "",
+                (true, true) => "▲",
+                (true, false) => "▼",
             };
             format!("{title}{mark}")
         };

@@ -52,7 +52,7 @@ impl Draw for ResultsScreen {
     }
 
     fn explained(&self, state: &State) -> Selected {
-        measurements::draw::explained(state)
+        measured::explained(state)
     }
 
     fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {

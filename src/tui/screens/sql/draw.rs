@@ -196,13 +196,8 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
     let shown = table.columns_shown(width);
     let head = |k: usize| {
         let mark = match table.order {
-            Some((by, falls)) if by == k => {
-                if falls {
-                    "▼"
-                } else {
-                    "▲"
-                }
-            }
+            Some((by, true)) if by == k => "▼",
+            Some((by, false)) if by == k => "▲",
             _ => "",
         };
         let Column { width: room, is_number } = table.column_of(k);
@@ -212,14 +207,7 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
     let mut spans = vec![];
     let mut used = 0;
     for (n, &k) in shown.iter().enumerate() {
-        // The frozen column and what follows it are apart where columns lie between.
-        let gap = if n == 0 {
-            ""
-        } else if n == 1 && k > 1 {
-            "┊ "
-        } else {
-            "  "
-        };
+        let gap = gap(n, k);
         let style = if k == table.column { state.theme.bold() } else { state.theme.dim() };
         spans.push(Span::styled(gap, state.theme.dim()));
         let name = head(k);
@@ -242,6 +230,15 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
     lines
 }
 
+/// Gap before the column shown at a place: the first column is frozen, and set apart where columns lie between.
+fn gap(place: usize, column: usize) -> &'static str {
+    match place {
+        0 => "",
+        1 if column > 1 => "┊ ",
+        _ => "  ",
+    }
+}
+
 fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> Line<'static> {
     let Some(values) = table.values(row) else { return Line::default() };
     let is_selected = row == table.row;
@@ -251,13 +248,7 @@ fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> 
         let Column { width: room, is_number } = table.column_of(k);
         let cell = cell_text(&values[k]);
         let cell = if is_number { right(&cell, room) } else { left(&cell, room) };
-        let gap = if n == 0 {
-            ""
-        } else if n == 1 && k > 1 {
-            "┊ "
-        } else {
-            "  "
-        };
+        let gap = gap(n, k);
         let style = match (is_selected, k == table.column) {
             (true, true) => selection.add_modifier(Modifier::BOLD | Modifier::UNDERLINED),
             (true, false) => selection,

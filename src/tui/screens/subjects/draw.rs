@@ -1,7 +1,7 @@
 //! Drawing the subjects.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Rect, Size};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
@@ -16,7 +16,6 @@ use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{listed, no_rows, pane, scrolled};
 use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
-use ratatui::layout::Size;
 use results::Figure;
 use spec::MEASUREMENTS;
 use wardrobe::{SubjectRow, is_doubtful, percentile, percentile_text};
