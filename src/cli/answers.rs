@@ -64,7 +64,7 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     Ok(End::Done)
 }
 
-/// Whether a query is one word: no SQL is, but the name of a saved query.
+/// True if a query is one word: no SQL is, but the name of a saved query.
 fn is_name(query: &str) -> bool {
     query.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-')) && !query.is_empty()
 }

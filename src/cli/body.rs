@@ -197,7 +197,8 @@ fn pictured(
         (None, Some(field_deg)) => Some(Lens::FieldDeg(field_deg)),
         (None, None) => None,
     };
-    let camera = lens.zip(arguments.camera_distance_mm.map(from_mm));
+    let distance_m = arguments.camera_distance_mm.map(from_mm);
+    let camera = lens.zip(distance_m).map(|(lens, distance_m)| bodies::PictureCamera { lens, distance_m });
     let found = bodies::read_pictures(front, side, camera, sex, stature_m)?;
     for note in &found.notes {
         context.say(format_args!("{note}"));

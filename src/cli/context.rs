@@ -13,17 +13,17 @@ use wardrobe::catalogue;
 pub struct Context {
     /// Path of the database file.
     pub db: PathBuf,
-    /// Whether it was named, by a flag or the environment.
+    /// True where it was named, by a flag or the environment.
     pub is_db_named: bool,
-    /// Whether nothing may be changed.
+    /// True where nothing may be changed.
     pub readonly: bool,
-    /// Whether JSON was asked for.
+    /// True where JSON was asked for.
     pub json: bool,
-    /// Whether only errors are told.
+    /// True where only errors are told.
     pub quiet: bool,
-    /// Whether more is told.
+    /// True where more is told.
     pub verbose: bool,
-    /// Whether colours may be used.
+    /// True where colours may be used.
     pub colour: bool,
 }
 

@@ -90,11 +90,11 @@ type Outcome = Result<End, CliError>;
 pub struct Workbench {
     /// Path of the database file.
     pub database: PathBuf,
-    /// Whether it was named, so that commands have to name it too.
+    /// True where it was named, so that commands have to name it too.
     pub is_database_named: bool,
-    /// Whether nothing may be changed.
+    /// True where nothing may be changed.
     pub readonly: bool,
-    /// Whether colours are off.
+    /// True where colours are off.
     pub no_color: bool,
     /// How pictures are shown: `auto`, `halfblocks` or `off`.
     pub images: String,

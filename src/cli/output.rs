@@ -29,7 +29,7 @@ pub fn printable(text: &str) -> String {
 
 /// The format that the name of a file to be written says: one of those whose endings are accepted.
 pub fn kind<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> Result<T, CliError> {
-    files::kind_of(path, accepted).map_err(CliError::Usage)
+    files::kind_of(path, accepted).map_err(|error| CliError::Usage(error.to_string()))
 }
 
 /// The format of a file to be written: what its name says, or what is asked for where its name has no ending.

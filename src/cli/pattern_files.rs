@@ -91,7 +91,7 @@ pub struct Written<'a> {
     pub seams: Option<&'a Path>,
     /// Standard of a DXF file.
     pub standard: Standard,
-    /// Whether the sample size is written alone, with a grade rule table beside it.
+    /// True where the sample size is written alone, with a grade rule table beside it.
     pub with_rul: bool,
 }
 

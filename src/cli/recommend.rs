@@ -98,8 +98,9 @@ fn explained(store: &Store, study: &str, answers: &[&Answer]) -> Result<String, 
         analysed(&mut text, analysis, *p_holm);
         line(&mut text, "crossover", &evidence::crossover_words(store, study, Some(garment))?);
     }
-    let (score, pairs) = evidence::rule_score(store, study)?;
-    if pairs > 0 {
+    let pairs = evidence::pairs(store, study)?;
+    if !pairs.is_empty() {
+        let score = fit::rule_score(&pairs);
         let _ = write!(text, "\nall garments\n");
         line(&mut text, "the rule", &format!("right in {} of {} loose or tight cases", score.right, score.of));
         line(&mut text, "crossover", &evidence::crossover_words(store, study, None)?);

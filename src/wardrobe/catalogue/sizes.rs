@@ -1,19 +1,19 @@
-//! The styles of the catalogue with their sizes, as lists show them and as seams are worked on.
+//! Sizes of the styles of the catalogue: as lists show them, and as pieces of work on their seams.
 
 use rusqlite::{OptionalExtension, Row};
 
 use crate::catalogue::style::seam_file;
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
-use pattern::size_order;
+use pattern::{Style, size_order};
 use spec::patterns;
 use store::files::SourceFile;
-use store::{Result, SizeKey, Store, StudyError};
+use store::{JobId, Result, SizeKey, Store, StudyError};
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SizeRow {
-    /// Rows of the two revisions.
+    /// Numbers of the two revisions.
     pub key: SizeKey,
     /// Name of the style.
     pub style: String,
@@ -33,7 +33,7 @@ pub struct SizeRow {
     pub unconfirmed: usize,
 }
 
-/// The current sizes of all styles, by style and from the smallest to the largest.
+/// The current sizes of all styles, by style, from the smallest to the largest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -88,4 +88,17 @@ pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
     };
     let found = store.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;
     found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
+}
+
+/// The style that a job was made from.
+///
+/// # Errors
+/// When there is no such job.
+pub fn style_of(store: &Store, id: JobId) -> Result<Style> {
+    let sql = "SELECT style_id, size_id FROM job WHERE job_id = ?";
+    let row = |row: &Row<'_>| Ok(SizeKey { style: row.get(0)?, size: row.get(1)? });
+    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+    let Workpiece { pattern, seams, size, unit } = workpiece(store, found.ok_or_else(missing)?)?;
+    patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit)
 }
