@@ -148,8 +148,8 @@ pub fn read_pictures(
     body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m).origin(Origin::Body)
 }
 
-/// Writes the control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
-/// girths as vertex numbers.
+/// Writes the control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature
+/// lines and girths as vertex numbers.
 ///
 /// # Errors
 /// When the JSON cannot be written.

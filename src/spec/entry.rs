@@ -1,5 +1,5 @@
-//! Entries of the catalogue, made of named numbers and texts. Study files, imported tables, flags and forms are all read
-//! here, so that a value is accepted by all of them or by none.
+//! Entries of the catalogue, made of named numbers and texts. Study files, imported tables, flags and forms are all
+//! read here, so that a value is accepted by all of them or by none.
 
 use std::ops::RangeInclusive;
 

@@ -20,8 +20,8 @@ impl Study {
     }
 }
 
-/// Files that reproduce a study elsewhere. Measurements, fabrics and parameters are numbers of the study file; patterns and
-/// scans lie beside it. Each job has the same inputs as before, since the file names nothing of the catalogue.
+/// Files that reproduce a study elsewhere. Measurements, fabrics and parameters are numbers of the study file; patterns
+/// and scans lie beside it. Each job has the same inputs as before, since the file names nothing of the catalogue.
 #[must_use]
 pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     let mut files: Files = BTreeMap::new();
@@ -130,8 +130,8 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
     }
 }
 
-/// Puts a file, or the files of a folder, below `folder` under its own name, since the name is an input of results. Where
-/// another file has the name, it goes one folder deeper. Returns its path.
+/// Puts a file, or the files of a folder, below `folder` under its own name, since the name is an input of results.
+/// Where another file has the name, it goes one folder deeper. Returns its path.
 pub fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {

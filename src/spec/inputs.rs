@@ -1,4 +1,5 @@
-//! The inputs of a job as named values. Results are keyed by their hash, and a miss of the cache is explained by their changes.
+//! The inputs of a job as named values. Results are keyed by their hash, and a miss of the cache is explained by their
+//! changes.
 
 use std::collections::BTreeMap;
 use std::fmt;

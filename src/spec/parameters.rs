@@ -165,8 +165,8 @@ fn defaults() -> BTreeMap<String, Value> {
     found
 }
 
-/// Hash of the default parameters and constants of a simulator, by name and value, hex. It changes with a number, but not
-/// with the name of a type.
+/// Hash of the default parameters and constants of a simulator, by name and value, hex. It changes with a number, but
+/// not with the name of a type.
 pub(crate) fn default_hash(simulator: Simulator) -> String {
     deciding(simulator).into_iter().collect::<Inputs>().hash()
 }

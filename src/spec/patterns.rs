@@ -186,8 +186,8 @@ pub fn read_style(
     Ok(style)
 }
 
-/// Refuses a style without pieces, or with pieces that no person could wear, since its file is then in another unit than
-/// it says.
+/// Refuses a style without pieces, or with pieces that no person could wear, since its file is then in another unit
+/// than it says.
 fn check_scale(style: &Style, file: &str) -> Result<()> {
     if style.pieces.is_empty() {
         return Err(SpecError::NoPiece { pattern: file.to_owned() }.into());

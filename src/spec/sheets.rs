@@ -1,5 +1,5 @@
-//! Numbers of a fabric in the units of laboratories and other programs: KES-F, FAST, a cantilever, CLO. Each is converted
-//! to a number of [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS) as it is read.
+//! Numbers of a fabric in the units of laboratories and other programs: KES-F, FAST, a cantilever, CLO. Each is
+//! converted to a number of [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS) as it is read.
 
 use std::sync::LazyLock;
 

@@ -1,5 +1,5 @@
-//! The cache of products: each is kept by the hash of all its inputs. The latest stay in memory while a run lasts, and all
-//! are in the database. Where two workers need the same product at once, one makes it and the other waits.
+//! The cache of products: each is kept by the hash of all its inputs. The latest stay in memory while a run lasts, and
+//! all are in the database. Where two workers need the same product at once, one makes it and the other waits.
 
 use std::any::Any;
 use std::collections::{BTreeMap, VecDeque};
@@ -146,8 +146,8 @@ impl Cache {
         Ok((product, used(was_cached)))
     }
 
-    /// Notes a product that was put into memory, and drops the oldest ones beyond `most` bytes. A worker that still uses
-    /// one of those keeps its own reference.
+    /// Notes a product that was put into memory, and drops the oldest ones beyond `most` bytes. A worker that still
+    /// uses one of those keeps its own reference.
     fn keep(&self, hash: &str, size: usize, most: usize) {
         let mut filled = lock(&self.filled);
         filled.push_back((hash.to_owned(), size));
@@ -175,8 +175,8 @@ pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>
     }))
 }
 
-/// Stores bytes by their hash, compressed, since most of a distance field is far from the body and constant. Bytes of an
-/// earlier program that cannot be read any more are replaced.
+/// Stores bytes by their hash, compressed, since most of a distance field is far from the body and constant. Bytes of
+/// an earlier program that cannot be read any more are replaced.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
     packer.write_all(bytes).origin(Origin::Store)?;

@@ -89,8 +89,8 @@ fn open_to_read(path: &Path, flags: OpenFlags) -> rusqlite::Result<Connection> {
     }
 }
 
-/// Switches to write-ahead logging. The switch needs the file for itself, and SQLite does not wait for that. Two programs
-/// may make the same database at once, so it is tried again until the patience ends.
+/// Switches to write-ahead logging. The switch needs the file for itself, and SQLite does not wait for that. Two
+/// programs may make the same database at once, so it is tried again until the patience ends.
 fn use_log(connection: &Connection) -> rusqlite::Result<()> {
     let end = Instant::now() + patience();
     loop {
@@ -136,8 +136,8 @@ fn refuse_network(path: &Path) -> Result<()> {
     }
 }
 
-/// Kind of the file system that a folder lies on, from the text of `/proc/self/mountinfo`: that of the longest mount point
-/// above it, and of several mounts at one point the last.
+/// Kind of the file system that a folder lies on, from the text of `/proc/self/mountinfo`: that of the longest mount
+/// point above it, and of several mounts at one point the last.
 fn file_system<'t>(mounts: &'t str, folder: &Path) -> Option<&'t str> {
     let mut best: Option<(usize, &str)> = None;
     for line in mounts.lines() {

@@ -53,8 +53,8 @@ impl SourceFile {
         Ok(Self { name: name_of(path), bytes: bytes.into() })
     }
 
-    /// Reads a pattern: a file, or all DXF files of a folder, by name. Of a folder without DXF files it is the one JSON file
-    /// that is a pattern, under any name.
+    /// Reads a pattern: a file, or all DXF files of a folder, by name. Of a folder without DXF files it is the one JSON
+    /// file that is a pattern, under any name.
     ///
     /// # Errors
     /// When it cannot be read, or the folder has no DXF file and not just one pattern as JSON.

@@ -18,8 +18,8 @@ pub struct LiveFrame {
     pub positions: Vec<V3>,
 }
 
-/// Exchange between a run and the screen that watches it. A frame is copied only after the one before was taken, so that
-/// watching costs a simulation a copy of its vertices a few times a second. It does not touch results.
+/// Exchange between a run and the screen that watches it. A frame is copied only after the one before was taken, so
+/// that watching costs a simulation a copy of its vertices a few times a second. It does not touch results.
 #[derive(Debug, Default)]
 pub struct Live {
     watched: AtomicI64,

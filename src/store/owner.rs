@@ -89,8 +89,8 @@ fn boot() -> String {
     std::fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|id| id.trim().to_owned()).unwrap_or_default()
 }
 
-/// Start of a process, clock ticks since boot; `None` when it does not run any more. It tells a process from a later one
-/// of the same number.
+/// Start of a process, clock ticks since boot; `None` when it does not run any more. It tells a process from a later
+/// one of the same number.
 fn start_ticks(pid: u32) -> Option<u64> {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     let mut fields = stat.rsplit_once(')')?.1.split_whitespace();

@@ -72,7 +72,8 @@ pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     }
 }
 
-/// Applies an event to a stored job. Returns its new state; `None` where the event does not apply and the job stays as it is.
+/// Applies an event to a stored job. Returns its new state; `None` where the event does not apply and the job stays as
+/// it is.
 pub fn apply(
     transaction: &Transaction<'_>,
     id: JobId,

@@ -30,7 +30,8 @@ impl FromStr for JobId {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubjectId(pub i64);
 
-/// Numbers of the revisions of a style and of one of its sizes in their database. Their pattern and seam file never change.
+/// Numbers of the revisions of a style and of one of its sizes in their database. Their pattern and seam file never
+/// change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SizeKey {
     /// Row of the style.
@@ -294,8 +295,8 @@ pub struct MetricsRow {
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth; `None` for results of earlier programs, which did not count them.
     pub self_crossings: Option<u32>,
-    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of earlier programs, which did
-    /// not measure it.
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of earlier programs, which
+    /// did not measure it.
     pub distortion: Option<f64>,
 }
 
@@ -381,6 +382,11 @@ pub struct Table {
 }
 
 impl Table {
+    /// Makes a table of columns and rows.
+    pub fn new<'a>(columns: impl IntoIterator<Item = &'a str>, rows: impl IntoIterator<Item = Vec<Value>>) -> Self {
+        Self { columns: columns.into_iter().map(str::to_owned).collect(), rows: rows.into_iter().collect() }
+    }
+
     /// Returns it as CSV. Texts that a spreadsheet would take for formulas are guarded.
     #[must_use]
     pub fn csv(&self) -> String {

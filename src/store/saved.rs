@@ -29,8 +29,8 @@ pub struct SavedQuery {
     pub sql: String,
 }
 
-/// The saved queries by name: those of the program, and those of a folder with a file NAME.sql each. Of two with the same
-/// name the one of the folder counts.
+/// The saved queries by name: those of the program, and those of a folder with a file NAME.sql each. Of two with the
+/// same name the one of the folder counts.
 ///
 /// # Errors
 /// When the folder has a file that cannot be read.

@@ -96,7 +96,8 @@ mod tests {
         assert_eq!(std::fs::read_to_string(SCHEMA).expect("db/schema.sql"), schema);
     }
 
-    /// The migrations as they were before crossings were counted and reports remembered: both came in without a version.
+    /// The migrations as they were before crossings were counted and reports remembered: both came in without a
+    /// version.
     fn of_the_first_days() -> [String; 9] {
         std::array::from_fn(|k| {
             let sql = MIGRATIONS[k];

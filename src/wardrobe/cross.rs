@@ -55,11 +55,12 @@ enum Wearer {
 }
 
 impl Wardrobe {
-    /// Makes the study. Patterns without seams are sewn as proposed. Files that cannot be read or sewn are listed with the
-    /// reason.
+    /// Makes the study. Patterns without seams are sewn as proposed. Files that cannot be read or sewn are listed with
+    /// the reason.
     ///
     /// # Errors
-    /// When a folder cannot be read or has no file that can be used, or the table of pairs names a file that is not there.
+    /// When a folder cannot be read or has no file that can be used, or the table of pairs names a file that is not
+    /// there.
     pub fn open(&self) -> Result<Opened> {
         let mut opened = Opened::default();
         let bodies = self.wearers(&mut opened)?;

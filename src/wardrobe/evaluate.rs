@@ -1,4 +1,5 @@
-//! Accuracy of the measurement of bodies: every body of a folder, from each of its sources, against its true measurements.
+//! Accuracy of the measurement of bodies: every body of a folder, from each of its sources, against its true
+//! measurements.
 //!
 //! The folder holds `manifest.csv` (id, sex, file) and `measurements.csv` (the truth, cm). It may hold `scans.csv`
 //! (id, file) and `images.csv` (id, kind, view, projection, file, camera).
@@ -89,7 +90,8 @@ pub struct Evaluation {
 /// Measures every body of a folder from its mesh, scans, silhouettes and photographs.
 ///
 /// # Errors
-/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is listed with the reason.
+/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is listed with the
+/// reason.
 pub fn evaluate(folder: &Path) -> Result<Evaluation> {
     let manifest = table(folder, "manifest.csv")?;
     let truth: BTreeMap<String, Row> =

@@ -348,8 +348,8 @@ pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> 
     body::read_foreign(&source.bytes, sex).map_err(in_file)
 }
 
-/// Makes the body of a file of measurements or of a mesh; returns it with remarks on guesses. `unit` and `sex` count where
-/// they cannot be inferred from the file.
+/// Makes the body of a file of measurements or of a mesh; returns it with remarks on guesses. `unit` and `sex` count
+/// where they cannot be inferred from the file.
 ///
 /// # Errors
 /// When it cannot be used.

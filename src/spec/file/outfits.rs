@@ -56,8 +56,8 @@ fn layers<'k>(
     Some(found.into_iter().copied().collect())
 }
 
-/// The sizes that are worn together, one of each layer: those that are named, or else all that the layers have in common, or
-/// else the only size of each.
+/// The sizes that are worn together, one of each layer: those that are named, or else all that the layers have in
+/// common, or else the only size of each.
 fn sizes(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Option<Vec<Vec<SizeFile>>> {
     let size_of = |layer: &GarmentEntry, name: &str| layer.sizes.iter().find(|size| size.name == name).cloned();
     if let Some(named) = reader.texts(place, "sizes") {
@@ -115,7 +115,8 @@ fn span(place: &Place<'_>, key: &str) -> std::ops::Range<usize> {
     place.table.get(key).map_or(place.span.clone(), Spanned::span)
 }
 
-/// The layers of an outfit as garments. Each waits for the layer under it, since one simulation drapes them all, and its result is kept.
+/// The layers of an outfit as garments. Each waits for the layer under it, since one simulation drapes them all, and
+/// its result is kept.
 fn worn(outfit: &str, layers: &[&GarmentEntry], sizes: &[Vec<SizeFile>], subjects: &[String]) -> Vec<GarmentEntry> {
     let together: Vec<GarmentEntry> = layers
         .iter()

@@ -75,8 +75,8 @@ fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Opt
     read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
 }
 
-/// A subject in each of some poses, named after them; without poses the subject as it is. Garments are put on in the pose
-/// `from`, where it is given, and carried into the others.
+/// A subject in each of some poses, named after them; without poses the subject as it is. Garments are put on in the
+/// pose `from`, where it is given, and carried into the others.
 fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<Subject> {
     let reached = |pose: &Pose| from.map_or(*pose, |from| from.then(*pose));
     let in_pose = |id: String, pose: Option<Pose>| {

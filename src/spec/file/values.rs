@@ -43,7 +43,8 @@ pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>,
     }
 }
 
-/// Returns an entry by name; adds a problem with a suggestion where there is none. Where the entry may be of the catalogue, the first word of `what` is its part.
+/// Returns an entry by name; adds a problem with a suggestion where there is none. Where the entry may be of the
+/// catalogue, the first word of `what` is its part.
 pub(super) fn lookup<'k, T>(
     reader: &mut Reader<'_>,
     known: &'k BTreeMap<String, T>,

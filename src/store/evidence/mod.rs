@@ -1,4 +1,5 @@
-//! Evidence of a study: which simulator has the lower error, judged from pairs of results and stored for `v_recommendation`.
+//! Evidence of a study: which simulator has the lower error, judged from pairs of results and stored for
+//! `v_recommendation`.
 
 pub(crate) mod judge;
 mod published;
@@ -40,7 +41,8 @@ pub fn crossover_words(store: &Store, study: &str, garment: Option<&str>) -> Res
     Ok(fit::crossover(&chosen).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
 }
 
-/// Judges the results of a study again and stores the evidence for `v_recommendation`. Does nothing in a read-only store.
+/// Judges the results of a study again and stores the evidence for `v_recommendation`. Does nothing in a read-only
+/// store.
 ///
 /// # Errors
 /// When the database cannot be read or written.

@@ -7,10 +7,10 @@ use crate::error::Result;
 use fit::{Cuts, Errors, Pair, Simulator};
 use geom::units::from_mm;
 
-/// A row for each measurement of each case and simulator. The thesis prints no pattern girth at chest or hip, so the ease
-/// is a substitute: the hem girth less the chest girth for tops and the dress, the waist girth less the hip girth for
-/// trousers. The lengths are FEM's L2D, since Table 6-21 prints another length as the waist. Subjects of both sexes have
-/// the same names, so the sex is put before the name.
+/// A row for each measurement of each case and simulator. The thesis prints no pattern girth at chest or hip, so the
+/// ease is a substitute: the hem girth less the chest girth for tops and the dress, the waist girth less the hip girth
+/// for trousers. The lengths are FEM's L2D, since Table 6-21 prints another length as the waist. Subjects of both sexes
+/// have the same names, so the sex is put before the name.
 const ROWS: &str = "
     WITH girth AS (
         SELECT garment, size, l2d_mm FROM published

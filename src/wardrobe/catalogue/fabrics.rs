@@ -30,8 +30,8 @@ impl FabricRow {
         self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
     }
 
-    /// Kind of a fabric of the library, in words: one cloth, with the parts that are of another, or a class, with the bending
-    /// lengths of eight tenths of its cloths. `None` for any other fabric.
+    /// Kind of a fabric of the library, in words: one cloth, with the parts that are of another, or a class, with the
+    /// bending lengths of eight tenths of its cloths. `None` for any other fabric.
     #[must_use]
     pub fn stands_for(&self) -> Option<String> {
         let known = self.fabric.known()?;
@@ -49,8 +49,8 @@ impl FabricRow {
         Some(format!("{}{told}", known.kind))
     }
 
-    /// Force per width, N/m, that stretches a strip by a share of its length, along the grain and across it. The strip is
-    /// free to become narrower.
+    /// Force per width, N/m, that stretches a strip by a share of its length, along the grain and across it. The strip
+    /// is free to become narrower.
     #[must_use]
     pub fn tensions_n_m(&self, stretch: f64) -> [f64; 2] {
         let strain = stretch * (1.0 + 0.5 * stretch);
@@ -88,8 +88,9 @@ const BENDING: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// Adds columns to a table of fabrics that has those of `v_fabrics`: the kind of a fabric of the library, its parts that are
-/// of another cloth, its bending lengths, their ranks among the known cloths of its weight, and the range of a class.
+/// Adds columns to a table of fabrics that has those of `v_fabrics`: the kind of a fabric of the library, its parts
+/// that are of another cloth, its bending lengths, their ranks among the known cloths of its weight, and the range of a
+/// class.
 #[must_use]
 pub fn with_bending(mut table: Table) -> Table {
     let column_of = |key: &str| table.columns.iter().position(|column| column == key);

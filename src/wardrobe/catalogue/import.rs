@@ -20,7 +20,8 @@ use store::{Problem, Result, Store, StudyError};
 pub enum Strictness {
     /// No entry is imported.
     AllOrNone,
-    /// Rows without a problem are imported, and the others reported. A table that cannot be read at all is still refused.
+    /// Rows without a problem are imported, and the others reported. A table that cannot be read at all is still
+    /// refused.
     GoodRows,
 }
 
@@ -33,9 +34,9 @@ pub struct Imported {
     pub left_out: Vec<Problem>,
 }
 
-/// Imports all entries of some files into the catalogue. They are study files, TOML with tables of a study file, and for
-/// subjects and fabrics CSV with the same keys. A scan becomes a subject with the name of its file. `strictness` decides
-/// on files with problems.
+/// Imports all entries of some files into the catalogue. They are study files, TOML with tables of a study file, and
+/// for subjects and fabrics CSV with the same keys. A scan becomes a subject with the name of its file. `strictness`
+/// decides on files with problems.
 ///
 /// # Errors
 /// All problems of the files, each with its line.

@@ -1,6 +1,6 @@
-//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, or makes an earlier one of
-//! the same content current. Revisions never change, since results refer to them. An entry that results use is only hidden
-//! when it is removed.
+//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, or makes an earlier one
+//! of the same content current. Revisions never change, since results refer to them. An entry that results use is only
+//! hidden when it is removed.
 
 mod fabrics;
 mod format;
@@ -174,7 +174,8 @@ trait Stored: Sync {
 impl Stored for Person {
     const PART: Part = Part::Subject;
 
-    /// Makes the body, since only that shows whether a person can have the measurements, and whether a scan can wear garments.
+    /// Makes the body, since only that shows whether a person can have the measurements, and whether a scan can wear
+    /// garments.
     fn verify(&self) -> std::result::Result<Vec<String>, String> {
         self.body().map_err(|error| error.to_string())?;
         Ok(doubts(&self.measurements))
@@ -253,7 +254,8 @@ pub struct ScanGiven {
     pub sex: Option<Sex>,
 }
 
-/// Saves a subject: given values in place of those that it has, or of none. The body is built to check that it is possible.
+/// Saves a subject: given values in place of those that it has, or of none. The body is built to check that it is
+/// possible.
 ///
 /// # Errors
 /// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the
@@ -274,8 +276,8 @@ pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) 
 /// Saves a subject whose body is a scan, with the measurements that are taken on it.
 ///
 /// # Errors
-/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is open
-/// read-only.
+/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is
+/// open read-only.
 pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
     let ScanGiven { file, unit, sex } = given;
     let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };

@@ -48,7 +48,8 @@ struct Draft {
 /// Saves a style: its seam file and its sizes. Every size, given now or earlier, must fit the seams.
 ///
 /// # Errors
-/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open read-only.
+/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open
+/// read-only.
 pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
     check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
     let sizes = sizes_given(store, name, given)?;
@@ -66,8 +67,8 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
     store_style(store, mode, Draft { name: name.to_owned(), seams, sizes })
 }
 
-/// Proposes the seam file of all sizes of a style. It is made on the sample size of a pattern that holds several sizes, the
-/// last one where there are several such patterns, or else on the middle size.
+/// Proposes the seam file of all sizes of a style. It is made on the sample size of a pattern that holds several sizes,
+/// the last one where there are several such patterns, or else on the middle size.
 fn proposed(style: &str, sizes: &[KnownSize]) -> Result<SourceFile> {
     let unit_of = |unit: &Option<String>| unit.as_deref().and_then(patterns::unit_of);
     let mut made_on = &sizes[sizes.len() / 2];
@@ -138,8 +139,8 @@ pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) 
     saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
 }
 
-/// Imports the garments of study files, or of files with garments only, into the catalogue; for [`Part::Size`] only their
-/// sizes.
+/// Imports the garments of study files, or of files with garments only, into the catalogue; for [`Part::Size`] only
+/// their sizes.
 pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
     let mut drafts: Vec<Placed<Draft>> = Vec::new();
     let mut problems = Vec::new();
@@ -204,7 +205,8 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Kno
     Ok(sizes)
 }
 
-/// Problems of sizes that do not fit the seams of a draft: its own sizes, and with new seams also those of the catalogue.
+/// Problems of sizes that do not fit the seams of a draft: its own sizes, and with new seams also those of the
+/// catalogue.
 fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     let (seams, is_new) = match (&draft.seams, seams_of(store, &draft.name)?) {
         (Seams::Given(seams), _) => (seams.clone(), true),

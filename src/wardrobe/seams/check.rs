@@ -50,8 +50,8 @@ impl SizeCheck {
     }
 }
 
-/// Checks every size of every garment of a study, by the path of its file or its folder. Subjects and fabrics that the file
-/// names are looked up in `database`, if it exists.
+/// Checks every size of every garment of a study, by the path of its file or its folder. Subjects and fabrics that the
+/// file names are looked up in `database`, if it exists.
 ///
 /// # Errors
 /// Problems of the study file itself; the problem of a pattern is in its row.

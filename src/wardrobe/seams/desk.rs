@@ -1,5 +1,5 @@
-//! The desk: pieces as they lie in the arrangement, with their numbered edges and their seams, as pictures and edits of a
-//! seam file need them. Also the proposal of seams, and the confidences that a seam file keeps of it.
+//! The desk: pieces as they lie in the arrangement, with their numbered edges and their seams, as pictures and edits of
+//! a seam file need them. Also the proposal of seams, and the confidences that a seam file keeps of it.
 
 use std::path::Path;
 
@@ -28,7 +28,8 @@ pub struct DeskEdge {
     pub number: usize,
     /// Name in the seam file; `None` where it has none yet.
     pub name: Option<String>,
-    /// Points, counter-clockwise, mm. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the origin.
+    /// Points, counter-clockwise, mm. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the
+    /// origin.
     pub line_mm: Vec<[f64; 2]>,
     /// Length of the sew line, mm.
     pub length_mm: f64,
@@ -39,7 +40,8 @@ pub struct DeskEdge {
 }
 
 impl DeskEdge {
-    /// Its midpoint, mm, and there the unit normal into the piece, which is to the left since edges run counter-clockwise.
+    /// Its midpoint, mm, and there the unit normal into the piece, which is to the left since edges run
+    /// counter-clockwise.
     #[must_use]
     pub fn middle(&self) -> [[f64; 2]; 2] {
         let mut rest_mm = self.length_mm / 2.0;
@@ -256,8 +258,8 @@ pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Opti
     Ok(Desk::of(&patterns::style(pattern, seams, size, unit)?))
 }
 
-/// Confidences of the seams of a seam file, by their order in it, from the remarks `# confidence 0.83` beside their headers;
-/// `None` for a seam that is confirmed or was not proposed.
+/// Confidences of the seams of a seam file, by their order in it, from the remarks `# confidence 0.83` beside their
+/// headers; `None` for a seam that is confirmed or was not proposed.
 pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     let Ok(document) = text.parse::<DocumentMut>() else { return vec![] };
     let seams = document.get("seam").and_then(Item::as_array_of_tables);

@@ -1,5 +1,5 @@
-//! Pattern files with the tables beside them: grade rules and piece information. They are inspected, reduced to features,
-//! and converted to other formats.
+//! Pattern files with the tables beside them: grade rules and piece information. They are inspected, reduced to
+//! features, and converted to other formats.
 
 use std::path::Path;
 
@@ -49,8 +49,8 @@ impl Beside<'_> {
         Ok((pattern, notes))
     }
 
-    /// The pattern of a file, in the size that is asked for, after a check that all its pieces can be sewn; with remarks on
-    /// the tables beside it.
+    /// The pattern of a file, in the size that is asked for, after a check that all its pieces can be sewn; with
+    /// remarks on the tables beside it.
     fn usable_pattern(&self, source: &SourceFile) -> Result<(PatternFile, Vec<String>)> {
         let read = source::read(&source.bytes, &source.name, self.unit).origin(Origin::Pattern)?;
         let (mut pattern, notes) = self.complete(read)?;
@@ -71,8 +71,8 @@ impl Beside<'_> {
     }
 }
 
-/// Reports the contents of a pattern file of any kind, or of every one below a folder, by name. A file that cannot be read
-/// has its error in its report.
+/// Reports the contents of a pattern file of any kind, or of every one below a folder, by name. A file that cannot be
+/// read has its error in its report.
 ///
 /// # Errors
 /// When the path cannot be read, or a file beside it is wrong.
@@ -110,7 +110,8 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>
     Ok((serde_json::to_string_pretty(&features).origin(Origin::Pattern)?, notes))
 }
 
-/// Writes a pattern as DXF by a standard, half pieces as halves and all its sizes as a nest; with remarks on the tables beside it.
+/// Writes a pattern as DXF by a standard, half pieces as halves and all its sizes as a nest; with remarks on the tables
+/// beside it.
 ///
 /// # Errors
 /// As [`features`].
@@ -130,8 +131,8 @@ pub struct Graded {
     pub notes: Vec<String>,
 }
 
-/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The DXF
-/// names the table.
+/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The
+/// DXF names the table.
 ///
 /// # Errors
 /// As [`features`]; and where a piece is not the same in every size.

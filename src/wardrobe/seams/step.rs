@@ -12,7 +12,8 @@ pub enum SeamStep {
     Confirm(String),
     /// Confirm all proposed seams that are sure.
     ConfirmSure,
-    /// Answer a question of a proposal. Seams are proposed anew, and those that were confirmed and are proposed again stay so.
+    /// Answer a question of a proposal. Seams are proposed anew, and those that were confirmed and are proposed again
+    /// stay so.
     Answer {
         /// The question, as it is asked.
         question: String,

@@ -14,8 +14,8 @@ type EdgeAt = (usize, usize);
 const OFFERED: usize = 4;
 /// Number of left out pieces that one question asks about.
 pub const LEFT_OUT: usize = 4;
-/// Weight of the distance of a partner over the extent of all pieces. This and the next three weights add to the relative
-/// difference of length.
+/// Weight of the distance of a partner over the extent of all pieces. This and the next three weights add to the
+/// relative difference of length.
 const FAR: f64 = 0.25;
 /// Weight of notches that do not match.
 const UNNOTCHED: f64 = 0.15;
@@ -250,8 +250,8 @@ fn names(desk: &Desk, chain: &[EdgeAt]) -> String {
     chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join(" + ")
 }
 
-/// Sides that an edge may be sewn to, of one or two edges in no seam. The likeliest is the first, by length, by notches and by
-/// place.
+/// Sides that an edge may be sewn to, of one or two edges in no seam. The likeliest is the first, by length, by notches
+/// and by place.
 fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     let free: Vec<EdgeAt> = desk.all_edges().filter(|at| *at != edge && desk.edge(*at).seam.is_none()).collect();
     let extent_mm = extent_mm(desk);
@@ -296,8 +296,8 @@ fn roles(desk: &Desk) -> [Role; 8] {
     [Front, Back, SleeveRight, SleeveLeft, SkirtFront, SkirtBack, Waistband, Other]
 }
 
-/// True if two pieces may be sewn to each other. A piece is sewn to itself only where it closes around a limb or the waist,
-/// and the two sleeves are never sewn to each other.
+/// True if two pieces may be sewn to each other. A piece is sewn to itself only where it closes around a limb or the
+/// waist, and the two sleeves are never sewn to each other.
 fn may_meet(desk: &Desk, one: usize, other: usize) -> bool {
     use Role::{LegLeft, LegRight, Other, SleeveLeft, SleeveRight, Waistband};
     let [role, partner] = [one, other].map(|piece| desk.pieces[piece].role);
@@ -366,8 +366,8 @@ mod tests {
         check(&all, "sleeve_left.cap", "armhole_left");
     }
 
-    /// Counts seams between two edges of a style whose seams are all opened: those whose other edge is offered first, those
-    /// where it is offered at all, and all.
+    /// Counts seams between two edges of a style whose seams are all opened: those whose other edge is offered first,
+    /// those where it is offered at all, and all.
     fn offered(style: &Style) -> [usize; 3] {
         let whole = Desk::of(style);
         let opened = Desk::of(&Style { seams: vec![], ..style.clone() });
