@@ -137,14 +137,7 @@ fn short(value: &Value) -> String {
 
 /// Rows as JSON objects, keys in order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
-    let cell = |value: &Value| match value {
-        Value::Null => Json::Null,
-        Value::Integer(number) => Json::from(*number),
-        Value::Real(number) => Json::from(*number),
-        Value::Text(text) => Json::from(text.as_str()),
-        Value::Blob(bytes) => Json::from(format!("<{bytes} bytes>")),
-    };
-    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(cell)).collect()).collect()
+    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()
 }
 
 #[cfg(test)]

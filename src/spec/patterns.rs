@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use crate::error::SpecError;
 use geom::units::mm;
 use pattern::dxf::PatternFile;
-use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
+use pattern::{Garment, Piece, garmentcode, scale, source};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 
 pub use pattern::check::{Finding, of_garment as garment_findings};
 pub use pattern::draft::Model;
+pub use pattern::drawing::{points_svg as points_sheet, svg as sheet};
 pub use pattern::dxf::Unit;
 pub use pattern::inspect::{FileReport, PieceReport};
 pub use pattern::{MeshQuality, Style};
@@ -207,18 +208,6 @@ pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)>
     let garment = style.mesh(edge_length_m).origin(Origin::Mesh)?;
     let quality = MeshQuality::of(&garment).ok_or(SpecError::NoTriangles)?;
     Ok((garment, quality))
-}
-
-/// Draws the style's pieces on a sheet, as SVG with numbered measurements.
-#[must_use]
-pub fn sheet(style: &Style) -> String {
-    drawing::svg(style)
-}
-
-/// Draws the style's pieces on a sheet, as SVG with numbered points of measure.
-#[must_use]
-pub fn points_sheet(style: &Style) -> String {
-    drawing::points_svg(style)
 }
 
 /// The files of a drafted style: a DXF file for each size, and the seam file.

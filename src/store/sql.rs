@@ -194,14 +194,8 @@ pub fn relations(store: &Store) -> Result<Vec<Relation>> {
 
 /// A row as a JSON object, keys in order of the columns.
 fn json_line(columns: &[String], row: &[Value]) -> String {
-    let cell = |value: &Value| match value {
-        Value::Null => serde_json::Value::Null,
-        Value::Integer(number) => (*number).into(),
-        Value::Real(number) => (*number).into(),
-        Value::Text(text) => text.as_str().into(),
-        Value::Blob(_) => value.to_string().into(),
-    };
-    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(row.iter().map(cell)).collect();
+    let cells = row.iter().map(serde_json::Value::from);
+    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(cells).collect();
     serde_json::Value::Object(object).to_string()
 }
 

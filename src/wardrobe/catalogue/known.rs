@@ -6,7 +6,7 @@ use rusqlite::{Connection, OptionalExtension, Row, Transaction};
 
 use crate::catalogue::numbers::{columns, read_numbers};
 use crate::catalogue::revision::{self, By};
-use crate::catalogue::style::seam_file;
+use crate::catalogue::style::{CURRENT_SIZES, seam_file};
 use crate::catalogue::table::{self, Read};
 use crate::catalogue::{Part, Removed};
 use body::{LengthUnit, Measurements, Pose, Sex};
@@ -92,15 +92,11 @@ fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
 
 /// The current styles with their current sizes, by name.
 fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
-    let sql = "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
-        FROM size
-            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
-                AND sized.revision = size.revision AND NOT sized.is_retired
-            JOIN style ON style.name = size.style
-            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
-                AND styled.revision = style.revision AND NOT styled.is_retired
-        ORDER BY style.name, size_id";
-    let mut statement = connection.prepare_cached(sql)?;
+    let sql = format!(
+        "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
+        {CURRENT_SIZES}"
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
     let mut rows = statement.query([])?;
     let mut styles: BTreeMap<String, KnownStyle> = BTreeMap::new();
     while let Some(row) = rows.next()? {

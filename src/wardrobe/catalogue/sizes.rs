@@ -2,7 +2,7 @@
 
 use rusqlite::{OptionalExtension, Row};
 
-use crate::catalogue::style::seam_file;
+use crate::catalogue::style::{CURRENT_SIZES, seam_file};
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
 use pattern::{Style, size_order};
@@ -38,15 +38,11 @@ pub struct SizeRow {
 /// # Errors
 /// When the database cannot be read.
 pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
-    let sql = "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
+    let sql = format!(
+        "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
             seam_file, unit, seams
-        FROM size
-            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
-                AND sized.revision = size.revision AND NOT sized.is_retired
-            JOIN style ON style.name = size.style
-            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
-                AND styled.revision = style.revision AND NOT styled.is_retired
-        ORDER BY style.name, size_id";
+        {CURRENT_SIZES}"
+    );
     let row = |row: &Row<'_>| {
         let seam_file: String = row.get(7)?;
         let unsure = confidences(&row.get::<_, String>(9)?).into_iter().flatten();
@@ -62,7 +58,7 @@ pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
             unconfirmed: unsure.count(),
         })
     };
-    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut statement = store.reader.prepare_cached(&sql)?;
     let mut sizes = statement.query_map([], row)?.collect::<rusqlite::Result<Vec<SizeRow>>>()?;
     for style in sizes.chunk_by_mut(|a, b| a.style == b.style) {
         size_order::sort(style, |row| &row.size);

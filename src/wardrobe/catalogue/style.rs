@@ -255,6 +255,15 @@ fn sizes_of(store: &Store, style: &str) -> Result<Vec<KnownSize>> {
     Ok(sizes)
 }
 
+/// Rows of the current sizes with their current styles, by style.
+pub(super) const CURRENT_SIZES: &str = "FROM size
+    JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+        AND sized.revision = size.revision AND NOT sized.is_retired
+    JOIN style ON style.name = size.style
+    JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+        AND styled.revision = style.revision AND NOT styled.is_retired
+    ORDER BY style.name, size_id";
+
 /// A seam file from its columns; the name is empty for a style without one.
 pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
     (!name.is_empty()).then(|| SourceFile { name, bytes: text.into_bytes().into() })

@@ -12,7 +12,7 @@ use pattern::propose::{self, Proposal};
 use pattern::seam_edit::Sizes;
 use pattern::style::{EdgeRef, Style, StylePiece};
 use pattern::{Piece, Role, arrange};
-use spec::patterns::{self, Nest, SizePieces, Unit};
+use spec::patterns::{Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
@@ -248,14 +248,6 @@ pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, pieces: &[Piece],
     if !sound.is_empty() {
         proposal.hold_for(&Sizes { name: made_on, pieces, others: &sound });
     }
-}
-
-/// Reads a pattern and its seam file, and lays them on a desk.
-///
-/// # Errors
-/// When a file cannot be read or does not fit the other.
-pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Desk> {
-    Ok(Desk::of(&patterns::style(pattern, seams, size, unit)?))
 }
 
 /// Confidences of the seams of a seam file, by their order in it, from the remarks `# confidence 0.83` beside their

@@ -10,9 +10,7 @@ pub mod undecided;
 pub mod workpiece;
 
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
-pub use desk::{
-    Asking, Desk, DeskEdge, DeskPiece, DeskSeam, ProposalOnPieces, Proposed, SURE, desk, proposal, propose,
-};
+pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, ProposalOnPieces, Proposed, SURE, proposal, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
 pub use specification::{Specification, SpecifiedPoint, specification};
