@@ -1,13 +1,13 @@
-//! `toile alter`: what to change of a pattern.
+//! `toile alter`: changes of a pattern for a subject.
 
 use super::args::Alter;
 use super::context::Context;
 use super::{End, Outcome, output};
 use advice::{Alteration, AlteredLevel, AlteredReading, Wish};
 use geom::units::signed_tenths;
-use store::{Table, Value, files};
+use store::{Table, Value};
 
-/// Finds or applies a change of a size for a subject, and prints it.
+/// Runs `toile alter`: finds or applies a change of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["dxf", "toml", "json", "svg"])).transpose()?;
     let store = context.store()?;
@@ -34,8 +34,7 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     }
     let found = advice::alter(&study, &wish)?;
     if let Some(folder) = &arguments.output {
-        files::write_files(folder, &found.files)?;
-        found.files.iter().for_each(|(name, _)| context.say(format_args!("wrote {}", folder.join(name).display())));
+        context.write_files(folder, &found.files)?;
     }
     match context.json {
         true => output::json(&found)?,
@@ -69,67 +68,68 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 }
 
 fn moves(found: &Alteration) -> Table {
-    let columns = ["handle", "by_mm", "of", "girth_mm"].map(str::to_owned).to_vec();
-    let row = |one: &advice::MovedHandle| {
+    let columns = ["handle", "by_mm", "of", "girth_mm"];
+    let row = |moved: &advice::MovedHandle| {
         let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
-        // A girth changes by twice what half of it does.
-        let [of, girth] = match one.is_half_girth {
-            true => [Value::Text("half girth".to_owned()), by(2.0 * one.amount_mm)],
+        // A girth changes by twice the change of half of it.
+        let [of, girth] = match moved.is_half_girth {
+            true => [Value::Text("half girth".to_owned()), by(2.0 * moved.amount_mm)],
             false => [Value::Null, Value::Null],
         };
-        vec![Value::Text(one.handle.replace('_', " ")), by(one.amount_mm), of, girth]
+        vec![Value::Text(moved.handle.replace('_', " ")), by(moved.amount_mm), of, girth]
     };
-    Table { columns, rows: found.moves.iter().map(row).collect() }
+    Table::new(columns, found.moves.iter().map(row))
 }
 
 fn levels(found: &Alteration) -> Table {
-    let columns = ["level", "target_mm", "before_mm", "promised_mm", "achieved_mm", ""].map(str::to_owned).to_vec();
-    let row = |one: &AlteredLevel| {
-        let target = one.target_mm.map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
+    let columns = ["level", "target_mm", "before_mm", "promised_mm", "achieved_mm", ""];
+    let row = |altered: &AlteredLevel| {
+        let target =
+            altered.target_mm.map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
         let ease = |mm: f64| Value::Text(signed_tenths(mm));
-        let verdict = match (one.target_mm, one.is_met()) {
+        let verdict = match (altered.target_mm, altered.is_met()) {
             (None, _) => "",
             (_, true) => "met",
             (_, false) => "missed",
         };
-        let level = Value::Text(one.level.replace('_', " "));
+        let level = Value::Text(altered.level.replace('_', " "));
         vec![
             level,
             target,
-            ease(one.before_mm),
-            ease(one.promised_mm),
-            ease(one.achieved_mm),
+            ease(altered.before_mm),
+            ease(altered.promised_mm),
+            ease(altered.achieved_mm),
             Value::Text(verdict.to_owned()),
         ]
     };
-    Table { columns, rows: found.levels.iter().map(row).collect() }
+    Table::new(columns, found.levels.iter().map(row))
 }
 
 fn stands(standing: &[advice::Standing]) -> Table {
-    let columns = ["target", "what", "value", "unit"].map(str::to_owned).to_vec();
-    let row = |one: &advice::Standing| {
-        let what = if one.is_ease { "ease" } else { "drape" };
-        let value = if one.unit == "kPa" { format!("{:.2}", one.value) } else { format!("{:.1}", one.value) };
-        [one.name.clone(), what.to_owned(), value, one.unit.to_owned()].map(Value::Text).to_vec()
+    let columns = ["target", "what", "value", "unit"];
+    let row = |target: &advice::Standing| {
+        let what = if target.is_ease { "ease" } else { "drape" };
+        let value = if target.unit == "kPa" { format!("{:.2}", target.value) } else { format!("{:.1}", target.value) };
+        [target.name.clone(), what.to_owned(), value, target.unit.to_owned()].map(Value::Text).to_vec()
     };
-    Table { columns, rows: standing.iter().map(row).collect() }
+    Table::new(columns, standing.iter().map(row))
 }
 
 fn readings(found: &Alteration) -> Table {
-    let columns = ["reading", "unit", "target", "before", "promised", "achieved", ""].map(str::to_owned).to_vec();
-    let row = |one: &AlteredReading| {
-        let number =
-            |value: f64| Value::Text(if one.unit == "kPa" { format!("{value:.2}") } else { signed_tenths(value) });
-        let [least, most] = one.target.map(|bound| (100.0 * bound).round() / 100.0);
+    let columns = ["reading", "unit", "target", "before", "promised", "achieved", ""];
+    let row = |altered: &AlteredReading| {
+        let is_pressure = altered.unit == "kPa";
+        let number = |value: f64| Value::Text(if is_pressure { format!("{value:.2}") } else { signed_tenths(value) });
+        let [least, most] = altered.target.map(|bound| (100.0 * bound).round() / 100.0);
         vec![
-            Value::Text(one.reading.replace('_', " ")),
-            Value::Text(one.unit.to_owned()),
+            Value::Text(altered.reading.replace('_', " ")),
+            Value::Text(altered.unit.to_owned()),
             Value::Text(format!("{least} to {most}")),
-            number(one.before),
-            number(one.promised),
-            number(one.achieved),
-            Value::Text(if one.is_met() { "met" } else { "missed" }.to_owned()),
+            number(altered.before),
+            number(altered.promised),
+            number(altered.achieved),
+            Value::Text(if altered.is_met() { "met" } else { "missed" }.to_owned()),
         ]
     };
-    Table { columns, rows: found.readings.iter().map(row).collect() }
+    Table::new(columns, found.readings.iter().map(row))
 }

@@ -1,4 +1,4 @@
-//! Questions to the database: SQL, audit, ease.
+//! `toile sql`, `toile audit` and `toile ease`: queries of the database.
 
 use std::io::{IsTerminal, Read};
 
@@ -16,14 +16,13 @@ use store::{EaseRow, StudyError, Table, Value, read, saved_queries, saved_query,
 const FORMATS: [(&str, Format); 4] =
     [("csv", Format::Csv), ("json", Format::Json), ("parquet", Format::Parquet), ("txt", Format::Table)];
 
-/// `toile sql`. Ctrl-C ends a query that takes too long.
+/// Runs `toile sql`. Ctrl-C ends a query.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     let project = project_folder().map(|project| project.join("db").join("queries"));
     if arguments.list {
-        let text = |text: String| Value::Text(text);
         let saved = saved_queries(project.as_deref())?.into_iter();
-        let rows = saved.map(|saved| vec![text(saved.name), text(saved.about)]).collect();
-        context.print(&Table { columns: ["name", "what it asks"].map(str::to_owned).to_vec(), rows })?;
+        let rows = saved.map(|saved| vec![Value::Text(saved.name), Value::Text(saved.about)]);
+        context.print(&Table::new(["name", "what it asks"], rows))?;
         return Ok(End::Done);
     }
     let query = match (&arguments.query, &arguments.file) {
@@ -64,12 +63,12 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     Ok(End::Done)
 }
 
-/// Whether a query is one word: no SQL is, but the name of a saved query.
+/// True if a query is one word, and so the name of a saved query, since no SQL is one word.
 fn is_name(query: &str) -> bool {
     query.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-')) && !query.is_empty()
 }
 
-/// `toile audit`: what does not add up; exit code 3 when that is anything in results of ours. The errors of the thesis are
+/// Runs `toile audit`: prints findings. Those on our own results make the exit code 3. The errors of the thesis are
 /// known and no failure.
 pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
@@ -92,10 +91,10 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     Ok(if of_thesis || found == 0 { End::Done } else { End::CheckFailed })
 }
 
-/// A row of `toile ease`. Only the level that decides has a class: the thesis's is by chest and hip, and what is meant elsewhere is
-/// told by `toile fit`.
+/// A row of `toile ease`. Only the level that decides has a fit class, since the thesis's classes are of chest and hip.
+/// `toile fit` judges the other levels.
 fn ease_row(ease: EaseRow) -> Vec<Value> {
-    let tenth = |length_m: f64| Value::Real((mm(length_m) * 10.0).round() / 10.0);
+    let tenth = |length_m: f64| output::tenths(mm(length_m));
     let mark = |holds: bool| Value::Text(if holds { "yes" } else { "" }.to_owned());
     let class = if ease.decides { ease.fit.class.as_str() } else { "" };
     vec![
@@ -128,7 +127,7 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
         "borderline",
     ];
     let rows = read::ease(&store, &name)?.into_iter().map(ease_row);
-    let table = Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() };
+    let table = Table::new(columns, rows);
     if context.json {
         let quoted = name.replace('\'', "''");
         let exact = sql::query(&store, &format!("SELECT * FROM v_ease WHERE study = '{quoted}'"))?;
@@ -143,7 +142,7 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     Ok(End::Done)
 }
 
-/// What is said where no level of a garment was found.
+/// Message where no level of a garment was found.
 pub const NO_EASE: &str =
     "no ease is known: no piece has a role by which levels are found, and the seam file names none ([fit.*])";
 

@@ -4,21 +4,22 @@ use std::path::PathBuf;
 
 use super::args::Try;
 use super::context::Context;
+use super::output::tenths;
 use super::{CliError, End, Outcome, body, output};
 use engine::{Attempt, AttemptLayer, Reached, ReachedAt, ReachedOpening, Tried};
 use geom::units::from_mm;
 use spec::patterns::Unit;
 use store::{Table, Value, files};
 
-/// What stands for nothing.
+/// Argument that stands for no value.
 const NONE: &str = "-";
 
-/// Runs a trial; writes its picture and meshes, prints what was measured.
+/// Runs `toile try`: writes pictures and meshes, and prints measurements.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
     let asked = Attempt {
         body: arguments.body.body.clone(),
         body_unit: arguments.body.body_unit.map(Into::into),
-        sex: arguments.body.sex.map(body::of),
+        sex: arguments.body.sex.map(body::sex_of),
         layers: layers(arguments)?,
         unit: arguments.unit.map(Unit::from),
         allowance_m: from_mm(arguments.allowance_mm),
@@ -40,9 +41,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     })?;
     for tried in &all {
         let whose = |said: &str| if all.len() > 1 { format!("{}: {said}", tried.garment) } else { said.to_owned() };
-        for path in files::write_files(&arguments.output, &tried.files)? {
-            context.say(format_args!("wrote {}", path.display()));
-        }
+        context.write_files(&arguments.output, &tried.files)?;
         tried.notes.iter().for_each(|note| context.say(whose(note)));
         tried.problems.iter().for_each(|problem| output::tell(&whose(problem)));
     }
@@ -55,13 +54,13 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     Ok(if is_good { End::Done } else { End::CheckFailed })
 }
 
-/// The garments that were asked for, the inner first: what is said once of several goes for all.
+/// The garments that are asked for, the inmost first. A flag that is given once counts for all.
 fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
     let count = arguments.pattern.len();
     let of_each = |flag: &str, given: &[String]| match given.len() {
         0 => Ok(vec![None; count]),
         1 => Ok(vec![Some(given[0].clone()); count]),
-        n if n == count => Ok(given.iter().map(|one| (one != NONE).then(|| one.clone())).collect()),
+        n if n == count => Ok(given.iter().map(|value| (value != NONE).then(|| value.clone())).collect()),
         n => Err(CliError::Usage(format!(
             "{n} times {flag} for {count} patterns; accepted: one of each pattern, in their order ({NONE} for none)"
         ))),
@@ -82,12 +81,7 @@ fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
     Ok(arguments.pattern.iter().enumerate().map(layer).collect())
 }
 
-/// Rounded to a tenth.
-fn tenths(number: f64) -> Value {
-    Value::Real((number * 10.0).round() / 10.0)
-}
-
-/// The measurements as the last stage left them, what the garment lacks, then the summary; as JSON one document of all.
+/// Prints the measurements after the last stage, the girths that the garment lacks, then the summary.
 fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     let mut columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
     if tried.chi_spread_max.is_some() {
@@ -108,12 +102,12 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     });
     context.print(&Table { columns, rows: rows.collect() })?;
     if !tried.gap.is_empty() {
-        let columns = ["level", "body_girth_mm", "garment_girth_mm", "shortfall_mm"].map(str::to_owned).to_vec();
+        let columns = ["level", "body_girth_mm", "garment_girth_mm", "shortfall_mm"];
         let rows = tried.gap.iter().map(|gap| {
             let girths = [gap.body_girth_mm, gap.garment_girth_mm, gap.shortfall_mm].map(tenths);
             [Value::Text(gap.level.clone())].into_iter().chain(girths).collect()
         });
-        context.print(&Table { columns, rows: rows.collect() })?;
+        context.print(&Table::new(columns, rows))?;
     }
     if let Some(reach) = &tried.reach {
         show_reach(context, reach)?;
@@ -130,25 +124,26 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
         Value::Integer(tried.cloth.vertices as i64),
         Value::Integer(i64::try_from(tried.wall_ms).unwrap_or(i64::MAX)),
     ];
-    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows: vec![row] })
+    context.print(&Table::new(columns, [row]))
 }
 
-/// What changes in the pose that is reached: openings, then pieces and regions of the body that are loaded otherwise.
+/// Prints the changes in the pose that is reached: openings, then loads of pieces and of regions of the body.
 fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
-    let columns = ["opening", "drawn_mm", "drawn_most_mm"].map(str::to_owned).to_vec();
-    let drawn =
-        |one: &ReachedOpening| vec![Value::Text(one.opening.clone()), tenths(one.drawn_mm), tenths(one.drawn_most_mm)];
-    context.print(&Table { columns, rows: reach.opening.iter().map(drawn).collect() })?;
+    let columns = ["opening", "drawn_mm", "drawn_most_mm"];
+    let drawn = |reached: &ReachedOpening| {
+        vec![Value::Text(reached.opening.clone()), tenths(reached.drawn_mm), tenths(reached.drawn_most_mm)]
+    };
+    context.print(&Table::new(columns, reach.opening.iter().map(drawn)))?;
     let loads = [("tension_n_m", &reach.tension_n_m), ("pressure_kpa", &reach.pressure_kpa)];
     for (quantity, places) in loads {
-        let columns = ["place".to_owned(), quantity.to_owned(), format!("{quantity} {}", reach.pose)].to_vec();
+        let in_pose = format!("{quantity} {}", reach.pose);
         let load = |at: &ReachedAt| vec![Value::Text(at.place.clone()), hundredths(at.before), hundredths(at.after)];
-        context.print(&Table { columns, rows: places.iter().map(load).collect() })?;
+        context.print(&Table::new(["place", quantity, &in_pose], places.iter().map(load)))?;
     }
     Ok(())
 }
 
-/// Rounded to a hundredth.
+/// A number, rounded to a hundredth.
 fn hundredths(number: f64) -> Value {
     Value::Real((number * 100.0).round() / 100.0)
 }

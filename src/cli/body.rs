@@ -1,4 +1,4 @@
-//! `toile body`: building and measuring bodies.
+//! `toile body`: bodies built, measured, posed and evaluated.
 
 use std::path::Path;
 
@@ -42,14 +42,15 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     Ok(End::Done)
 }
 
-pub fn of(sex: Sex) -> bodies::Sex {
+/// The sex of an argument.
+pub fn sex_of(sex: Sex) -> bodies::Sex {
     match sex {
         Sex::M => bodies::Sex::Male,
         Sex::F => bodies::Sex::Female,
     }
 }
 
-/// Prints how well the bodies of a folder are measured.
+/// Prints the accuracy of the measurement of the bodies of a folder.
 fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
     let found = evaluate::evaluate(folder)?;
     if context.json {
@@ -60,17 +61,16 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
             context.say(format_args!("{} {}: {error}", body.id, body.source));
         }
     }
-    let tenth = |number: f64| Value::Real((number * 10.0).round() / 10.0);
-    let row = |source: &str, name: &str, of: &Accuracy| {
+    let row = |source: &str, name: &str, accuracy: &Accuracy| {
         let words = [source, name].map(|word| Value::Text(word.to_owned()));
-        words
-            .into_iter()
-            .chain([Value::Integer(of.n as i64), tenth(of.mae_mm), tenth(of.max_mm), tenth(of.bias_mm)])
-            .collect()
+        let errors_mm = [accuracy.mae_mm, accuracy.max_mm, accuracy.bias_mm].map(output::tenths);
+        words.into_iter().chain([Value::Integer(accuracy.n as i64)]).chain(errors_mm).collect()
     };
-    let rows = found.source.iter().flat_map(|(source, of)| of.iter().map(move |(name, of)| row(source, name, of)));
-    let columns = ["source", "measurement", "n", "mae_mm", "max_mm", "bias_mm"].map(str::to_owned).to_vec();
-    context.print(&Table { columns, rows: rows.collect() })
+    let rows = found.source.iter().flat_map(|(source, measurements)| {
+        measurements.iter().map(move |(name, accuracy)| row(source, name, accuracy))
+    });
+    let columns = ["source", "measurement", "n", "mae_mm", "max_mm", "bias_mm"];
+    context.print(&Table::new(columns, rows))
 }
 
 /// Builds a body and writes its mesh, picture and measurements.
@@ -115,27 +115,24 @@ fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
     files.extend(bodies::control_files(body)?);
-    for path in files::write_files(folder, &files)? {
-        context.say(format_args!("wrote {}", path.display()));
-    }
-    Ok(())
+    context.write_files(folder, &files)
 }
 
-/// Reads a scan; what was guessed or repaired is said.
+/// Reads a scan, and prints remarks on guesses and repairs.
 fn read_scan(
     context: &Context,
     source: &files::SourceFile,
     unit: Option<MeshUnit>,
     sex: Option<Sex>,
 ) -> Result<bodies::Scan, CliError> {
-    let scan = bodies::read_scan(source, unit.map(Into::into), sex.map(of))?;
+    let scan = bodies::read_scan(source, unit.map(Into::into), sex.map(sex_of))?;
     for note in &scan.imported.notes {
         context.say(format_args!("{}: {note}", source.name));
     }
     Ok(scan)
 }
 
-/// A scan is the body itself, so measurements beside it could not be honoured.
+/// Refuses measurements beside a scan, which is the body itself.
 pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
     let Some((key, _)) = given else { return Ok(()) };
     Err(CliError::Usage(format!(
@@ -144,7 +141,7 @@ pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
     )))
 }
 
-/// Who a catalogue entry or a file is, with what the command line says over it.
+/// The person of a catalogue entry, a file or pictures, with the measurements of the command line in place of theirs.
 fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => {
@@ -155,12 +152,12 @@ fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> 
             }
             person.measurements
         }
-        (None, Some(file)) => spec::read_measurements(file, arguments.sex.map(of))?,
+        (None, Some(file)) => spec::read_measurements(file, arguments.sex.map(sex_of))?,
         (None, None) => {
             let missing = "say --sex and --stature-mm, or a --subject, or --measurements FILE";
-            let sex = arguments.sex.map(of).ok_or_else(|| CliError::Usage(missing.into()))?;
+            let sex = arguments.sex.map(sex_of).ok_or_else(|| CliError::Usage(missing.into()))?;
             let mut asked = Measurements::of(sex, f64::NAN);
-            lay_over(&mut asked, &arguments.measured.0)?;
+            set_given(&mut asked, &arguments.measured.0)?;
             if asked.stature_m().is_nan() {
                 return Err(CliError::Usage(missing.into()));
             }
@@ -170,13 +167,13 @@ fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> 
             }
         }
     };
-    known.sex = arguments.sex.map_or(known.sex, of);
-    lay_over(&mut known, &arguments.measured.0)?;
+    known.sex = arguments.sex.map_or(known.sex, sex_of);
+    set_given(&mut known, &arguments.measured.0)?;
     Ok(known.into())
 }
 
-/// Lays values that were given over measurements.
-fn lay_over(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> {
+/// Sets given values in measurements.
+fn set_given(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> {
     for (key, text) in given {
         let Some(field) = MEASUREMENTS.iter().find(|field| field.key == key) else { continue };
         field.set(known, field.read(text).map_err(CliError::Usage)?);
@@ -197,7 +194,8 @@ fn pictured(
         (None, Some(field_deg)) => Some(Lens::FieldDeg(field_deg)),
         (None, None) => None,
     };
-    let camera = lens.zip(arguments.camera_distance_mm.map(from_mm));
+    let distance_m = arguments.camera_distance_mm.map(from_mm);
+    let camera = lens.zip(distance_m).map(|(lens, distance_m)| bodies::PictureCamera { lens, distance_m });
     let found = bodies::read_pictures(front, side, camera, sex, stature_m)?;
     for note in &found.notes {
         context.say(format_args!("{note}"));
@@ -214,14 +212,14 @@ fn pictured(
     Ok(found.measurements)
 }
 
-/// Prints measurements: a table for reading, with the standard deviation and its reason where they are known; the contract's keys
-/// as JSON.
+/// Prints measurements as a table, with the standard deviation and its reason where they are known, or as JSON with the
+/// documented keys.
 fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(read)?);
     }
     let document = serde_json::to_value(read).map_err(std::io::Error::from)?;
-    let tenth = |value: &Json| value.as_f64().map_or(Value::Null, |number| Value::Real((number * 10.0).round() / 10.0));
+    let tenth = |value: &Json| value.as_f64().map_or(Value::Null, output::tenths);
     let confidence = &document["confidence"];
     let row = |(name, value): (&String, &Json)| {
         let mut row = vec![Value::Text(name.clone()), tenth(value)];
@@ -233,7 +231,6 @@ fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError
         row
     };
     let rows = document.as_object().into_iter().flatten().filter(|(_, value)| !value.is_object()).map(row);
-    let columns = ["measurement", "value", "sd", "limited by"].map(str::to_owned);
-    let shown = if confidence.is_object() { columns.len() } else { 2 };
-    context.print(&Table { columns: columns[..shown].to_vec(), rows: rows.collect() })
+    let shown = if confidence.is_object() { 4 } else { 2 };
+    context.print(&Table::new(["measurement", "value", "sd", "limited by"].into_iter().take(shown), rows))
 }

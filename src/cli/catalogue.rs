@@ -1,4 +1,4 @@
-//! `toile subject|style|size|fabric`: what is in the catalogue, and changing it.
+//! `toile subject|style|size|fabric`: lists and changes the catalogue.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub trait Values: Args {
     /// Part of the catalogue that the values belong to.
     const PART: Part;
 
-    /// Saves an entry with them.
+    /// Saves an entry with the values.
     fn save(&self, store: &mut Store, mode: Mode, name: &str) -> Result<Vec<Saved>, CliError>;
 }
 
@@ -70,7 +70,7 @@ impl Values for SizeValues {
     }
 }
 
-/// A pattern as it is given, `[SIZE=]FILE`.
+/// Reads a pattern argument, `[SIZE=]FILE`.
 pub fn pattern_of(text: &str) -> (Option<String>, PathBuf) {
     match text.split_once('=') {
         Some((size, file)) => (Some(size.to_owned()), PathBuf::from(file)),
@@ -78,7 +78,7 @@ pub fn pattern_of(text: &str) -> (Option<String>, PathBuf) {
     }
 }
 
-/// A unit as study files name it.
+/// Name of a unit in study files.
 pub fn unit_name(unit: PatternUnit) -> Option<String> {
     unit.to_possible_value().map(|value| value.get_name().to_owned())
 }
@@ -93,7 +93,7 @@ fn view(part: Part) -> (&'static str, &'static str) {
     }
 }
 
-/// Columns that are of no use in a list.
+/// Columns that a list does not show.
 const HIDDEN: [&str; 8] = [
     "hash",
     "is_latest",
@@ -123,7 +123,7 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
     Ok(End::Done)
 }
 
-/// Imports files; tells what is wrong with the rows that are left out where only the good ones are asked for.
+/// Imports files. Where only good rows are asked for, prints the problems of the others.
 fn import(context: &Context, part: Part, files: &[PathBuf], good_rows: bool) -> Outcome {
     let strictness = if good_rows { Strictness::GoodRows } else { Strictness::AllOrNone };
     let Imported { saved, left_out } = catalogue::import(&mut context.store()?, part, files, strictness)?;
@@ -153,7 +153,7 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     Ok(End::Done)
 }
 
-/// Says what was saved, what was guessed or repaired of it, and what is doubtful about it.
+/// Prints entries that were saved, with remarks on guesses and repairs, and doubts.
 pub fn say(context: &Context, saved: &[Saved]) {
     for entry in saved {
         entry.notes.iter().for_each(|note| context.say(format_args!("{} {}: {note}", entry.part, entry.name)));
@@ -187,7 +187,7 @@ fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
     context.print(&if context.json { found } else { sideways(&without(found, &["entry"])) })
 }
 
-/// A table of entries with what follows from them.
+/// A table of entries, with the columns that are computed from their numbers.
 fn described(part: Part, entries: Table) -> Table {
     if part == Part::Fabric { wardrobe::with_bending(entries) } else { entries }
 }
@@ -202,7 +202,7 @@ fn without(table: Table, hidden: &[&str]) -> Table {
     }
 }
 
-/// One column a revision, one row a property.
+/// A table with a column for each revision and a row for each property.
 fn sideways(table: &Table) -> Table {
     let mut columns = vec!["property".to_owned()];
     columns.extend((1..=table.rows.len()).map(|n| format!("revision {n}")));

@@ -1,4 +1,4 @@
-//! `toile chance`: how probable it is that a garment fits.
+//! `toile chance`: the probability that a garment fits.
 
 use super::args::Chance as Arguments;
 use super::context::Context;
@@ -6,10 +6,11 @@ use super::{CliError, End, Outcome, output, pictures};
 use advice::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance};
 use store::{Table, Value};
 
-/// Shares of the truth that 80 % intervals may hold.
+/// Accepted coverage of the 80 % intervals.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
 
-/// Prints how probable it is that the sizes of a garment fit somebody, or what becomes of planted people.
+/// Runs `toile chance`: prints the probability that the sizes of a garment fit a subject, or the calibration on
+/// simulated people.
 pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let store = context.store()?;
@@ -78,8 +79,7 @@ fn percent(share: f64) -> String {
 }
 
 fn table<const N: usize>(columns: [&str; N], rows: impl Iterator<Item = [String; N]>) -> Table {
-    let rows = rows.map(|row| row.map(Value::Text).to_vec()).collect();
-    Table { columns: columns.map(str::to_owned).to_vec(), rows }
+    Table::new(columns, rows.map(|row| row.map(Value::Text).to_vec()))
 }
 
 fn words(level: &str) -> String {
@@ -110,13 +110,13 @@ fn levels(size: &SizeChance) -> Table {
     table(columns, size.levels.iter().map(row))
 }
 
-/// What was read, beside what it probably is.
+/// Readings of the body, beside their likely true values.
 fn body(dimensions: &[LikelyDimension]) -> Table {
-    let row = |one: &LikelyDimension| {
-        let [read, error] = one.read?;
-        let [low, middle, high] = one.likely.map(|value| format!("{value:.0}"));
+    let row = |likely: &LikelyDimension| {
+        let [read, error] = likely.read?;
+        let [low, middle, high] = likely.likely.map(|value| format!("{value:.0}"));
         Some([
-            one.dimension.to_owned(),
+            likely.dimension.to_owned(),
             format!("{read:.0}"),
             format!("{error:.1}"),
             middle,
@@ -151,11 +151,11 @@ fn held(levels: &[PlantedLevel]) -> Table {
 }
 
 fn came_true(told: &[Reliability]) -> Table {
-    let row = |one: &Reliability| {
-        let [least, most] = one.told.map(percent);
-        let [low, high] = one.came_true.interval.map(percent);
-        let (mean, came) = (percent(one.mean), percent(one.came_true.share));
-        [format!("{least} to {most}"), one.cases.to_string(), mean, came, format!("{low} to {high}")]
+    let row = |class: &Reliability| {
+        let [least, most] = class.told.map(percent);
+        let [low, high] = class.came_true.interval.map(percent);
+        let (mean, came) = (percent(class.mean), percent(class.came_true.share));
+        [format!("{least} to {most}"), class.cases.to_string(), mean, came, format!("{low} to {high}")]
     };
     table(["told %", "cases", "mean %", "came true %", "80 % interval"], told.iter().map(row))
 }

@@ -1,4 +1,4 @@
-//! What all commands share, resolved once from the global flags.
+//! Context of a command: the global flags, resolved once, and what all commands do with them.
 
 use std::path::{Path, PathBuf};
 
@@ -6,24 +6,24 @@ use super::CliError;
 use super::args::{Format, Global};
 use engine::run;
 use spec::{QUICKSTART, Study, write_quickstart};
-use store::{PUBLISHED, Store, Table, read};
+use store::{PUBLISHED, Store, Table, files, read};
 use wardrobe::catalogue;
 
-/// The resolved global flags.
+/// The global flags, resolved.
 pub struct Context {
     /// Path of the database file.
     pub db: PathBuf,
-    /// Whether it was named, by a flag or the environment.
+    /// True where it was named, by a flag or the environment.
     pub is_db_named: bool,
-    /// Whether nothing may be changed.
+    /// True where the database may only be read.
     pub readonly: bool,
-    /// Whether JSON was asked for.
+    /// True where JSON was asked for.
     pub json: bool,
-    /// Whether only errors are told.
+    /// True where only errors are printed.
     pub quiet: bool,
-    /// Whether more is told.
+    /// True where more messages are printed.
     pub verbose: bool,
-    /// Whether colours may be used.
+    /// True where colours may be used.
     pub colour: bool,
 }
 
@@ -57,11 +57,27 @@ impl Context {
         Ok(store)
     }
 
-    /// Says something on standard error, unless asked to be quiet.
+    /// Prints a message on standard error, unless the user wants none.
     pub fn say(&self, message: impl std::fmt::Display) {
         if !self.quiet {
             super::output::note(&message);
         }
+    }
+
+    /// Writes files into a folder, and names them on standard error.
+    pub fn write_files(&self, folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), CliError> {
+        for path in files::write_files(folder, files)? {
+            self.say(format_args!("wrote {}", path.display()));
+        }
+        Ok(())
+    }
+
+    /// Writes a file, and names it on standard error.
+    pub fn write(&self, path: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
+        self.say(format_args!("wrote {}", path.display()));
+        Ok(())
     }
 
     /// Prints a table for reading, or as JSON.
@@ -70,8 +86,8 @@ impl Context {
         Ok(super::output::table(table, format)?)
     }
 
-    /// The study of a path, its folder or file; a bare name is also looked for among the project's studies, and is that of the study that
-    /// comes with the program.
+    /// Reads the study of a path, its folder or file. A bare name may also be that of a study of the project, or of the
+    /// study that comes with the program.
     pub fn study(&self, store: &Store, path: &Path) -> Result<Study, CliError> {
         let in_project = project_folder().map(|project| project.join("studies").join(path));
         let in_project = in_project.filter(|folder| !path.exists() && folder.is_dir());
@@ -87,7 +103,8 @@ impl Context {
         Ok(run::load_study(store, &path)?)
     }
 
-    /// A study with the ease of its sizes as its file has them now, where there is a file and the database may be written.
+    /// Brings the stored ease of a study up to date with its file, if there is a file and the database may be written.
+    /// Returns the store and the name of the study.
     pub fn eased(&self, path: &Path) -> Result<(Store, String), CliError> {
         let mut store = self.store()?;
         if !path.exists() || self.readonly {
@@ -99,7 +116,7 @@ impl Context {
         Ok((store, study.name))
     }
 
-    /// Name of a study given by its folder, its file, or its name itself.
+    /// Name of a study that is given by its folder, its file or its name.
     pub fn study_name(&self, store: &Store, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();
         if name == PUBLISHED {
@@ -115,19 +132,19 @@ impl Context {
     }
 }
 
-/// Where the study that comes with the program lies, or will once it is run: in the project, else beside the database.
+/// Folder of the study that comes with the program, which a run makes: in the project, else beside the database.
 pub fn quickstart(database: &Path) -> PathBuf {
     let home = project_folder().or_else(|| database.parent().map(Path::to_owned)).unwrap_or_default();
     home.join("studies").join(QUICKSTART)
 }
 
-/// The nearest folder upwards with a `studies` folder in it, if any.
+/// The project: the nearest folder upwards that has a folder `studies`.
 pub fn project_folder() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
     here.ancestors().find(|folder| folder.join("studies").is_dir()).map(Path::to_owned)
 }
 
-/// `db/toile.sqlite` of the project, else of the user's data folder.
+/// Path of the default database: `db/toile.sqlite` of the project, or else in the user's data folder.
 fn default_database() -> Result<PathBuf, CliError> {
     if let Some(project) = project_folder() {
         return Ok(project.join("db").join("toile.sqlite"));

@@ -1,4 +1,4 @@
-//! Runs in the background: starting one that outlives its terminal, and following one from another.
+//! Runs in the background: a run that outlives its terminal, and the progress of one seen from another.
 
 use std::collections::BTreeSet;
 use std::fs::OpenOptions;
@@ -18,17 +18,17 @@ use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, files, read};
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(250);
-/// Looks without a running job after which nobody works on the study: a process may only be starting.
+/// Looks without a running job after which no process works on the study; one that starts needs some.
 const PATIENCE: u32 = 60;
 
-/// Starts this very command again without its `--detach`, in a process group of its own, what it says going to a file.
+/// Starts this command again without its `--detach`, in a process group of its own. Its output goes to a file.
 pub fn start(context: &Context, study: &str) -> Outcome {
     let log = log_file(&context.db, study);
     let io = |path: &Path| StudyError::io(path.to_owned());
     let out = OpenOptions::new().create(true).append(true).open(&log).map_err(io(&log))?;
     let errors = out.try_clone().map_err(io(&log))?;
     let program = std::env::current_exe()?;
-    // The terminal tells its own group when it goes; this one is another.
+    // A terminal that closes ends the processes of its own group only.
     let child = Command::new(&program)
         .args(std::env::args_os().skip(1).filter(|argument| argument != "--detach"))
         .stdin(Stdio::null())
@@ -47,8 +47,8 @@ pub fn start(context: &Context, study: &str) -> Outcome {
     Ok(End::Done)
 }
 
-/// Shows how the jobs of a study fare that other processes run, until none is left or nobody works on them. An interrupt
-/// ends the following, not the run.
+/// Shows the progress of jobs of a study that other processes run, until none is left or no process works on them. An
+/// interrupt ends this command, not the run.
 pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     let is_left = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register(SIGINT, is_left.clone())?;
@@ -78,7 +78,7 @@ pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     Ok(if failed > 0 { End::JobFailed } else { End::Done })
 }
 
-/// Where a run in the background says what it has to say: beside the database.
+/// Log of a run in the background, beside the database.
 fn log_file(database: &Path, study: &str) -> PathBuf {
     database.with_file_name(format!("{}.run.log", files::study_folder(study)))
 }

@@ -1,4 +1,4 @@
-//! `toile fit`: which size to wear, and how it sits.
+//! `toile fit`: the size to wear, and the ease of each size.
 
 use super::answers::NO_EASE;
 use super::args::Fit;
@@ -7,7 +7,7 @@ use super::{End, Outcome, output};
 use results::{FitCard, LevelSits, Sits, SizeSits, fit_card};
 use store::{Table, Value};
 
-/// Prints the fit cards of a study.
+/// Runs `toile fit`: prints the fit cards of a study.
 pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     let (store, study) = context.eased(&arguments.study)?;
     let cards = fit_card::fit_cards(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
@@ -36,7 +36,7 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     Ok(End::Done)
 }
 
-/// Rows of levels, columns of sizes: ease in millimetres and what is to be said of it.
+/// A row for each level and a column for each size: ease in millimetres, with its verdict.
 fn table(card: &FitCard) -> Table {
     let sizes = card.beside();
     let mut columns = vec!["level".to_owned(), "body_mm".to_owned(), "target_mm".to_owned()];
@@ -45,15 +45,15 @@ fn table(card: &FitCard) -> Table {
         format!("{} ease_mm{mark}", size.size)
     }));
     let row = |level: &str| {
-        let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
-        let all: Vec<_> = sizes.iter().map(of).collect();
+        let level_of = |size: &SizeSits| size.levels.iter().find(|sits| sits.level == level).cloned();
+        let all: Vec<_> = sizes.iter().map(level_of).collect();
         let known = all.iter().flatten().next();
         let target = known
-            .and_then(|one| one.target_mm)
+            .and_then(|sits| sits.target_mm)
             .map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
-        let body = known.map_or(Value::Null, |one| Value::Integer(one.body_girth_mm.round() as i64));
+        let body = known.map_or(Value::Null, |sits| Value::Integer(sits.body_girth_mm.round() as i64));
         let mut row = vec![Value::Text(level.replace('_', " ")), body, target];
-        row.extend(all.iter().map(|one| one.as_ref().map_or(Value::Null, |one| Value::Text(short(one)))));
+        row.extend(all.iter().map(|sits| sits.as_ref().map_or(Value::Null, |sits| Value::Text(short(sits)))));
         row
     };
     Table { columns, rows: card.levels().into_iter().map(row).collect() }
@@ -69,7 +69,7 @@ fn uncovered(card: &FitCard, size: &SizeSits) -> Vec<String> {
     size.levels.iter().filter(is_bare).map(words).collect()
 }
 
-/// An ease in few letters: marks stand for smaller than the body, and for not covered all round.
+/// An ease in few letters. `!` marks a garment smaller than the body, `~` a level that is not covered all round.
 fn short(level: &LevelSits) -> String {
     let mark = if level.ease_mm < 0.0 { "!" } else { "" };
     let by_mm = level.departure_mm();

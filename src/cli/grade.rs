@@ -1,13 +1,14 @@
-//! `toile grade`: which sizes fit a population.
+//! `toile grade`: sizes for a population.
 
 use super::args::Grade;
 use super::context::Context;
+use super::output::tenths;
 use super::{CliError, End, Outcome, output, xlsx};
 use advice::{GradeWish, Grading, SizeSet, SizeShare};
 use report::file_part;
 use store::{Table, Value, files};
 
-/// Finds the sizes that fit the most people, prints and writes them.
+/// Runs `toile grade`: finds the sizes that fit the most people, prints and writes them.
 pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     let endings = ["dxf", "rul", "toml", "svg", "xlsx"];
     arguments.output.as_deref().map(|folder| output::folder(folder, &endings)).transpose()?;
@@ -34,8 +35,7 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
         let sheets: Vec<(&str, &Table)> = sheets.iter().map(|(name, table)| (*name, table)).collect();
         let mut all = found.files.clone();
         all.push((name, xlsx::bytes(&sheets)?));
-        files::write_files(folder, &all)?;
-        all.iter().for_each(|(name, _)| context.say(format_args!("wrote {}", folder.join(name).display())));
+        context.write_files(folder, &all)?;
     }
     match context.json {
         true => output::json(&found)?,
@@ -89,56 +89,48 @@ fn text(text: impl Into<String>) -> Value {
     Value::Text(text.into())
 }
 
-fn percent(percent: f64) -> Value {
-    Value::Real((10.0 * percent).round() / 10.0)
-}
-
-fn table(columns: &[&str], rows: Vec<Vec<Value>>) -> Table {
-    Table { columns: columns.iter().map(|name| (*name).to_owned()).collect(), rows }
-}
-
-/// Whom each set fits, and each of its sizes.
+/// Shares of people that each set fits, and each of its sizes.
 fn coverage(found: &Grading) -> Table {
     let columns = ["sizes", "size", "sought_percent", "held_out_percent", "within", "worn_percent"];
     let all = |set: &SizeSet| {
-        let [sought, out, within] = [set.sought_percent, set.held_out_percent, set.within_percent].map(percent);
+        let [sought, out, within] = [set.sought_percent, set.held_out_percent, set.within_percent].map(tenths);
         vec![text(set.set), text("all"), sought, out, within, Value::Null]
     };
     let size = |set: &SizeSet, size: &SizeShare| {
-        let [fits, worn] = [size.fits_percent, size.worn_percent].map(percent);
+        let [fits, worn] = [size.fits_percent, size.worn_percent].map(tenths);
         vec![text(set.set), text(&size.size), Value::Null, fits, Value::Null, worn]
     };
     let rows = found.sets.iter().flat_map(|set| {
-        std::iter::once(all(set)).chain(set.sizes.iter().map(move |one| size(set, one))).collect::<Vec<_>>()
+        std::iter::once(all(set)).chain(set.sizes.iter().map(move |share| size(set, share))).collect::<Vec<_>>()
     });
-    table(&columns, rows.collect())
+    Table::new(columns, rows)
 }
 
-/// What both sets do at each level.
+/// Shares of people whom both sets fit at each level.
 fn levels(found: &Grading) -> Table {
     let columns =
         ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
     let rows = found.levels.iter().map(|level| {
         let [least, most] = level.target_mm;
-        let shares = level.within_percent.into_iter().chain(level.fails_percent).map(percent);
+        let shares = level.within_percent.into_iter().chain(level.fails_percent).map(tenths);
         [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))]
             .into_iter()
             .chain(shares)
             .collect()
     });
-    table(&columns, rows.collect())
+    Table::new(columns, rows)
 }
 
-/// Whom both sets fit, by a girth.
+/// Shares of people whom both sets fit, by a girth.
 fn parts(found: &Grading) -> Table {
     let (level, parts) = &found.parts;
-    let columns = [format!("{}_mm", level), "own fits_percent".to_owned(), "new fits_percent".to_owned()];
+    let girth = format!("{level}_mm");
     let rows = parts.iter().map(|part| {
         let [from, to] = part.from_to_mm;
-        let [own, new] = part.fits_percent.map(percent);
+        let [own, new] = part.fits_percent.map(tenths);
         vec![text(format!("{from:.0} to {to:.0}")), own, new]
     });
-    Table { columns: columns.to_vec(), rows: rows.collect() }
+    Table::new([girth.as_str(), "own fits_percent", "new fits_percent"], rows)
 }
 
 /// The new sizes.
@@ -146,34 +138,34 @@ fn new(found: &Grading) -> &[SizeShare] {
     found.sets.last().map_or(&[], |set| &set.sizes)
 }
 
-/// What changes of the base in each size, mm.
+/// Changes of the base by each handle in each size, mm.
 fn turns(found: &Grading) -> Table {
     let columns = std::iter::once("handle".to_owned()).chain(new(found).iter().map(|size| format!("{}_mm", size.size)));
     let row = |handle: &&'static str| {
-        let of = |size: &SizeShare| {
+        let amount = |size: &SizeShare| {
             let turn = size.turns.iter().find(|turn| turn.handle == *handle);
             text(format!("{:+.0}", turn.map_or(0.0, |turn| turn.amount_mm)))
         };
-        std::iter::once(text(handle.replace('_', " "))).chain(new(found).iter().map(of)).collect()
+        std::iter::once(text(handle.replace('_', " "))).chain(new(found).iter().map(amount)).collect()
     };
     let [turned, following] = &found.handles;
     Table { columns: columns.collect(), rows: turned.iter().chain(following).map(row).collect() }
 }
 
-/// Dimensions of those who wear each size.
+/// Dimensions of the people who wear each size.
 fn chart(found: &Grading) -> Table {
     let sizes = new(found);
     let columns = std::iter::once("dimension".to_owned()).chain(sizes.iter().map(|size| size.size.clone()));
     let known = sizes.iter().find(|size| !size.wearers.is_empty()).map_or(&[][..], |size| &size.wearers);
     let row = |dimension: &'static str| {
-        let of = |size: &SizeShare| {
+        let range_of = |size: &SizeShare| {
             let range = size.wearers.iter().find(|range| range.dimension == dimension);
             range.map_or(Value::Null, |range| {
                 let [low, middle, high] = range.values;
                 text(format!("{low:.0} to {high:.0}, middle {middle:.0}"))
             })
         };
-        std::iter::once(text(dimension)).chain(sizes.iter().map(of)).collect()
+        std::iter::once(text(dimension)).chain(sizes.iter().map(range_of)).collect()
     };
     Table { columns: columns.collect(), rows: known.iter().map(|range| row(range.dimension)).collect() }
 }

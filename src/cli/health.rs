@@ -5,19 +5,19 @@ use super::{End, Outcome};
 use results::{Check, checks};
 use store::{Status, Table, Value, read};
 
-/// `toile doctor`: every check with what it found; exit code 3 when one failed.
+/// Runs `toile doctor`: prints every check with its finding. Exit code 3 where one failed.
 pub fn doctor(context: &Context) -> Outcome {
     let found: Vec<Check> = checks(&context.db, context.readonly);
     let text = |text: &str| Value::Text(text.to_owned());
     let rows = found.iter().map(|check| {
         vec![text(if check.passed { "ok" } else { "FAILED" }), text(check.name), Value::Text(check.found.clone())]
     });
-    let columns = ["result", "check", "found"].map(str::to_owned).to_vec();
-    context.print(&Table { columns, rows: rows.collect() })?;
+    let columns = ["result", "check", "found"];
+    context.print(&Table::new(columns, rows))?;
     Ok(if found.iter().all(|check| check.passed) { End::Done } else { End::CheckFailed })
 }
 
-/// `toile info`: version, database, studies.
+/// Runs `toile info`: prints version, database and studies.
 pub fn info(context: &Context) -> Outcome {
     let store = context.store()?;
     let mut rows = vec![
@@ -37,7 +37,7 @@ pub fn info(context: &Context) -> Outcome {
             format!("{}{paused}; {}", counts.join(", "), study.path.display()),
         ));
     }
-    let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name), Value::Text(value)]).collect();
-    context.print(&Table { columns: ["what", "value"].map(str::to_owned).to_vec(), rows })?;
+    let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name), Value::Text(value)]);
+    context.print(&Table::new(["what", "value"], rows))?;
     Ok(End::Done)
 }

@@ -1,4 +1,4 @@
-//! `toile lab`: the laboratory's experiments beside what is known of them.
+//! `toile lab`: experiments of the laboratory with their known answers.
 
 use super::args::Lab;
 use super::context::Context;
@@ -6,7 +6,7 @@ use super::{End, Outcome};
 use sim::laboratory::bench::Experiment;
 use store::{Table, Value};
 
-/// Runs `toile lab`: prints what each experiment finds beside what is known of it.
+/// Runs `toile lab`: prints the findings of each experiment beside its known answers.
 pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
     let is_asked = |experiment: &Experiment| {
         arguments.experiment.is_empty() || arguments.experiment.iter().any(|name| name == experiment.as_str())
@@ -29,6 +29,6 @@ pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
         }
     }
     let columns = ["experiment", "case", "quantity", "known", "found", "error", "of", "source"];
-    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows })?;
+    context.print(&Table::new(columns, rows))?;
     Ok(End::Done)
 }

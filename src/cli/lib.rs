@@ -1,7 +1,8 @@
-//! The command line: arguments in, data to standard output, messages and progress to standard error, an exit code out.
+//! The command line. Data goes to standard output, messages and progress go to standard error, and the exit code tells
+//! how the command ended.
 //!
-//! Arguments are parsed once (`args`), resolved once (`context`), and each command is one function that uses
-//! [`study`] only.
+//! Arguments are parsed (`args`) and resolved (`context`) once. Each command is one function, which calls the crates
+//! below.
 
 mod alter;
 mod answers;
@@ -47,22 +48,22 @@ use args::{Arguments, Command};
 use context::Context;
 use store::StudyError;
 
-/// How a command ended, as its exit code.
+/// Exit code of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// The command did what it was asked.
+    /// The command succeeded.
     Done = 0,
-    /// Usage, or unusable input.
+    /// The arguments or the input cannot be used.
     Unusable = 2,
     /// A check or tolerance failed.
     CheckFailed = 3,
     /// A job failed.
     JobFailed = 4,
-    /// A signal ended it, as Ctrl-C does.
+    /// A signal such as Ctrl-C ended it.
     Interrupted = 130,
 }
 
-/// Why a command could not be done.
+/// Error of a command.
 #[derive(Debug, thiserror::Error)]
 enum CliError {
     #[error(transparent)]
@@ -82,29 +83,29 @@ impl CliError {
     }
 }
 
-/// What a command returns.
+/// Result of a command.
 type Outcome = Result<End, CliError>;
 
-/// How the workbench is to be started: what the command line says of it.
+/// Options of the workbench, from the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workbench {
     /// Path of the database file.
     pub database: PathBuf,
-    /// Whether it was named, so that commands have to name it too.
+    /// True where it was named, so that commands have to name it too.
     pub is_database_named: bool,
-    /// Whether nothing may be changed.
+    /// True where the database may only be read.
     pub readonly: bool,
-    /// Whether colours are off.
+    /// True where colours are off.
     pub no_color: bool,
-    /// How pictures are shown: `auto`, `halfblocks` or `off`.
+    /// Display of pictures: `auto`, `halfblocks` or `off`.
     pub images: String,
-    /// Folder of the study that comes with the program, or where it will be written.
+    /// Folder of the study that comes with the program, which may not be written yet.
     pub quickstart: PathBuf,
 }
 
 /// The command line: every command with its arguments.
 ///
-/// The values that an argument may have stand in one line behind its help, so that the help of a command fits a screen.
+/// The possible values of an argument follow its help in the same line, so that the help of a command fits a screen.
 #[must_use]
 pub fn command() -> clap::Command {
     compact(Arguments::command()).disable_help_subcommand(false)
@@ -114,7 +115,7 @@ fn compact(command: clap::Command) -> clap::Command {
     with_remarks_last(command).disable_help_subcommand(true).mut_args(with_values_in_line).mut_subcommands(compact)
 }
 
-/// What is said beyond the summary of a command, below its arguments.
+/// Moves the help of a command beyond its summary below its arguments.
 fn with_remarks_last(command: clap::Command) -> clap::Command {
     let [summary, whole] = [command.get_about(), command.get_long_about()].map(|text| text.map(ToString::to_string));
     let Some((summary, whole)) = summary.zip(whole) else { return command };
@@ -137,8 +138,8 @@ fn read(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches_mut(&mut command().try_get_matches_from(arguments)?)
 }
 
-/// Runs the program with its arguments (the first is its own name). Without a command `workbench` is called, which this
-/// module must not know.
+/// Runs the program with its arguments, of which the first is its own name. Without a command it calls `workbench`,
+/// which this crate does not know.
 pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
     workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
@@ -148,8 +149,8 @@ pub fn main(
         Ok(arguments) => arguments,
         Err(error) => {
             let error = args::without_environment(command(), error, &arguments);
-            // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
-            // stream that cannot be written.
+            // Help and version are data, the rest goes to standard error; clap knows which. A stream that cannot be
+            // written can only be ignored.
             let _ = error.print();
             return ExitCode::from(if error.use_stderr() { End::Unusable as u8 } else { End::Done as u8 });
         }

@@ -1,4 +1,4 @@
-//! Standard output: data only, as a table, CSV or JSON. Everything else goes to standard error.
+//! Standard output: data only, as a table, CSV, JSON or Parquet. Everything else goes to standard error.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,38 +11,39 @@ use super::args::Format;
 use geom::units::significant;
 use store::{Table, Value, files};
 
-/// Says what went wrong, on standard error.
+/// Prints an error on standard error.
 pub fn tell(message: &impl std::fmt::Display) {
     note(&format!("toile: {message}"));
 }
 
-/// Says something on standard error. What a name or a file brings along cannot steer the terminal.
+/// Prints a message on standard error. Control characters from names and files are escaped, so that they cannot steer
+/// the terminal.
 pub fn note(text: &impl std::fmt::Display) {
     eprintln!("{}", printable(&text.to_string()));
 }
 
-/// A text whose control characters, but for ends of lines and tabulators, are written out.
+/// A text whose control characters are escaped, except line feeds and tabs.
 pub fn printable(text: &str) -> String {
     let is_plain = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_default().to_string() }).collect()
 }
 
-/// The format that the name of a file to be written says: one of those whose endings are accepted.
+/// The format of a file to be written, by the ending of its name: one of those that are accepted.
 pub fn kind<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> Result<T, CliError> {
-    files::kind_of(path, accepted).map_err(CliError::Usage)
+    files::kind_of(path, accepted).map_err(|error| CliError::Usage(error.to_string()))
 }
 
-/// The format of a file to be written: what its name says, or what is asked for where its name has no ending.
+/// The format of a file to be written: that of its ending, or the one that is asked for where it has no ending.
 pub fn kind_or<T: Copy + PartialEq>(path: &Path, asked: Option<T>, accepted: &[(&str, T)]) -> Result<T, CliError> {
     let Some(asked) = asked else { return kind(path, accepted) };
     if path.extension().is_none() {
         return Ok(asked);
     }
-    let of_asked: Vec<(&str, T)> = accepted.iter().copied().filter(|(_, format)| *format == asked).collect();
-    kind(path, &of_asked).map_err(|error| CliError::Usage(format!("--format contradicts the file's name: {error}")))
+    let endings: Vec<(&str, T)> = accepted.iter().copied().filter(|(_, format)| *format == asked).collect();
+    kind(path, &endings).map_err(|error| CliError::Usage(format!("--format contradicts the file's name: {error}")))
 }
 
-/// Checks a folder to be written to: a name that ends as the files that come into it would be taken for one of them.
+/// Refuses a folder whose name ends like the files that go into it, since it is probably meant as one of them.
 pub fn folder(path: &Path, endings: &[&str]) -> Result<(), CliError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     if path.is_dir() || !endings.iter().any(|ending| extension.eq_ignore_ascii_case(ending)) {
@@ -59,7 +60,7 @@ pub fn text(text: &str) -> io::Result<()> {
     bytes(text.as_bytes())
 }
 
-/// Writes bytes to standard output, likewise.
+/// Writes bytes to standard output, as [`text`] does.
 pub fn bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
@@ -95,7 +96,7 @@ pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     })
 }
 
-/// A table for reading: numbers to the right, at most six significant digits.
+/// A table for reading. Numbers stand to the right and have at most six significant digits.
 pub fn pretty(table: &Table) -> String {
     let mut grid = Grid::new();
     grid.load_preset(presets::NOTHING);
@@ -121,6 +122,11 @@ pub fn pretty(table: &Table) -> String {
     grid.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
+/// A number, rounded to a tenth.
+pub fn tenths(number: f64) -> Value {
+    Value::Real((number * 10.0).round() / 10.0)
+}
+
 /// A value for reading.
 fn short(value: &Value) -> String {
     match value {
@@ -131,14 +137,7 @@ fn short(value: &Value) -> String {
 
 /// Rows as JSON objects, keys in order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
-    let cell = |value: &Value| match value {
-        Value::Null => Json::Null,
-        Value::Integer(number) => Json::from(*number),
-        Value::Real(number) => Json::from(*number),
-        Value::Text(text) => Json::from(text.as_str()),
-        Value::Blob(bytes) => Json::from(format!("<{bytes} bytes>")),
-    };
-    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(cell)).collect()).collect()
+    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()
 }
 
 #[cfg(test)]

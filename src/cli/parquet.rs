@@ -1,5 +1,6 @@
-//! Tables as Apache Parquet [Parquet format 2.10]: one row group, plain values, not compressed, so that no package is
-//! needed. Every column may have nulls; a column of whole numbers is INT64, of numbers DOUBLE, any other UTF-8 text.
+//! Tables as Apache Parquet [Parquet format 2.10]: one row group with plain values that are not compressed, so that no
+//! package is needed. Every column may have nulls. A column of whole numbers is INT64, one of numbers is DOUBLE, and
+//! any other is UTF-8 text.
 
 use store::{Table, Value};
 
@@ -62,7 +63,7 @@ fn kind(values: &[&Value]) -> Kind {
     kind
 }
 
-/// A page: its header, which values are there, and those values.
+/// Writes a page: its header, the definition levels of its values, and the values that are not null.
 fn write_page(file: &mut Vec<u8>, values: &[&Value], kind: Kind) {
     let mut levels = Vec::new();
     for run in values.chunk_by(|a, b| (**a == Value::Null) == (**b == Value::Null)) {
@@ -99,7 +100,7 @@ fn write_page(file: &mut Vec<u8>, values: &[&Value], kind: Kind) {
     file.extend_from_slice(&data);
 }
 
-/// The schema's first element: how many columns there are.
+/// First element of the schema, with the number of columns.
 fn root(columns: usize) -> Vec<u8> {
     let mut root = Struct::default();
     root.text(4, "schema");
@@ -119,7 +120,7 @@ fn element(name: &str, kind: Kind) -> Vec<u8> {
     element.end()
 }
 
-/// Where a column's pages are.
+/// Metadata of a column chunk: the place and size of its pages.
 fn chunk(name: &str, kind: Kind, rows: usize, start: usize, length: usize) -> Vec<u8> {
     let mut about = Struct::default();
     about.i32(1, kind as i32);
@@ -136,7 +137,7 @@ fn chunk(name: &str, kind: Kind, rows: usize, start: usize, length: usize) -> Ve
     chunk.end()
 }
 
-/// A struct in Thrift's compact protocol [Thrift compact protocol]: fields in order of their numbers.
+/// A struct in Thrift's compact protocol [Thrift compact protocol], with fields in the order of their numbers.
 #[derive(Default)]
 struct Struct {
     bytes: Vec<u8>,
@@ -189,7 +190,7 @@ impl Struct {
         }
     }
 
-    /// Starts a list: how many items of which type.
+    /// Starts a list, with the number of its items and their type.
     fn head(&mut self, number: u8, items: usize, kind: u8) {
         self.field(number, 9);
         if items < 15 {
@@ -207,7 +208,7 @@ impl Struct {
     }
 }
 
-/// A number in groups of seven bits, the lowest first.
+/// Writes a number in groups of seven bits, the lowest first.
 fn varint(bytes: &mut Vec<u8>, mut number: u64) {
     while number >= 0x80 {
         bytes.push(number as u8 | 0x80);
@@ -216,7 +217,7 @@ fn varint(bytes: &mut Vec<u8>, mut number: u64) {
     bytes.push(number as u8);
 }
 
-/// A number with its sign in the lowest bit.
+/// Writes a number with its sign in the lowest bit.
 fn zigzag(bytes: &mut Vec<u8>, number: i64) {
     varint(bytes, ((number << 1) ^ (number >> 63)) as u64);
 }

@@ -1,4 +1,4 @@
-//! `toile pattern`: what needs only a pattern.
+//! `toile pattern`: commands that need only a pattern.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -39,8 +39,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
             output::kind(output, &[("svg", ())])?;
-            let sheet = patterns::sheet(&style(files)?);
-            write(context, output, sheet)?;
+            context.write(output, patterns::sheet(&style(files)?).into_bytes())?;
             Ok(End::Done)
         }
         Pattern::Pom { path, seams, cut, output } => {
@@ -55,7 +54,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
     }
 }
 
-/// The style to draft.
+/// The drafted style of an argument.
 pub fn model(style: DraftStyle) -> Model {
     match style {
         DraftStyle::Tshirt => Model::Tshirt,
@@ -65,15 +64,7 @@ pub fn model(style: DraftStyle) -> Model {
     }
 }
 
-fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError> {
-    let folder = output.parent().unwrap_or(Path::new(""));
-    let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    files::write_files(folder, &[(name, text.into_bytes())])?;
-    context.say(format_args!("wrote {}", output.display()));
-    Ok(())
-}
-
-/// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
+/// Shows a proposal, and writes it as a seam file where that is asked. Its questions go to standard error.
 fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: Option<&Path>) -> Outcome {
     let proposal = &proposed.proposal;
     if context.json {
@@ -89,7 +80,7 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
     }
     if let Some(output) = output {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        write(context, output, proposal.toml(&name))?;
+        context.write(output, proposal.toml(&name).into_bytes())?;
     }
     Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
 }
@@ -99,7 +90,7 @@ fn seam(context: &Context, command: &SeamCommand) -> Outcome {
     let (home, step) = command.clone().step();
     let unit = home.unit.map(Unit::from);
     let file = seams::edit_seams(&home.pattern, &home.seams, home.size.as_deref(), unit, &step)?;
-    write(context, &home.seams, String::from_utf8_lossy(&file.bytes).into_owned())?;
+    context.write(&home.seams, String::from_utf8_lossy(&file.bytes).into_owned().into_bytes())?;
     Ok(End::Done)
 }
 
@@ -117,14 +108,15 @@ fn seams(proposal: &seams::Proposal) -> Table {
             round(seam.confidence, 100.0),
         ]
     });
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+    Table::new(columns, rows)
 }
 
 fn style(files: &StyleFiles) -> Result<patterns::Style, CliError> {
     Ok(patterns::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(Unit::from))?)
 }
 
-/// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
+/// Prints reports, as JSON or as a table. A file that cannot be read, or a refused piece, makes the exit code that of
+/// unusable input.
 fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -> Table) -> Outcome {
     if context.json {
         output::json(&reports)?;
@@ -159,17 +151,17 @@ fn pieces(reports: &[FileReport]) -> Table {
                 text(&piece.name),
                 maybe(piece.size.as_deref().map(text)),
                 maybe(piece.quantity.as_deref().map(text)),
-                Value::Real((piece.perimeter_mm * 10.0).round() / 10.0),
+                output::tenths(piece.perimeter_mm),
                 Value::Real((piece.area_mm2 / 10.0).round() / 10.0),
                 Value::Integer(piece.notches as i64),
-                maybe(piece.grain_mm.map(|length| Value::Real((length * 10.0).round() / 10.0))),
+                maybe(piece.grain_mm.map(output::tenths)),
             ]
         })
     });
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+    Table::new(columns, rows)
 }
 
-/// One row for each file.
+/// A row for each file.
 fn outcomes(reports: &[FileReport]) -> Table {
     let columns = ["file", "format", "unit", "pieces", "sizes", "half pieces", "refused", "outcome"];
     let row = |report: &FileReport| {
@@ -193,10 +185,10 @@ fn outcomes(reports: &[FileReport]) -> Table {
             Value::Text(outcome),
         ]
     };
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: reports.iter().map(row).collect() }
+    Table::new(columns, reports.iter().map(row))
 }
 
-/// Checks a pattern with its seam file by making everything a simulation needs of it.
+/// Checks a pattern with its seam file: makes everything that a simulation needs of it.
 fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let is_study = |path: &Path| path.extension().is_some_and(|e| e == "toml") || path.join("study.toml").is_file();
     if is_study(&files.file) {
@@ -217,13 +209,13 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         }
         Err(error) => return Err(error),
     };
-    let columns = ["#", "measurement", "l2d_mm", "free edge"].map(str::to_owned).to_vec();
+    let columns = ["#", "measurement", "l2d_mm", "free edge"];
     let rows = style.measurements.iter().map(|m| {
         let length = Value::Real((mm(m.l2d_m) * 100.0).round() / 100.0);
         let free = if m.is_free_edge { "yes" } else { "" };
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
-    context.print(&Table { columns, rows: rows.collect() })?;
+    context.print(&Table::new(columns, rows))?;
     let mut findings = patterns::garment_findings(&style, &garment);
     if let Some(seams) = &files.seams {
         findings.extend(seams::findings(&files.file, seams, files.size.as_deref(), files.unit.map(Unit::from))?);
@@ -245,16 +237,16 @@ fn told(finding: &Finding) -> String {
     format!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found)
 }
 
-/// One row for each size of a study.
+/// Prints a row for each size of a study.
 fn check_study(context: &Context, path: &Path) -> Outcome {
     if context.db.exists() && !context.readonly {
-        // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
+        // A study names entries of the catalogue, so a database of an earlier version is migrated first.
         context.store()?;
     }
     show_sizes(context, &seams::check_study(path, &context.db)?)
 }
 
-/// One row for each size; what is found in any makes the whole fail.
+/// Prints a row for each size. A finding on any of them makes the check fail.
 fn show_sizes(context: &Context, checks: &[SizeCheck]) -> Outcome {
     if context.json {
         output::json(&checks)?;
@@ -284,11 +276,11 @@ fn sizes(checks: &[SizeCheck]) -> Table {
             count(check.measurements),
             Value::Text(levels.collect::<Vec<_>>().join(", ")),
             count(check.vertices),
-            Value::Real((check.min_angle_deg * 10.0).round() / 10.0),
+            output::tenths(check.min_angle_deg),
             count(check.findings.len() + usize::from(check.error.is_some())),
         ]
     };
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: checks.iter().map(row).collect() }
+    Table::new(columns, checks.iter().map(row))
 }
 
 fn mesh(context: &Context, files: &StyleFiles, edge_length_mm: f64) -> Outcome {

@@ -1,4 +1,4 @@
-//! `toile pattern features`, `convert` and `pom`: patterns as other kinds of file.
+//! `toile pattern features`, `convert` and `pom`: patterns in other formats.
 
 use std::path::Path;
 
@@ -6,11 +6,10 @@ use super::args::BesideFiles;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, xlsx};
 use spec::patterns::Unit;
-use store::files;
 use wardrobe::seams::pattern_files::{self, Beside, Standard};
 use wardrobe::seams::{Asking, specification};
 
-/// What the arguments say about a pattern beside its file.
+/// Choices and tables that go with a pattern file, from the arguments.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
     Beside {
         size: files.size.as_deref(),
@@ -28,7 +27,7 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
     notes.iter().for_each(|note| context.say(note));
     let json = json + "\n";
     match output {
-        Some(output) => write(context, output, json.into_bytes())?,
+        Some(output) => context.write(output, json.into_bytes())?,
         None => output::text(&json)?,
     }
     Ok(End::Done)
@@ -69,7 +68,7 @@ pub fn points_of_measure(
         SheetFormat::Svg => specified.drawing.clone().into_bytes(),
         SheetFormat::Xlsx => xlsx::bytes(&[(&specified.garment, &specified.table())])?,
     };
-    write(context, output, bytes)?;
+    context.write(output, bytes)?;
     Ok(End::Done)
 }
 
@@ -85,17 +84,17 @@ enum PatternFormat {
 /// Formats of patterns by the endings of files; SVG is written by `toile pattern sheet`.
 const PATTERNS: [(&str, PatternFormat); 2] = [("dxf", PatternFormat::Dxf), ("json", PatternFormat::Json)];
 
-/// How a pattern is written.
+/// Options of a pattern that is written.
 pub struct Written<'a> {
-    /// Seam file, for a kind of file that holds seams.
+    /// Seam file, for a format that holds seams.
     pub seams: Option<&'a Path>,
     /// Standard of a DXF file.
     pub standard: Standard,
-    /// Whether the sample size is written alone, with a grade rule table beside it.
+    /// True where only the sample size is written, with a grade rule table beside it.
     pub with_rul: bool,
 }
 
-/// Writes a pattern as the kind of file that the output's name says.
+/// Writes a pattern in the format that the ending of the output names.
 pub fn convert(
     context: &Context,
     path: &Path,
@@ -108,7 +107,7 @@ pub fn convert(
             let table = output.with_extension("rul");
             let name = table.file_stem().unwrap_or_default().to_string_lossy();
             let graded = pattern_files::convert_to_graded(path, &beside(files), *standard, &name)?;
-            write(context, &table, graded.rules.into_bytes())?;
+            context.write(&table, graded.rules.into_bytes())?;
             (graded.dxf, graded.notes)
         }
         PatternFormat::Dxf => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,
@@ -122,14 +121,6 @@ pub fn convert(
         }
     };
     notes.iter().for_each(|note| context.say(note));
-    write(context, output, bytes)?;
+    context.write(output, bytes)?;
     Ok(End::Done)
-}
-
-fn write(context: &Context, output: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
-    let folder = output.parent().unwrap_or(Path::new(""));
-    let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    files::write_files(folder, &[(name, bytes)])?;
-    context.say(format_args!("wrote {}", output.display()));
-    Ok(())
 }

@@ -1,4 +1,4 @@
-//! `toile render`, `toile export` and `toile report`: what a run looks like.
+//! `toile render`, `toile export` and `toile report`: pictures, meshes and reports of results.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -55,10 +55,11 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
         (Some(pictures), [job]) => picture::turntable(&store, *job, &order, pictures)?,
         (Some(_), _) => return Err(CliError::Usage("--turntable shows one job".into())),
     };
-    write(context, &arguments.output, png)
+    context.write(&arguments.output, png)?;
+    Ok(End::Done)
 }
 
-/// A colour as it is written.
+/// Reads a colour.
 fn colour(text: &str) -> Result<Rgb, CliError> {
     Rgb::from_hex(text).ok_or_else(|| CliError::Usage(format!("{text} is no colour; accepted: #rrggbb, like #dcb094")))
 }
@@ -78,7 +79,8 @@ pub fn export(context: &Context, arguments: &Export) -> Outcome {
         FormatArgument::Stl => MeshFormat::Stl,
     };
     let file = picture::mesh_file(&context.store()?, JobId(arguments.job), format, map(arguments.map))?;
-    write(context, &arguments.output, file)
+    context.write(&arguments.output, file)?;
+    Ok(End::Done)
 }
 
 fn map(argument: MapArgument) -> Map {
@@ -93,21 +95,14 @@ fn map(argument: MapArgument) -> Map {
     }
 }
 
-/// Writes one file and says so.
-pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
-    context.say(format_args!("wrote {}", path.display()));
-    Ok(End::Done)
-}
-
-/// Writes a chart as what the name of its file ends in.
+/// Writes a chart in the format that the ending of its file names.
 pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
     let bytes = match chart_format(file)? {
         ChartFormat::Svg => chart.svg().as_bytes().to_vec(),
         ChartFormat::Png => chart.png().map_err(|error| CliError::Usage(error.to_string()))?,
     };
-    write(context, file, bytes)
+    context.write(file, bytes)?;
+    Ok(End::Done)
 }
 
 /// Format of a chart in a file.
@@ -117,12 +112,12 @@ pub enum ChartFormat {
     Png,
 }
 
-/// The format of a chart that the name of its file says.
+/// The format of a chart, by the ending of its file.
 pub fn chart_format(file: &Path) -> Result<ChartFormat, CliError> {
     output::kind(file, &[("svg", ChartFormat::Svg), ("png", ChartFormat::Png)])
 }
 
-/// Runs `toile report`: writes the report of a study, and its PDF where that is asked.
+/// Runs `toile report`: writes the report of a study, and its PDF where that is asked for.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["html", "pdf", "csv"])).transpose()?;
     let store = context.store()?;
@@ -132,7 +127,7 @@ pub fn report(context: &Context, arguments: &Report) -> Outcome {
         PurposeArgument::Compare => Purpose::Compare,
     });
     let folder = arguments.output.clone().unwrap_or_else(|| default_folder(context, &name));
-    write_report(context, &store, &name, (&folder, purpose))?;
+    write_report(context, &store, &name, &folder, purpose)?;
     if arguments.pdf { print_page(context, &folder) } else { Ok(End::Done) }
 }
 
@@ -167,22 +162,22 @@ fn print_page(context: &Context, folder: &Path) -> Outcome {
 }
 
 /// Writes a study's report and prints the path of its page.
-pub fn write_report(
+fn write_report(
     context: &Context,
     store: &Store,
     study: &str,
-    (folder, purpose): (&Path, Option<Purpose>),
+    folder: &Path,
+    purpose: Option<Purpose>,
 ) -> Result<(), CliError> {
-    let files: Vec<(String, Vec<u8>)> = reporting::report(store, study, purpose)?;
-    files::write_files(folder, &files)?;
+    files::write_files(folder, &reporting::report(store, study, purpose)?)?;
     tell_report(context, &folder.join(PAGE))
 }
 
-/// The report's page in its folder.
+/// Name of the report's page in its folder.
 const PAGE: &str = "index.html";
 
-/// Writes a study's report, unless the page that is there was written from this database and is younger than its latest
-/// result, its file and this program; prints the path.
+/// Writes a study's report, unless the present page was written from this database and is younger than the latest
+/// result, the study file and this program. Prints the path.
 pub fn bring_report(context: &Context, store: &mut Store, study: &Study, since_ms: i64) -> Result<(), CliError> {
     let page = default_folder(context, &study.name).join(PAGE);
     let program = std::env::current_exe().ok().and_then(|path| modified_ms(&path));
@@ -193,20 +188,20 @@ pub fn bring_report(context: &Context, store: &mut Store, study: &Study, since_m
     {
         return tell_report(context, &page);
     }
-    write_report(context, store, &study.name, (&default_folder(context, &study.name), None))?;
+    write_report(context, store, &study.name, &default_folder(context, &study.name), None)?;
     if let Some(written) = modified_ms(&page).filter(|_| !store.is_readonly()) {
         record::remember_report(store, &study.name, &page, written)?;
     }
     Ok(())
 }
 
-/// When a file was last written, ms since 1970.
+/// Time of the last change of a file, ms since 1970 (UTC).
 fn modified_ms(path: &Path) -> Option<i64> {
     let modified = std::fs::metadata(path).and_then(|file| file.modified()).ok()?;
     i64::try_from(modified.duration_since(UNIX_EPOCH).ok()?.as_millis()).ok()
 }
 
-/// Prints the path of a report's page, from the current folder where it lies within.
+/// Prints the path of a report's page, relative to the current folder where it lies within.
 fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
     let here = std::env::current_dir().unwrap_or_default();
     let page = page.strip_prefix(here).unwrap_or(page);
@@ -218,7 +213,7 @@ fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
-/// `reports/STUDY` of the project; without a project, beside the database.
+/// Folder of a study's report: `reports/STUDY` of the project, or beside the database without a project.
 pub fn default_folder(context: &Context, study: &str) -> PathBuf {
     let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
     project_folder().unwrap_or_else(beside).join("reports").join(files::study_folder(study))

@@ -8,7 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use super::context::Context;
 use store::{JobFilter, JobId, JobRow, Result, Status, Store, read};
 
-/// What a job is called on its bar, such as `tshirt S ii`.
+/// Label of a job, such as `tshirt S ii`.
 pub fn label(garment: &str, size: &str, subject: &str) -> String {
     format!("{garment} {size} {subject}")
 }
@@ -16,7 +16,7 @@ pub fn label(garment: &str, size: &str, subject: &str) -> String {
 /// Steps of a job's bar.
 const STEPS: u64 = 1000;
 
-/// Shows how the jobs of a run fare.
+/// Progress of the jobs of a run.
 pub struct Progress {
     study: String,
     jobs: BTreeSet<JobId>,
@@ -84,7 +84,7 @@ impl Progress {
         Self { study: study.to_owned(), jobs, shown: BTreeMap::new(), bars, quiet: context.quiet }
     }
 
-    /// Looks at the jobs and shows what is new.
+    /// Reads the jobs and shows their changes.
     pub fn show(&mut self, store: &Store) -> Result<()> {
         let filter = JobFilter { study: Some(self.study.clone()), ..JobFilter::default() };
         for job in read::jobs(store, &filter)?.into_iter().filter(|job| self.jobs.contains(&job.id)) {
@@ -109,7 +109,7 @@ impl Progress {
         Ok(())
     }
 
-    /// Takes the bars away.
+    /// Removes the bars.
     pub fn finish(&mut self) {
         if let Some(bars) = &mut self.bars {
             bars.running.values().for_each(ProgressBar::finish_and_clear);

@@ -6,11 +6,11 @@ use super::CliError;
 use super::output::printable;
 use wardrobe::seams::{Proposed, Question};
 
-/// Asks what has choices and no answer yet, the least number first, until nothing is left to ask. An empty line
-/// takes what stands.
+/// Asks the questions that have choices and no answer yet, in order, until none is left. An empty line takes the answer
+/// that is marked.
 ///
 /// # Errors
-/// When there is no terminal to ask at, or as `proposed`.
+/// When there is no terminal, or those of `proposed`.
 pub fn ask(
     mut answers: Vec<(usize, char)>,
     proposed: impl Fn(&[(usize, char)]) -> Result<Proposed, CliError>,

@@ -1,4 +1,4 @@
-//! `toile queue`: listing and steering jobs.
+//! `toile queue`: lists and controls jobs.
 
 use super::args::{Jobs, Queue};
 use super::context::Context;
@@ -44,7 +44,7 @@ fn retry(context: &Context, store: &mut Store, jobs: &Jobs) -> Outcome {
     Ok(End::Done)
 }
 
-/// Jobs named one by one, and the current ones of a study or of a part of it.
+/// Jobs that are named one by one, and the current ones of a study or of a part of it.
 fn ids(store: &Store, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
     let part = selection(&jobs.part);
     if jobs.study.is_none() && part != Selection::default() {
@@ -91,7 +91,7 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
             job.error.map_or(Value::Null, Value::Text),
         ]
     });
-    Ok(Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() })
+    Ok(Table::new(columns, rows))
 }
 
 /// A job's log as a table; times are seconds since it was queued.
@@ -100,5 +100,5 @@ fn log(store: &Store, id: JobId) -> Result<Table, StudyError> {
     let rows = read::log(store, id)?.into_iter().map(|line| {
         vec![Value::Real((line.at_ms - queued) as f64 / 1e3), Value::Text(line.level), Value::Text(line.text)]
     });
-    Ok(Table { columns: ["seconds", "level", "message"].map(str::to_owned).to_vec(), rows: rows.collect() })
+    Ok(Table::new(["seconds", "level", "message"], rows))
 }

@@ -1,4 +1,4 @@
-//! `toile recommend`: which simulator for which fit, and how strong the evidence is.
+//! `toile recommend`: the simulator for each fit class, with its evidence.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use super::{CliError, End, Outcome, output};
 use fit::{Analysis, Answer, Estimate, Simulator, Without};
 use store::{PUBLISHED, Store, Table, Value, evidence};
 
-/// Runs `toile recommend`: prints which simulator to use for each garment and fit class.
+/// Runs `toile recommend`: prints the simulator to use for each garment and fit class.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     let mut store = context.store()?;
     let name = context.study_name(&store, &arguments.study)?;
@@ -28,7 +28,7 @@ pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     Ok(End::Done)
 }
 
-/// The answers as a table: without numbers, with them, and with the sentences too.
+/// The answers as a table, with or without numbers and sentences.
 fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
     let text = |text: &str| Value::Text(text.to_owned());
     let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
@@ -62,7 +62,7 @@ fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
         }
         row
     };
-    Table { columns: columns.into_iter().map(str::to_owned).collect(), rows: answers.iter().map(row).collect() }
+    Table::new(columns, answers.iter().map(row))
 }
 
 /// Every answer in words, then the garments over all fits and the rule.
@@ -96,8 +96,9 @@ fn explained(store: &Store, study: &str, answers: &[&Answer]) -> Result<String, 
         analysed(&mut text, &all_fits.analysis, all_fits.p_holm);
         line(&mut text, "crossover", &evidence::crossover_words(store, study, Some(&all_fits.garment))?);
     }
-    let (score, pairs) = evidence::rule_score(store, study)?;
-    if pairs > 0 {
+    let pairs = evidence::pairs(store, study)?;
+    if !pairs.is_empty() {
+        let score = fit::rule_score(&pairs);
         let _ = write!(text, "\nall garments\n");
         line(&mut text, "the rule", &format!("right in {} of {} loose or tight cases", score.right, score.of));
         line(&mut text, "crossover", &evidence::crossover_words(store, study, None)?);

@@ -1,4 +1,4 @@
-//! `toile run`: queue, work, summarise, report.
+//! `toile run`: queues the jobs of a study, runs them, prints the results and writes the report.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -22,7 +22,7 @@ const LOOK: Duration = Duration::from_millis(150);
 /// Time between two looks at a cluster.
 const SLURM_LOOK: Duration = Duration::from_secs(1);
 
-/// Runs `toile run`: queues the jobs of a study, works them off, and reports.
+/// Runs `toile run`.
 pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
         (Some(command), _) => return runs::run(context, command),
@@ -50,7 +50,7 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     }
     let workers = arguments.workers.map(usize::from);
     if arguments.detach {
-        // So that whoever follows it at once finds its jobs.
+        // Queued here already, so that `--attach` finds its jobs at once.
         compose::queue(&mut store, &study, &selection)?;
         return detached::start(context, &study.name);
     }
@@ -96,18 +96,18 @@ pub fn selection(part: &StudyPart) -> Selection {
     }
 }
 
-/// Set by the first Ctrl-C or request to end.
+/// A flag that the first Ctrl-C or request to end sets.
 fn interruption() -> Result<Arc<AtomicBool>, CliError> {
     let interrupted = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // A second signal ends at once: the database does not mind.
+        // A second signal ends at once, which does not harm the database.
         signal_hook::flag::register_conditional_shutdown(signal, End::Interrupted as i32, interrupted.clone())?;
         signal_hook::flag::register(signal, interrupted.clone())?;
     }
     Ok(interrupted)
 }
 
-/// Says what will be run, and with `why` the reason for each; the jobs that will.
+/// Prints the number of jobs to run, and with `why` the reason for each job. Returns the jobs that will run.
 fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -> BTreeSet<JobId> {
     if why || context.verbose {
         for job in planned {
@@ -122,8 +122,8 @@ fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -
     todo
 }
 
-/// Hands the study to Slurm and shows how it fares until it ends; says whether it was interrupted. What Slurm has goes
-/// on then, and the next run takes it up.
+/// Hands the study to Slurm and shows its progress until it ends. Returns true if it was interrupted: jobs of Slurm
+/// then go on, and the next run collects them.
 fn slurm(
     context: &Context,
     store: &mut Store,
@@ -153,7 +153,7 @@ fn slurm(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// Starts the run and shows how it fares until it ends; says whether it was interrupted.
+/// Starts the run and shows its progress until it ends. Returns true if it was interrupted.
 pub fn work(
     context: &Context,
     store: &mut Store,
@@ -181,7 +181,7 @@ pub fn work(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// What would run, and why.
+/// The jobs of a plan, each with the reason why it would run or not.
 fn plan_table(planned: &[Planned]) -> Table {
     let columns = ["garment", "size", "subject", "sim", "repeat", "runs", "why"];
     let rows = planned.iter().map(|job| {
@@ -196,11 +196,11 @@ fn plan_table(planned: &[Planned]) -> Table {
             Value::Text(job.why.to_string()),
         ]
     });
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+    Table::new(columns, rows)
 }
 
-/// Prints the results: chi of every measurement as the thesis lays it out, one table a garment, size and simulator; as
-/// JSON the rows of `v_metrics` with their `chi`.
+/// Prints the results: chi of every measurement, with a table for each garment, size and simulator as in the thesis. As
+/// JSON they are the rows of `v_metrics` with their `chi`.
 fn summarise(context: &Context, store: &Store, jobs: &[JobRow]) -> Result<(), CliError> {
     let done: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result()).collect();
     if context.json {
@@ -232,7 +232,7 @@ fn summarise(context: &Context, store: &Store, jobs: &[JobRow]) -> Result<(), Cl
     Ok(())
 }
 
-/// Rows: measurements and summary; columns: pattern length and one chi a subject.
+/// A row for each measurement, and a summary. The columns are the pattern length and chi of each subject.
 fn chi_table(store: &Store, jobs: &[&JobRow]) -> Result<Table, StudyError> {
     let mut columns = vec!["#".to_owned(), "measurement".to_owned(), "L2D mm".to_owned()];
     let mut rows: Vec<Vec<Value>> = Vec::new();

@@ -1,4 +1,4 @@
-//! `toile run show|diff|rerun`: one result in full, two side by side, and one made again.
+//! `toile run show|diff|rerun`: one result in full, two side by side, or one made again.
 
 use serde_json::{Value as Json, json};
 
@@ -61,8 +61,8 @@ fn show(context: &Context, id: JobId) -> Outcome {
             Value::Text(format!("{:.4}", row.chi())),
         ]
     });
-    let columns = ["#", "measurement", "L2D mm", "L3D mm", "chi"].map(str::to_owned).to_vec();
-    output::text(&output::pretty(&Table { columns, rows: rows.collect() }))?;
+    let columns = ["#", "measurement", "L2D mm", "L3D mm", "chi"];
+    output::text(&output::pretty(&Table::new(columns, rows)))?;
     Ok(End::Done)
 }
 
@@ -120,7 +120,7 @@ fn rerun(context: &Context, id: JobId) -> Outcome {
     Ok(End::CheckFailed)
 }
 
-/// The numbers of a result with their names in SQL; `None` is one that its program did not know.
+/// The numbers of a result with their names in SQL; `None` for one that its program did not compute.
 fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 13] {
     [
         ("n", Some(f64::from(m.n))),
@@ -139,7 +139,7 @@ fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 13] {
     ]
 }
 
-/// A number with six digits after the point, no more than it has.
+/// A number with at most six decimals.
 fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -147,7 +147,7 @@ fn short(number: f64) -> String {
 
 fn two_columns(columns: [&str; 2], rows: Vec<(&str, String)>) -> Table {
     let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name.to_owned()), Value::Text(value)]);
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+    Table::new(columns, rows)
 }
 
 /// Measurements of two results: chi of both and their difference; `=` where no bit differs.

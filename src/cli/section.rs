@@ -1,4 +1,4 @@
-//! `toile section`: the air between body and cloth.
+//! `toile section`: cross sections of body and cloth.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use fit::Simulator;
 use results::{CrossSection, CutAt, CutCloth, GarmentWorn, draped_fit, section};
 use store::{JobId, Store, Table, Value};
 
-/// Prints cross sections, or draws one.
+/// Runs `toile section`: prints cross sections, or draws one.
 pub fn section(context: &Context, arguments: &Section) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let store = context.store()?;
@@ -20,11 +20,11 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
         (None, None) => CutAt::Levels,
     };
     let worn = draped_fit::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
-    let mut cut: Vec<(&GarmentWorn, Vec<JobId>)> = Vec::new();
-    for one in &worn {
-        let jobs = jobs(&store, &study, one, arguments)?;
+    let mut cut: Vec<Drapes<'_>> = Vec::new();
+    for worn in &worn {
+        let jobs = jobs(&store, &study, worn, arguments)?;
         if !jobs.is_empty() {
-            cut.push((one, jobs));
+            cut.push(Drapes { worn, jobs });
         }
     }
     if cut.is_empty() {
@@ -35,36 +35,41 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
     if let Some(file) = &arguments.output {
         return draw(context, &store, &cut, &at, file);
     }
-    let mut found = Vec::new();
-    for (one, jobs) in &cut {
-        found.push((*one, section::sections(&store, jobs, &at)?));
-    }
+    let found: Vec<Vec<CrossSection>> =
+        cut.iter().map(|drapes| section::sections(&store, &drapes.jobs, &at)).collect::<Result<_, _>>()?;
     if context.json {
-        output::json(&found.into_iter().flat_map(|(_, sections)| sections).collect::<Vec<_>>())?;
+        output::json(&found.concat())?;
         return Ok(End::Done);
     }
-    for (number, (one, sections)) in found.iter().enumerate() {
+    for (number, (drapes, sections)) in cut.iter().zip(&found).enumerate() {
         let gap = if number == 0 { "" } else { "\n" };
-        output::text(&format!("{gap}{} on {}: gap from skin to cloth\n", one.card.garment, one.card.subject))?;
+        let card = &drapes.worn.card;
+        output::text(&format!("{gap}{} on {}: gap from skin to cloth\n", card.garment, card.subject))?;
         context.print(&table(sections))?;
     }
     Ok(End::Done)
 }
 
+/// Results of a garment on a subject.
+struct Drapes<'a> {
+    worn: &'a GarmentWorn,
+    jobs: Vec<JobId>,
+}
+
 /// The results that are asked for of a garment on a subject, in the order of their sizes.
-fn jobs(store: &Store, study: &str, one: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
-    let simulator = arguments.sim.map(Simulator::from).or(one.simulator);
+fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
+    let simulator = arguments.sim.map(Simulator::from).or(worn.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
     let is_wanted = |size: &str| arguments.size.is_empty() || arguments.size.iter().any(|wanted| wanted == size);
-    let sizes = draped_fit::drapes(store, study, &one.card, simulator)?;
+    let sizes = draped_fit::drapes(store, study, &worn.card, simulator)?;
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
 /// Draws the one section that is asked for.
-fn draw(context: &Context, store: &Store, cut: &[(&GarmentWorn, Vec<JobId>)], at: &CutAt, file: &Path) -> Outcome {
+fn draw(context: &Context, store: &Store, cut: &[Drapes<'_>], at: &CutAt, file: &Path) -> Outcome {
     let mut drawn = Vec::new();
-    for (one, jobs) in cut {
-        let wear = one.card.to_wear().map(|size| size.size.as_str());
+    for Drapes { worn, jobs } in cut {
+        let wear = worn.card.to_wear().map(|size| size.size.as_str());
         drawn.extend(section::drawn(store, jobs, at, wear)?);
     }
     let [(_, chart)] = drawn.as_slice() else {
@@ -92,6 +97,6 @@ fn table(sections: &[CrossSection]) -> Table {
             greatest,
         ]
     };
-    let rows = sections.iter().flat_map(|section| section.cloth.iter().map(move |cloth| row(section, cloth))).collect();
-    Table { columns: columns.map(str::to_owned).to_vec(), rows }
+    let rows = sections.iter().flat_map(|section| section.cloth.iter().map(move |cloth| row(section, cloth)));
+    Table::new(columns, rows)
 }

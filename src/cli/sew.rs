@@ -1,4 +1,4 @@
-//! `toile pattern sew`: a garment seen while its seam file is edited.
+//! `toile pattern sew`: a picture of a garment while its seam file is edited.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,9 +8,8 @@ use std::time::{Duration, Instant};
 use signal_hook::consts::SIGINT;
 
 use super::args::{BodyFile, SewFiles};
-use super::body::of as body_of;
+use super::body::sex_of;
 use super::context::Context;
-use super::pictures::write;
 use super::{CliError, End, Outcome, output};
 use results::preview::{Care, Hung, Mannequin};
 use sim::Fabric;
@@ -21,7 +20,7 @@ use wardrobe::seams::{self, Workpiece};
 /// Time between two looks at the seam file.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Sews a pattern, once or whenever its seam file has changed.
+/// Runs `toile pattern sew`: sews a pattern, once or whenever its seam file has changed.
 pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     output::kind(&arguments.output, &[("png", ())])?;
     let is_left = Arc::new(AtomicBool::new(false));
@@ -30,13 +29,13 @@ pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     }
     let seams = seam_file(context, arguments)?;
     let BodyFile { body, body_unit, sex } = &arguments.body;
-    let (mannequin, notes) = Mannequin::read(body, body_unit.map(Into::into), sex.map(body_of))?;
+    let (mannequin, notes) = Mannequin::read(body, body_unit.map(Into::into), sex.map(sex_of))?;
     notes.iter().for_each(|note| context.say(note));
     let cloth = engine::fabric_named(&arguments.fabric)?;
     loop {
         let before = stamp(seams.as_deref());
         let is_stale = || is_left.load(Ordering::Relaxed) || stamp(seams.as_deref()) != before;
-        let end = match sewn(context, arguments, seams.as_deref(), (&mannequin, &cloth), &is_stale) {
+        let end = match sewn(context, arguments, seams.as_deref(), &mannequin, &cloth, &is_stale) {
             Err(CliError::Study(StudyError::Interrupted)) => End::Done,
             Err(error) if !arguments.watch => return Err(error),
             Err(error) => {
@@ -74,22 +73,23 @@ fn seam_file(context: &Context, arguments: &SewFiles) -> Result<Option<PathBuf>,
         }
         let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
         let text = proposed.proposal.toml(&name).into_bytes();
-        write(context, &path, text)?;
+        context.write(&path, text)?;
     }
     Ok(Some(path))
 }
 
-/// What tells that the seam file has changed: its bytes.
+/// The bytes of the seam file, which show whether it has changed.
 fn stamp(seams: Option<&Path>) -> Option<Vec<u8>> {
     std::fs::read(seams?).ok()
 }
 
-/// Sews it once: writes the picture, prints how far it came and what is to be decided.
+/// Sews it once: writes the picture, prints the outcome and the open questions.
 fn sewn(
     context: &Context,
     arguments: &SewFiles,
     seams: Option<&Path>,
-    (mannequin, cloth): (&Mannequin, &Fabric),
+    mannequin: &Mannequin,
+    cloth: &Fabric,
     is_stale: &dyn Fn() -> bool,
 ) -> Outcome {
     let started = Instant::now();
@@ -97,7 +97,7 @@ fn sewn(
     let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
     let preview = mannequin.dressed_in(&piece, cloth, Care::Glance, is_stale)?;
     let took_ms = started.elapsed().as_millis();
-    write(context, &arguments.output, preview.sheet()?)?;
+    context.write(&arguments.output, preview.sheet()?)?;
     let hung = match preview.hung {
         Hung::Draped => "sewn and draped coarsely",
         Hung::Undone => "not sewn up",
@@ -106,10 +106,10 @@ fn sewn(
     output::text(&format!("{hung} on {} in {took_ms} ms: {}\n", mannequin.name, arguments.output.display()))?;
     preview.remarks.iter().try_for_each(|remark| output::text(&format!("{remark}\n")))?;
     let undecided = piece.laid_out()?.undecided;
-    let (sure, unsure): (Vec<_>, Vec<_>) = undecided.iter().partition(|one| one.is_sure);
-    for (k, one) in unsure.iter().enumerate() {
-        output::text(&format!("{}. {}\n", k + 1, one.text))?;
-        for choice in &one.choices {
+    let (sure, unsure): (Vec<_>, Vec<_>) = undecided.iter().partition(|question| question.is_sure);
+    for (index, question) in unsure.iter().enumerate() {
+        output::text(&format!("{}. {}\n", index + 1, question.text))?;
+        for choice in &question.choices {
             output::text(&format!("   {}\n", choice.label))?;
         }
     }

@@ -1,4 +1,4 @@
-//! `toile study new|check|export`: study files.
+//! `toile study`: study files made, checked and exported, and representatives of populations.
 
 use std::path::{Path, PathBuf};
 
@@ -6,13 +6,12 @@ use super::args::{PatternUnit, Sex, StudyCommand, SubjectValues};
 use super::catalogue::{pattern_of, say, unit_name};
 use super::context::Context;
 use super::pattern::model;
-use super::pictures::write;
 use super::{CliError, End, Outcome, body, output};
 use advice::{PopulationOptions, population, representatives, subjects_text};
 use engine::{NewStudy, Wearable, compose, wearables};
 use results::size_map;
 use spec::{export_study, new_study};
-use store::{Store, StudyError, files, sql};
+use store::{Store, StudyError, sql};
 use wardrobe::{Mode, StyleGiven, catalogue};
 
 /// Runs a study command.
@@ -24,20 +23,20 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
             let mut store = context.store()?;
             let own = own_style(context, &mut store, patterns, seams.as_ref(), *unit)?;
             let known = wearables(&catalogue::sizes(&store)?);
-            let named = |one: &Wearable| format!("{}/{}", one.style, one.size);
-            let of = |name: &String| {
-                known.iter().find(|one| named(one) == *name).cloned().ok_or_else(|| StudyError::NotFound {
+            let named = |wearable: &Wearable| format!("{}/{}", wearable.style, wearable.size);
+            let find = |name: &String| {
+                known.iter().find(|wearable| named(wearable) == *name).cloned().ok_or_else(|| StudyError::NotFound {
                     what: "size",
                     name: name.clone(),
                     known: known.iter().map(named).collect(),
                 })
             };
-            let own = known.iter().filter(|one| own.as_ref() == Some(&one.style)).cloned().map(Ok);
+            let own = known.iter().filter(|wearable| own.as_ref() == Some(&wearable.style)).cloned().map(Ok);
             let new = NewStudy {
                 name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
                 folder: folder.parent().unwrap_or(Path::new("")).to_owned(),
                 subjects: subject.clone(),
-                sizes: wear.iter().map(of).chain(own).collect::<Result<_, _>>()?,
+                sizes: wear.iter().map(find).chain(own).collect::<Result<_, _>>()?,
                 fabric: fabric.clone(),
                 simulators: sim.iter().map(|&sim| sim.into()).collect(),
                 fit: fit.map(Into::into),
@@ -46,9 +45,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
             context.say(format_args!("wrote {}; `toile run {}` runs it", path.display(), folder.display()));
         }
         StudyCommand::New { folder, style, fit, .. } => {
-            for path in files::write_files(folder, &new_study(folder, model(*style), fit.map(Into::into))?)? {
-                context.say(format_args!("wrote {}", path.display()));
-            }
+            context.write_files(folder, &new_study(folder, model(*style), fit.map(Into::into))?)?;
             context.say(format_args!("`toile run {}` runs it", folder.display()));
         }
         StudyCommand::Check(arguments) => {
@@ -67,28 +64,27 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
             let (bodies, people) = (*bodies as usize, *people as usize);
             let options = PopulationOptions { bodies: bodies.min(people), people, seed: *seed };
             for sex in sex.map_or(vec![Sex::F, Sex::M], |sex| vec![sex]) {
-                output::text(&subjects_text(&representatives(body::of(sex), &options)))?;
+                output::text(&subjects_text(&representatives(body::sex_of(sex), &options)))?;
             }
         }
         StudyCommand::Sizes { study, output } => {
             output::kind(output, &[("svg", ())])?;
             let store = context.store()?;
             let svg = size_map::size_map(&store, &context.study_name(&store, study)?)?;
-            return write(context, output, svg.into_bytes());
+            context.write(output, svg.into_bytes())?;
         }
         StudyCommand::Nearest { study, subject } => return nearest(context, study, subject),
         StudyCommand::Export { study, output } => {
             output::folder(output, &["toml"])?;
             let study = context.study(&context.store()?, study)?;
-            for path in files::write_files(output, &export_study(&study))? {
-                context.say(format_args!("wrote {}", path.display()));
-            }
+            context.write_files(output, &export_study(&study))?;
         }
     }
     Ok(End::Done)
 }
 
-/// Adds patterns of one's own as a style that is called as the first of them; returns its name, and says what is to be decided of it.
+/// Adds the user's patterns to the catalogue as a style, named after the first of them. Returns its name, and prints
+/// the number of open questions.
 fn own_style(
     context: &Context,
     store: &mut Store,
@@ -109,14 +105,14 @@ fn own_style(
     let sizes = catalogue::sizes(store)?;
     let row = sizes.iter().find(|row| row.style == name);
     let undecided = row.map(|row| catalogue::workpiece(store, row.key)?.laid_out()).transpose()?;
-    let open = undecided.map_or(0, |laid| laid.undecided.iter().filter(|one| !one.is_sure).count());
+    let open = undecided.map_or(0, |laid| laid.undecided.iter().filter(|question| !question.is_sure).count());
     if open > 0 {
         context.say(format_args!("{open} questions about its seams stand: the workbench asks them (screen 3, Enter)"));
     }
     Ok(Some(name))
 }
 
-/// The representative of a study, and its results.
+/// Prints the representative of a study that is nearest to a person, and its results.
 fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome {
     let store = context.store()?;
     let name = context.study_name(&store, study)?;

@@ -16,7 +16,8 @@ use wardrobe::{Opened, Wardrobe};
 /// Name of the document beside the study.
 const DOCUMENT: &str = "audit.json";
 
-/// Makes the study, runs what of it has not been run, and says how it ended; exit code 3 where a drape has a fault.
+/// Runs `toile audit garments`: makes the study, runs its jobs, and prints the outcomes. Exit code 3 where a drape has
+/// a fault.
 pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
     let folder = &arguments.output;
     output::folder(folder, &["toml", "json"])?;
@@ -50,7 +51,7 @@ pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
         context.say("interrupted; the same command goes on where this stopped");
         return Ok(End::Interrupted);
     }
-    Ok(if all.iter().any(|one| !one.faults.is_empty()) { End::CheckFailed } else { End::Done })
+    Ok(if all.iter().any(|job| !job.faults.is_empty()) { End::CheckFailed } else { End::Done })
 }
 
 fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
@@ -67,38 +68,38 @@ fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
     })
 }
 
-/// A row a job: how it ended first, as that is what is looked for.
+/// A row for each job.
 fn jobs_table(all: &[Dressed]) -> Table {
     let columns = ["garment", "body", "sim", "outcome", "inside mm", "short mm", "EI", "vertices", "s"];
-    let row = |one: &Dressed| {
+    let row = |job: &Dressed| {
         let text = |text: &str| Value::Text(text.to_owned());
         vec![
-            text(&one.garment),
-            text(&one.subject),
-            text(&one.simulator),
-            Value::Text(outcome(one)),
-            real(one.inside_mm, 1),
-            real(one.shortfall_mm, 0),
-            real(one.ei, 4),
-            one.vertices.map_or(Value::Null, Value::Integer),
-            real(one.wall_ms.map(|ms| ms as f64 / 1e3), 1),
+            text(&job.garment),
+            text(&job.subject),
+            text(&job.simulator),
+            Value::Text(outcome(job)),
+            real(job.inside_mm, 1),
+            real(job.shortfall_mm, 0),
+            real(job.ei, 4),
+            job.vertices.map_or(Value::Null, Value::Integer),
+            real(job.wall_ms.map(|ms| ms as f64 / 1e3), 1),
         ]
     };
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: all.iter().map(row).collect() }
+    Table::new(columns, all.iter().map(row))
 }
 
-/// A number with so many decimals, or nothing.
+/// A number rounded to some decimals, or nothing.
 fn real(number: Option<f64>, decimals: i32) -> Value {
     let scale = 10_f64.powi(decimals);
     number.map_or(Value::Null, |number| Value::Real((number * scale).round() / scale))
 }
 
-/// How a job ended, in words.
-fn outcome(one: &Dressed) -> String {
-    match (&one.refused, &one.faults[..]) {
+/// Outcome of a job, in words.
+fn outcome(job: &Dressed) -> String {
+    match (&job.refused, &job.faults[..]) {
         (Some(why), _) => format!("refused: {why}"),
-        (None, []) if one.ei.is_some() => "good".to_owned(),
-        (None, []) => one.status.as_str().to_owned(),
+        (None, []) if job.ei.is_some() => "good".to_owned(),
+        (None, []) => job.status.as_str().to_owned(),
         (None, faults) => faults.join("; "),
     }
 }
@@ -106,17 +107,17 @@ fn outcome(one: &Dressed) -> String {
 fn tally_table(tallies: &[Tally]) -> Table {
     let columns = ["sim", "ended", "good", "at fault", "refused", "mean EI", "median s", "slowest s"];
     let count = |n: usize| Value::Integer(n as i64);
-    let row = |of: &Tally| {
+    let row = |tally: &Tally| {
         vec![
-            Value::Text(of.simulator.clone()),
-            count(of.ended),
-            count(of.good),
-            count(of.faulty),
-            count(of.refused),
-            real(of.mean_ei, 4),
-            real(of.median_s, 1),
-            real(of.slowest_s, 1),
+            Value::Text(tally.simulator.clone()),
+            count(tally.ended),
+            count(tally.good),
+            count(tally.faulty),
+            count(tally.refused),
+            real(tally.mean_ei, 4),
+            real(tally.median_s, 1),
+            real(tally.slowest_s, 1),
         ]
     };
-    Table { columns: columns.map(str::to_owned).to_vec(), rows: tallies.iter().map(row).collect() }
+    Table::new(columns, tallies.iter().map(row))
 }

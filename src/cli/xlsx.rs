@@ -5,10 +5,10 @@ use std::io;
 use rust_xlsxwriter::{Format, Workbook, XlsxError};
 use store::{Table, Value};
 
-/// A workbook with a sheet for each table, its names in bold and kept in view.
+/// Makes a workbook with a sheet for each table. The headings are bold and stay in view.
 ///
 /// # Errors
-/// When one has more rows or longer texts than a sheet can hold.
+/// When a table has more rows or longer texts than a sheet can hold.
 pub fn bytes(sheets: &[(&str, &Table)]) -> io::Result<Vec<u8>> {
     written(sheets).map_err(io::Error::other)
 }
@@ -23,7 +23,7 @@ fn written(sheets: &[(&str, &Table)]) -> Result<Vec<u8>, XlsxError> {
 
 fn add(workbook: &mut Workbook, name: &str, table: &Table) -> Result<(), XlsxError> {
     let sheet = workbook.add_worksheet();
-    // What a sheet may not be called by is no loss: the file has the name.
+    // A name that no sheet may have is no loss, since the file has it.
     let _ = sheet.set_name(name);
     let bold = Format::new().set_bold();
     for (column, name) in (0..).zip(&table.columns) {

@@ -387,7 +387,7 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     let pattern = SourceFile::read_pattern(&layer.pattern)?;
     let (unit, allowance_m) = (asked.unit, asked.allowance_m);
     let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
-    let (proposal, pieces) = seams::proposal(&pattern, &how)?;
+    let seams::ProposalOnPieces { proposal, pieces } = seams::proposal(&pattern, &how)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
         StudyError::refused(
             Origin::Pattern,

@@ -10,8 +10,10 @@ use geom::units::{from_mm, mm};
 use sim::Silent;
 use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
 use store::cache::Cache;
-use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Origin, Result, StageRow, Store, StudyError, SubjectId, read};
-use wardrobe::catalogue::{self, read_fabric, read_style};
+use store::{
+    Access, ChiRow, JobId, JobRow, MetricsRow, Origin, Result, SizeKey, StageRow, Store, StudyError, SubjectId, read,
+};
+use wardrobe::catalogue::{self, StyleFiles, read_fabric, read_style};
 
 /// Where a result was made.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -189,7 +191,8 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         .reader
         .prepare_cached(keys)?
         .query_row([id.0], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?;
-    let (style, seams, size, unit) = read_style(&store.reader, keys[1], keys[2])?;
+    let StyleFiles { style, seams, pattern, unit } =
+        read_style(&store.reader, SizeKey { style: keys[1], size: keys[2] })?;
     let person = catalogue::person(store, SubjectId(keys[0]))?;
     let is_scan = |(name, _): (&str, &str)| name.starts_with("subject.") && name.ends_with(".scan");
     if person.scan.is_none() && inputs.iter().any(is_scan) {
@@ -209,7 +212,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         simulator: job.simulator,
         repeat: job.repeat,
         person,
-        pattern: size,
+        pattern,
         unit,
         seams,
         fabric: read_fabric(&store.reader, keys[3])?,

@@ -1,4 +1,4 @@
-//! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
+//! Bodies: built from measurements, read from scans and pictures, posed, measured, drawn.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +12,7 @@ pub use body::{
     write_obj,
 };
 
-/// A body built from measurements.
+/// Builds a body from measurements.
 ///
 /// # Errors
 /// When a measurement is impossible.
@@ -20,10 +20,10 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).origin(Origin::Body)
 }
 
-/// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
+/// A built body as `body build` reports it: its readings, doubts about the measurements, and its mass.
 #[derive(Debug, serde::Serialize)]
 pub struct Judgement<'a> {
-    /// What is measured.
+    /// Readings on the body.
     #[serde(flatten)]
     pub read: Read<'a>,
     /// Measurements that few people alike have.
@@ -33,25 +33,25 @@ pub struct Judgement<'a> {
     pub mass: Mass,
 }
 
-/// What is measured on a body: the keys of `body measure`.
+/// Readings on a body, with the keys of `body measure`.
 #[derive(Debug, serde::Serialize)]
 pub struct Read<'a> {
-    /// What the tape reads.
+    /// Girths and levels.
     #[serde(flatten)]
     pub girths: &'a Girths,
-    /// What a tailor takes beside it, by key.
+    /// Further measurements of a tailor, by key.
     #[serde(flatten)]
     pub tailor: BTreeMap<&'static str, Option<f64>>,
 }
 
-/// Everything that is measured on a body.
+/// Returns all readings on a body.
 #[must_use]
 pub fn read_body(body: &Body) -> Read<'_> {
     let tailor = body.tailor().into_iter().map(|taken| (taken.key, taken.written)).collect();
     Read { girths: &body.girths, tailor }
 }
 
-/// Judges a built body.
+/// Returns a built body's readings, the doubts about its measurements, and its mass.
 #[must_use]
 pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
     Judgement {
@@ -61,25 +61,25 @@ pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<
     }
 }
 
-/// Reads and measures a body scan, its unit and sex told from it where they are not given.
+/// Reads and measures a body scan. Its unit and sex are inferred where they are not given.
 ///
 /// # Errors
 /// When it cannot be read or is no standing person.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
-    body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+    body::from_scan(&scan.bytes, unit, sex).map_err(in_scan(scan))
 }
 
-/// Reads and measures the scan of somebody who stands on both feet.
+/// Reads and measures the scan of a person who stands on both feet.
 ///
 /// # Errors
 /// As [`read_scan`], and where a foot is missing.
 pub fn whole_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     let read = read_scan(scan, unit, sex)?;
-    read.check_feet().map_err(of_scan(scan))?;
+    read.check_feet().map_err(in_scan(scan))?;
     Ok(read)
 }
 
-/// Everything that is measured on a scan.
+/// Returns all readings on a scan.
 ///
 /// # Errors
 /// When a part of the body is not found.
@@ -87,23 +87,24 @@ pub fn measured(scan: &Scan) -> Result<Measured> {
     scan.measured().origin(Origin::Body)
 }
 
-/// A scan as a body that wears garments.
+/// Makes a body from a scan, which can wear garments.
 ///
 /// # Errors
 /// When arms or legs are not apart, or the surface does not close.
 pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
-    scan.into_body().map_err(of_scan(source))
+    scan.into_body().map_err(in_scan(source))
 }
 
-/// A body in another pose.
+/// Moves a body into another pose.
 ///
 /// # Errors
-/// When its limbs do not reach there, or would touch.
+/// When its limbs do not reach the pose, or would touch.
 pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
     body::pose(body, pose).origin(Origin::Body)
 }
 
-fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
+/// Returns the closure that gives an error of a scan the name of its file.
+fn in_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
     |source| StudyError::refused(Origin::Body, InFile { file: scan.name.clone(), source })
 }
 
@@ -116,19 +117,28 @@ pub enum Lens {
     FieldDeg(f64),
 }
 
-/// Reads a body from a front and a side picture, taken from a distance in metres where a lens is given.
+/// Camera of a pair of pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureCamera {
+    /// Its lens.
+    pub lens: Lens,
+    /// Distance from the person, m.
+    pub distance_m: f64,
+}
+
+/// Reads a body from a front and a side picture; without a camera they count as orthographic.
 ///
 /// # Errors
 /// When a picture cannot be read, or shows no single person wholly.
 pub fn read_pictures(
     front: &Path,
     side: &Path,
-    camera: Option<(Lens, f64)>,
+    camera: Option<PictureCamera>,
     sex: Sex,
     stature_m: f64,
 ) -> Result<Pictured> {
     let sources = [SourceFile::read(front)?, SourceFile::read(side)?];
-    let camera = camera.map(|(lens, distance_m)| match lens {
+    let camera = camera.map(|PictureCamera { lens, distance_m }| match lens {
         Lens::FocalPx(focal_px) => {
             body::picture_height(&sources[0].bytes).map(|height| body::Camera::of_focal(focal_px, height, distance_m))
         }
@@ -138,18 +148,18 @@ pub fn read_pictures(
     body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m).origin(Origin::Body)
 }
 
-/// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
-/// girths as vertex numbers.
+/// Writes the control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature
+/// lines and girths as vertex numbers.
 ///
 /// # Errors
 /// When the JSON cannot be written.
 pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
-    let json = body::write_control(body).map_err(|error| StudyError::refused(Origin::Body, error.to_string()))?;
+    let json = body::write_control(body).origin(Origin::Body)?;
     let obj = body.control.write_obj();
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
 
-/// A picture of a body with the tapes of its girths and a tailor's lines as PNG bytes.
+/// Draws a body with the tapes of its girths and a tailor's lines, as PNG bytes.
 ///
 /// # Errors
 /// When the mesh cannot be drawn.

@@ -1,36 +1,36 @@
-//! Entries of the catalogue, made of named numbers and texts. Study files, imported tables, flags and forms all go through
-//! here, so that a value is accepted everywhere or nowhere.
+//! Entries of the catalogue, made of named numbers and texts. Study files, imported tables, flags and forms are all
+//! read here, so that a value is accepted by all of them or by none.
 
 use std::ops::RangeInclusive;
 
 use store::nearest;
 
-/// One number of an entry of the catalogue, in the unit its key ends with.
+/// One number of an entry of the catalogue, in the unit that ends its key.
 pub struct Field<T: 'static> {
     /// Key in study files, tables and SQL (`waist_girth_mm`).
     pub key: &'static str,
     /// Name on screens and in help.
     pub label: &'static str,
-    /// Whether no entry is without it.
+    /// True where every entry must have it.
     pub is_required: bool,
     pub(crate) range: RangeInclusive<f64>,
     pub(crate) get: Box<Get<T>>,
     pub(crate) set: Box<Set<T>>,
 }
 
-/// A number in another unit or by another test, and the key of the [`Field`] that it stands for.
+/// Another way to give a number of an entry: in another unit, or by another test.
 pub struct Sheet<T: 'static> {
-    /// How it is given.
+    /// The number as it is given.
     pub field: Field<T>,
-    /// What it stands for.
+    /// Key of the [`Field`] that it is converted to.
     pub key: &'static str,
 }
 
 impl<T: Entry> Sheet<T> {
-    /// Gives an entry what a number stands for.
+    /// Converts a number and sets the field of an entry.
     ///
     /// # Errors
-    /// When that is nothing that it can have.
+    /// When the field does not accept the converted value.
     pub(crate) fn apply(&self, entry: &mut T, number: f64) -> Result<(), String> {
         self.field.set(entry, Some(number));
         let stands_for = T::fields().iter().find(|field| field.key == self.key);
@@ -38,7 +38,7 @@ impl<T: Entry> Sheet<T> {
         problem.map_or(Ok(()), |problem| Err(format!("`{}` is {number}: {problem}", self.field.key)))
     }
 
-    /// What is wrong where a number is given twice: `is_given` tells of a key.
+    /// The problem where a field is given in two ways. `is_given` is true of the keys that are given.
     pub(crate) fn doubled(&self, is_given: impl Fn(&str) -> bool) -> Option<String> {
         let others = T::sheets().iter().filter(|other| other.key == self.key && other.field.key != self.field.key);
         let other = std::iter::once(self.key).chain(others.map(|other| other.field.key)).find(|key| is_given(key))?;
@@ -46,7 +46,7 @@ impl<T: Entry> Sheet<T> {
     }
 }
 
-/// Whether a required field has none of the ways in which it can be given.
+/// True if a required field is given in none of its ways.
 pub(crate) fn is_absent<T: Entry>(field: &Field<T>, is_given: impl Fn(&str) -> bool) -> bool {
     let stand_ins = T::sheets().iter().filter(|sheet| sheet.key == field.key);
     field.is_required && !is_given(field.key) && !stand_ins.map(|sheet| sheet.field.key).any(is_given)
@@ -68,15 +68,15 @@ impl<T> Field<T> {
         (self.get)(entry)
     }
 
-    /// Gives it a value, or none.
+    /// Sets its value in an entry, or takes it away.
     pub fn set(&self, entry: &mut T, value: Option<f64>) {
         (self.set)(entry, value);
     }
 
-    /// Whether a number is one that it can have.
+    /// Returns a number that is within the accepted range.
     ///
     /// # Errors
-    /// What was found and what would be accepted.
+    /// The number, and the accepted range.
     pub fn check(&self, number: f64) -> Result<f64, String> {
         let range = &self.range;
         if range.contains(&number) {
@@ -85,10 +85,10 @@ impl<T> Field<T> {
         Err(format!("`{}` is {number}; accepted: {} to {}", self.key, range.start(), range.end()))
     }
 
-    /// A value from text; empty text is no value.
+    /// Reads a value from text; empty text is no value.
     ///
     /// # Errors
-    /// What was found and what would be accepted.
+    /// The text, and the accepted range.
     pub fn read(&self, text: &str) -> Result<Option<f64>, String> {
         let range = &self.range;
         let accepted = format!("accepted: {} to {}", range.start(), range.end());
@@ -103,44 +103,44 @@ impl<T> Field<T> {
     }
 }
 
-/// A value that was given for one key of an entry.
+/// A key of an entry, with the value that is given for it as text.
 pub type Given = (String, String);
 
-/// What can be made from keys and texts: a subject or a fabric.
+/// A value that is made from keys and texts: the measurements of a subject, or a fabric.
 pub trait Entry: Clone + 'static {
     /// Every number that the entry has, with its key, unit and accepted values.
     fn fields() -> &'static [Field<Self>];
 
-    /// Other ways to give its numbers; a later one may depend on an earlier one.
+    /// Other ways to give its numbers. The conversion of a later one may need an earlier one.
     fn sheets() -> &'static [Sheet<Self>] {
         &[]
     }
 
-    /// Its texts besides the name, and whether it must have them.
+    /// Keys of its texts besides the name, each with true where it is required.
     const TEXTS: &'static [(&'static str, bool)];
 
-    /// One without any value.
+    /// An entry without any value.
     fn blank(name: &str) -> Self;
 
-    /// Gives it a text.
+    /// Sets one of its texts.
     fn set_text(&mut self, key: &str, text: &str) -> Result<(), String>;
 
-    /// Whether its numbers go together; else the key with what is wrong.
+    /// Checks that its numbers go together; else returns a key with its problem.
     fn check(&self) -> Result<(), Given> {
         Ok(())
     }
 }
 
-/// All keys of an entry.
+/// Returns all keys of an entry.
 pub fn keys<T: Entry>() -> Vec<&'static str> {
     let sheets = T::sheets().iter().map(|sheet| sheet.field.key);
     T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).chain(sheets).collect()
 }
 
-/// Lays given values over an entry, or over a blank one, which then needs all that is required.
+/// Sets given values in a copy of `base`, or in a blank entry, which then needs all required values.
 ///
 /// # Errors
-/// Every key with what is wrong with its value.
+/// Every key with the problem of its value.
 pub fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) -> Result<T, Vec<Given>> {
     let mut entry = base.cloned().unwrap_or_else(|| T::blank(name));
     let mut problems = Vec::new();

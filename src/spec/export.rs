@@ -1,4 +1,4 @@
-//! The study file that reproduces a study elsewhere, with all it needs.
+//! Export of a study: a study file that reproduces it elsewhere, with all files that it needs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -20,14 +20,14 @@ impl Study {
     }
 }
 
-/// Files that reproduce a study anywhere: measurements, cloths and parameters as numbers, patterns and scans beside it.
-/// Each simulation of it has the same inputs as before, whatever the catalogue says there.
+/// Files that reproduce a study elsewhere. Measurements, fabrics and parameters are numbers of the study file; patterns
+/// and scans lie beside it. Each job has the same inputs as before, since the file names nothing of the catalogue.
 #[must_use]
 pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     let mut files: Files = BTreeMap::new();
     let mut text = "# Written by `toile study export`.\n\n".to_owned();
     let simulators: Vec<&str> = study.simulators.iter().map(|simulator| simulator.as_str()).collect();
-    // Writing into a text does not fail, here and below.
+    // Writing into a `String` does not fail, here and below.
     let _ = writeln!(
         text,
         "name = {}\nsimulators = {}\nrepeats = {}",
@@ -130,8 +130,8 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
     }
 }
 
-/// Puts a file, or the files of a folder, below `folder` under its own name, which is one of a result's inputs; another
-/// file of that name goes one folder deeper. Returns its path.
+/// Puts a file, or the files of a folder, below `folder` under its own name, since the name is an input of results.
+/// Where another file has the name, it goes one folder deeper. Returns its path.
 pub fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {

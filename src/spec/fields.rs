@@ -10,7 +10,7 @@ use geom::units::{from_mm, mm};
 use sim::Fabric;
 use sim::fabric::Stretched;
 
-/// The measurements of a subject: every [`Dimension`] that may be known; names after ISO 8559-1.
+/// The measurements of a subject: every [`Dimension`], with names after ISO 8559-1.
 pub static MEASUREMENTS: LazyLock<Vec<Field<Measurements>>> =
     LazyLock::new(|| Dimension::ALL.into_iter().map(measurement).collect());
 
@@ -110,7 +110,7 @@ pub static FABRIC_NUMBERS: LazyLock<Vec<Field<Fabric>>> = LazyLock::new(|| {
     ]
 });
 
-/// Sets one of the three numbers of a law that stiffens; one that is taken away takes the law with it.
+/// Sets one of the three numbers of a law that stiffens. Where one is taken away, the whole law goes.
 fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched, f64)) {
     let unset = Stretched { stretch: f64::NAN, membrane_warp_n_m: f64::NAN, membrane_weft_n_m: f64::NAN };
     match value {
@@ -122,7 +122,7 @@ fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched
 /// The sex of a word.
 ///
 /// # Errors
-/// What was found and what would be accepted.
+/// The word, and those that are accepted.
 pub fn sex(word: &str) -> Result<Sex, String> {
     match word.trim() {
         "male" | "m" | "M" => Ok(Sex::Male),
@@ -205,7 +205,7 @@ pub fn sex_name(m: &Measurements) -> &'static str {
     }
 }
 
-/// A length as written in millimetres, to a nanometre: metres and back do not change it.
+/// A length in millimetres, rounded to a nanometre, so that a written value survives the conversion to metres and back.
 pub fn millimetres(length_m: f64) -> f64 {
     (mm(length_m) * 1e6).round() / 1e6
 }

@@ -1,16 +1,17 @@
-//! The inputs of a job as named leaf values: what results are keyed by, and what a cache miss is explained from.
+//! The inputs of a job as named values. Results are keyed by their hash, and a miss of the cache is explained by their
+//! changes.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use store::StageKind;
 
-/// Named leaf values, such as `fabric.cotton_shirting_light.density_kg_m2 = 0.1036`.
+/// Named values, such as `fabric.cotton_shirting_light.density_kg_m2 = 0.1036`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Inputs(BTreeMap<String, String>);
 
-/// Whether an input matters to this stage, by the first part of its name.
+/// True if a stage depends on an input, by the first part of the input's name.
 fn depends_on(stage: StageKind, name: &str) -> bool {
     let group = name.split('.').next().unwrap_or_default();
     match stage {
@@ -21,14 +22,14 @@ fn depends_on(stage: StageKind, name: &str) -> bool {
     }
 }
 
-/// What became of one input since an earlier job.
+/// Change of one input since an earlier job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
     /// Name of the input.
     pub name: String,
-    /// Its value then, if it was there.
+    /// Earlier value; `None` where the input was not there.
     pub before: Option<String>,
-    /// Its value now, if it is there.
+    /// Present value; `None` where the input is not there any more.
     pub after: Option<String>,
 }
 
@@ -43,7 +44,7 @@ impl fmt::Display for Change {
     }
 }
 
-/// A hash by its first digits; other values whole.
+/// The first digits of a hash; other values whole.
 fn short(value: &str) -> &str {
     let is_hash = value.len() == 64 && value.bytes().all(|byte| byte.is_ascii_hexdigit());
     if is_hash { &value[..8] } else { value }
@@ -66,7 +67,7 @@ impl Inputs {
         self.hash_of(|_| true)
     }
 
-    /// Hash of the inputs a stage depends on, hex; differs between stages.
+    /// Hash of a stage and of the inputs that it depends on, hex.
     #[must_use]
     pub fn stage_hash(&self, stage: StageKind) -> String {
         let mut hasher = blake3::Hasher::new();
@@ -75,7 +76,7 @@ impl Inputs {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Hash of some inputs: lengths before texts, so that no two lists of inputs read the same.
+    /// Hash of some inputs. The length of each text goes before it, so that no two lists of inputs have the same bytes.
     fn hash_of(&self, matters: impl Fn(&str) -> bool) -> String {
         let mut hasher = blake3::Hasher::new();
         for (name, value) in self.0.iter().filter(|(name, _)| matters(name)) {
@@ -87,7 +88,7 @@ impl Inputs {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// What changed since earlier inputs, by name.
+    /// Changes since earlier inputs, by name.
     #[must_use]
     pub fn changes_since(&self, earlier: &Self) -> Vec<Change> {
         let mut names: Vec<&String> = self.0.keys().chain(earlier.0.keys()).collect();

@@ -1,4 +1,4 @@
-//! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
+//! Jobs of a study: one specification for every garment, size, subject, simulator and repeat.
 
 use std::collections::BTreeSet;
 
@@ -26,9 +26,9 @@ pub struct JobSpec {
     pub subject: String,
     /// Simulator that drapes it.
     pub simulator: Simulator,
-    /// Which repeat, from 1.
+    /// Number of the repeat, from 1.
     pub repeat: u32,
-    /// Who that is.
+    /// The subject: measurements or scan, and pose.
     #[serde(flatten)]
     pub person: Person,
     /// Pattern of the size.
@@ -43,13 +43,13 @@ pub struct JobSpec {
     pub edge_length_m: f64,
     /// Values of the simulators' parameters that are not the default ones.
     pub parameters: Parameters,
-    /// When it is started, and what it may take.
+    /// Priority, order and limits.
     #[serde(default)]
     pub schedule: Schedule,
-    /// What it is worn with, as a layer of an outfit.
+    /// The outfit of which it is a layer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outfit: Option<Outfit>,
-    /// What it is before its body moves into another pose and carries it along.
+    /// The job that drapes it in the first pose, where the body then moves into another pose and carries it along.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dressed: Option<Box<JobSpec>>,
     /// All of the above but the schedule, and the versions of the stages, as named values.
@@ -62,19 +62,19 @@ pub const PATTERN_SIZE: &str = "pattern.size";
 /// Input that names the pose from which a garment was carried.
 pub const CARRIED_FROM: &str = "carried.from";
 
-/// What a layer is worn with.
+/// The outfit of a layer.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outfit {
     /// Name of the outfit.
     pub name: String,
-    /// Which of its layers it is, the inmost 0.
+    /// Index of the layer, the inmost 0.
     pub layer: usize,
-    /// What each layer would be alone, the inmost first.
+    /// Every layer as a job of its own, the inmost first.
     pub layers: Vec<JobSpec>,
 }
 
 impl Outfit {
-    /// What all layers are made from, as one value: the same for each of them.
+    /// Hash of the inputs of all layers, the same for each of them.
     pub fn id(&self) -> String {
         let mut all = Inputs::default();
         for (number, layer) in self.layers.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Outfit {
     }
 }
 
-/// Which part of a study to run; empty lists take all.
+/// Selection of jobs of a study; an empty list takes all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// Names of simulators, `fem` and `hybrid`.
@@ -98,19 +98,19 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// Whether a job is selected.
+    /// True if a job is selected.
     #[must_use]
     pub fn takes(&self, spec: &JobSpec) -> bool {
         self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
     }
 
-    /// Whether a stored job is selected.
+    /// True if a stored job is selected.
     #[must_use]
     pub fn takes_row(&self, job: &JobRow) -> bool {
         self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
     }
 
-    /// Refuses a name that a study does not have.
+    /// Checks that a study has every name of the selection.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] with the names that there are.
@@ -166,9 +166,10 @@ fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool
         let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
         for size in 0..garment.sizes.len() {
             for subject in &subjects {
-                // Only FEM-GS knows layers, and friction that carries.
+                // Only FEM-GS simulates layers, and the friction that carries a garment.
                 let is_plain = garment.outfit.is_none() && subject.carried_from.is_none();
-                for &simulator in study.simulators.iter().filter(|one| is_plain || **one == Simulator::Fem) {
+                for &simulator in study.simulators.iter().filter(|simulator| is_plain || **simulator == Simulator::Fem)
+                {
                     jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
                 }
             }
@@ -207,12 +208,12 @@ fn job(garment: &GarmentEntry, size: usize, subject: &Subject, simulator: Simula
 }
 
 impl JobSpec {
-    /// The same with its inputs as named values, for this program's versions of the stages.
+    /// Returns the job with its inputs as named values, for this program's versions of the stages.
     ///
-    /// The job is taken apart whole: a field that is added does not compile until somebody decides whether it is an input.
+    /// All fields are listed, so that a new field does not compile until somebody decides whether it is an input.
     pub fn with_inputs(self) -> Self {
         let Self {
-            // Names of the cell. Those that the pattern, the person and the cloth go by are inputs of their own.
+            // Names in the study, which results do not depend on.
             garment: _,
             style: _,
             size,
@@ -226,7 +227,7 @@ impl JobSpec {
             fabric,
             edge_length_m,
             parameters,
-            // When and where it runs, which no result depends on.
+            // Order and limits, which results do not depend on.
             schedule: _,
             outfit,
             dressed,
@@ -242,7 +243,7 @@ impl JobSpec {
             inputs.set(format!("seams.{}", seams.name), seams.hash());
         }
         inputs.set(format!("pattern.{}", pattern.name), pattern.hash());
-        // A file may hold many sizes, and a seam file says what differs between them.
+        // A file may hold many sizes, so the hash of the file does not tell them apart.
         inputs.set(PATTERN_SIZE, size);
         if let Some(unit) = unit {
             inputs.set("pattern.unit", unit);
@@ -265,7 +266,7 @@ impl JobSpec {
     }
 }
 
-/// A subject's measurements and scan as inputs; absent ones are left out.
+/// Adds the measurements, scan and pose of a subject to inputs, as far as they are known.
 pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
@@ -285,7 +286,7 @@ pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, s
     }
 }
 
-/// A fabric's numbers as inputs; where they are from does not matter to a result.
+/// Adds the numbers of a fabric to inputs. Results do not depend on their source.
 pub fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
     for field in FABRIC_NUMBERS.iter() {
         if let Some(number) = field.get(fabric) {

@@ -1,8 +1,9 @@
-//! The specification: what a study file asks for, one [`JobSpec`] for every simulation, and the named [`Inputs`] that key
-//! its result. A body and a pattern are built here from their files, since a study file is checked against both.
+//! The specification of a study: its file, one [`JobSpec`] for every simulation, and the named [`Inputs`] that key each
+//! result. Bodies and patterns are built here from their files, since a study file is checked against both.
 
 pub mod bodies;
 pub mod entry;
+mod error;
 pub mod export;
 pub mod fields;
 pub mod file;
@@ -16,6 +17,7 @@ pub mod sheets;
 pub mod versions;
 
 pub use entry::{Field, Given};
+pub use error::SpecError;
 pub use export::export_study;
 pub use fields::{FABRIC_NUMBERS, MEASUREMENTS, sex};
 pub use file::{Person, Study, read_measurements, study_file};

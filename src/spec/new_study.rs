@@ -1,4 +1,4 @@
-//! Study files as the program writes them for people: to be read and edited, with what else they may say in comments.
+//! New study files, written for people to read and edit: comments show further keys.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -14,9 +14,9 @@ use geom::units::from_mm;
 use store::files::write_files;
 use store::{Result, StudyError};
 
-/// What a new study says.
+/// Contents of a new study.
 pub struct Outline<'a> {
-    /// Its name; that of its folder where it says none.
+    /// Its name; `None` for that of its folder.
     pub name: Option<&'a str>,
     /// Simulators that drape every garment.
     pub simulators: &'a [Simulator],
@@ -30,7 +30,7 @@ pub struct Outline<'a> {
     pub garments: Vec<Worn<'a>>,
     /// Fabric of all garments.
     pub fabric: &'a str,
-    /// How all garments are meant to sit; what is usual where that is not said.
+    /// Intended fit of all garments; `None` leaves the default one.
     pub fit: Option<Intended>,
 }
 
@@ -43,7 +43,7 @@ pub struct Worn<'a> {
     pub seams: Option<String>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
-    /// Who wears it; all where that is not said.
+    /// Names of the subjects who wear it; `None` for all.
     pub subjects: Option<Vec<String>>,
     /// Sizes with the paths of their patterns.
     pub sizes: Vec<(String, String)>,
@@ -85,7 +85,7 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
         text
     }
 
-    // Writing into a text does not fail, here and below.
+    // Writing into a `String` does not fail, here and below.
     fn write_subjects(&self, text: &mut String) {
         if !self.known.is_empty() {
             *text += "\n# Of the catalogue (`toile subject ls`), as it is when the study is run.\n";
@@ -143,7 +143,7 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
     }
 }
 
-/// The name of the study that comes with the program.
+/// Name of the study that comes with the program.
 pub const QUICKSTART: &str = "quickstart";
 
 /// Writes the study that comes with the program into a folder, unless a study is there already.
@@ -161,8 +161,8 @@ pub fn write_quickstart(folder: &Path) -> Result<()> {
     write_files(folder, &files).map(drop)
 }
 
-/// Files of a first study: a `study.toml` to edit, with a drafted style beside it, on somebody of the catalogue and on
-/// somebody to fill in; meant to sit as `fit` says.
+/// Files of a first study: a `study.toml` to edit, with a drafted style beside it. It is worn by a subject of the
+/// catalogue and by one whose measurements are to be filled in.
 ///
 /// # Errors
 /// When the folder has a study already.
@@ -203,7 +203,7 @@ pub fn new_study(folder: &Path, model: Model, fit: Option<Intended>) -> Result<V
     Ok(files)
 }
 
-/// The size of a drafted pattern by the name of its file; none for the seam file.
+/// The size of a drafted pattern by the name of its file; `None` for the seam file.
 pub fn drafted_size(file: &str) -> Option<String> {
     Some(file.strip_suffix(".dxf")?.rsplit_once('-')?.1.to_uppercase())
 }

@@ -12,10 +12,10 @@ use fit::Simulator;
 use sim::{fem, hybrid};
 use store::{InOrigin, Origin, Result, nearest};
 
-/// The simulators there are.
+/// All simulators.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
-/// Values other than the default ones, by name; in the unit that ends the name.
+/// Values that differ from the default ones, by name, in the unit that ends the name.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Parameters(BTreeMap<String, Value>);
@@ -24,7 +24,7 @@ impl Parameters {
     /// Sets a value.
     ///
     /// # Errors
-    /// What was found and what would be accepted.
+    /// The name or value, and those that are accepted.
     pub fn set(&mut self, name: &str, value: Value) -> std::result::Result<(), String> {
         let known = defaults();
         let Some(default) = known.get(name) else {
@@ -39,7 +39,7 @@ impl Parameters {
             return Err(format!("`{name}` is {value}; accepted: {}", accepted.words()));
         }
         let alone = Self(BTreeMap::from([(name.to_owned(), value.clone())]));
-        // Which words there are only the simulator knows.
+        // Only the simulator's own type knows the words that it accepts.
         if let (Accepted::Word, Err(error)) = (accepted, alone.fem().map(drop).and(alone.hybrid().map(drop))) {
             return Err(format!("`{name}` is {value}: {error}"));
         }
@@ -52,7 +52,7 @@ impl Parameters {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// Adds those of a simulator to the inputs of a job; the other one's do not matter to it.
+    /// Adds the values of one simulator to the inputs of a job, which does not depend on those of the other.
     pub(crate) fn add_inputs(&self, simulator: Simulator, inputs: &mut Inputs) {
         let prefix = format!("{}.", simulator.as_str());
         for (name, value) in self.iter().filter(|(name, _)| name.starts_with(&prefix)) {
@@ -60,7 +60,7 @@ impl Parameters {
         }
     }
 
-    /// Those among the inputs of a job.
+    /// Reads the values back from the inputs of a job.
     pub fn of_inputs(inputs: &Inputs) -> std::result::Result<Self, String> {
         let mut parameters = Self::default();
         for (name, text) in inputs.iter() {
@@ -86,7 +86,7 @@ impl Parameters {
         self.over(Simulator::Hybrid, &hybrid::Params::default())
     }
 
-    /// Default parameters with these values over them.
+    /// Default parameters with these values in their place.
     fn over<T: Serialize + DeserializeOwned + Clone>(&self, simulator: Simulator, default: &T) -> Result<T> {
         if self.0.is_empty() {
             return Ok(default.clone());
@@ -97,7 +97,7 @@ impl Parameters {
     }
 }
 
-/// Puts the values that are given into a tree of parameters.
+/// Sets the given values in a tree of parameters.
 fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     for (key, value) in tree.as_object_mut().into_iter().flatten() {
         let (name, unit) = edge_name(key);
@@ -114,7 +114,7 @@ fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     }
 }
 
-/// What a value may be, told from the default one.
+/// Accepted kind of a value: that of the default one.
 enum Accepted {
     Number,
     Count,
@@ -151,7 +151,7 @@ fn accepted(default: &Value) -> Accepted {
         Value::Array(_) => Accepted::Counts,
         Value::String(_) => Accepted::Word,
         Value::Number(number) if number.is_u64() => Accepted::Count,
-        // Absent is chosen by the simulator: all of those are numbers.
+        // A null default is a number that the simulator chooses itself.
         _ => Accepted::Number,
     }
 }
@@ -159,19 +159,19 @@ fn accepted(default: &Value) -> Accepted {
 /// All parameters by their names, with their default values in SI units.
 fn defaults() -> BTreeMap<String, Value> {
     let mut found = BTreeMap::new();
-    // Plain numbers and switches: they are always written.
+    // Serialising plain numbers and switches does not fail.
     flatten("fem", serde_json::to_value(fem::Params::default()).unwrap_or_default(), &mut found);
     flatten("hybrid", serde_json::to_value(hybrid::Params::default()).unwrap_or_default(), &mut found);
     found
 }
 
-/// Hash of what decides a simulator's results besides the study: its default parameters and its constants, by name and value, hex.
-/// A changed number changes it, a renamed type does not.
+/// Hash of the default parameters and constants of a simulator, by name and value, hex. It changes with a number, but
+/// not with the name of a type.
 pub(crate) fn default_hash(simulator: Simulator) -> String {
     deciding(simulator).into_iter().collect::<Inputs>().hash()
 }
 
-/// A simulator's default parameters and the constants that it runs with, by name.
+/// Default parameters of a simulator and the constants that it runs with, by name.
 fn deciding(simulator: Simulator) -> BTreeMap<String, String> {
     let own = format!("{}.", simulator.as_str());
     let parameters = defaults().into_iter().filter(|(name, _)| name.starts_with(&own));
@@ -196,14 +196,14 @@ fn flatten(prefix: &str, tree: Value, found: &mut BTreeMap<String, Value>) {
     }
 }
 
-/// Unit of a value at the edge, where it is not the one inside.
+/// Unit of a value in study files, where it differs from the unit inside.
 enum Unit {
     Same,
     Millimetre,
     Degree,
 }
 
-/// Name of a parameter at the edge, and its unit there.
+/// Name of a parameter in study files, and its unit there.
 fn edge_name(key: &str) -> (String, Unit) {
     match (key.strip_suffix("_rad"), key.strip_suffix("_m")) {
         (Some(stem), _) => (format!("{stem}_deg"), Unit::Degree),

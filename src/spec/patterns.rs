@@ -1,20 +1,22 @@
-//! Patterns without a study: read as pieces and styles, meshed, drawn.
+//! Patterns: read as pieces and styles, meshed, drawn.
 
 use std::path::{Path, PathBuf};
 
+use crate::error::SpecError;
 use geom::units::mm;
 use pattern::dxf::PatternFile;
-use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
+use pattern::{Garment, Piece, garmentcode, scale, source};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 
 pub use pattern::check::{Finding, of_garment as garment_findings};
 pub use pattern::draft::Model;
+pub use pattern::drawing::{points_svg as points_sheet, svg as sheet};
 pub use pattern::dxf::Unit;
 pub use pattern::inspect::{FileReport, PieceReport};
 pub use pattern::{MeshQuality, Style};
 
-/// The patterns below a folder, by path: DXF files, and what JSON files are patterns.
+/// The patterns below a folder, by path: DXF files, and those JSON files that are patterns.
 ///
 /// # Errors
 /// When a folder or file cannot be read, or there is no pattern.
@@ -36,17 +38,13 @@ pub fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
         }
     }
     if found.is_empty() {
-        let message = format!(
-            "{}: found {others} files, none of them a pattern; accepted: DXF, GarmentCode JSON, features as JSON",
-            top.display()
-        );
-        return Err(StudyError::refused(Origin::Pattern, message));
+        return Err(SpecError::NoPattern { folder: top.to_owned(), others }.into());
     }
     found.sort();
     Ok(found)
 }
 
-/// Whether a file of a folder is a pattern, by its ending, and JSON by its contents.
+/// True if a file is a pattern: DXF by its ending, JSON by its contents.
 fn is_drawing(path: &Path) -> Result<bool> {
     let ends_in = |ending: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
     if ends_in("json") {
@@ -55,7 +53,7 @@ fn is_drawing(path: &Path) -> Result<bool> {
     Ok(ends_in("dxf"))
 }
 
-/// A style from the files of a pattern and its seams; `size` picks one where the pattern holds several.
+/// Reads a style from the files of a pattern and its seams; `size` names one where the pattern holds several.
 ///
 /// # Errors
 /// When a file cannot be read, names no unit while none is given, or does not fit the other.
@@ -64,13 +62,21 @@ pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Opt
     read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
 }
 
-/// The pieces of one size of a pattern file, or of all of a folder; without a size those of the sample size.
+/// The pieces of one size of a pattern, without a size those of the sample size.
 pub fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
     let nest = Nest::read(pattern, unit)?;
     nest.pieces(size.unwrap_or(nest.sample_size()))
 }
 
-/// The files of a pattern, which may hold several sizes.
+/// Pieces of a size, or the reason why it cannot be sewn.
+pub struct SizePieces {
+    /// Name of the size.
+    pub size: String,
+    /// Its pieces.
+    pub pieces: Result<Vec<Piece>>,
+}
+
+/// The files of a pattern, which may hold several sizes (a nest).
 pub struct Nest {
     files: Vec<PatternFile>,
     /// Seam allowance of pieces without a sew line, m.
@@ -78,18 +84,18 @@ pub struct Nest {
 }
 
 impl Nest {
-    /// Reads a file, or all of a folder.
+    /// Reads the file of a pattern, or all files of its folder.
     pub fn read(pattern: &SourceFile, unit: Option<Unit>) -> Result<Self> {
         let read = |part: &SourceFile| source::read(&part.bytes, &part.name, unit).origin(Origin::Pattern);
         Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
     }
 
-    /// The same pattern, sewn so far inside its cut line where it has no sew line.
+    /// The same pattern with a seam allowance, which applies to pieces that have no sew line.
     pub fn with_allowance(self, allowance_m: f64) -> Self {
         Self { allowance_m, ..self }
     }
 
-    /// Where its pieces are sewn, in words.
+    /// The line along which its pieces are sewn, in words.
     pub fn sewn_along(&self) -> String {
         let pieces = || self.files.iter().flat_map(|file| &file.pieces);
         let lined = pieces().filter(|piece| piece.sew_line.is_some()).count();
@@ -105,7 +111,7 @@ impl Nest {
         }
     }
 
-    /// The file whose sizes are those of the garment: a file of one size goes with any.
+    /// The file that has the sizes of the garment: the first of several sizes, since a file of one size goes with any.
     fn graded(&self) -> Option<&PatternFile> {
         self.files.iter().find(|file| file.sizes().len() > 1).or(self.files.first())
     }
@@ -115,17 +121,17 @@ impl Nest {
         self.graded().map_or(vec![], PatternFile::sizes)
     }
 
-    /// The size that stands for the others.
+    /// Name of the sample size.
     pub fn sample_size(&self) -> &str {
         self.graded().map_or("", PatternFile::sample_size)
     }
 
-    /// What a person should know of the unit.
+    /// Remarks on the units of the files.
     pub fn unit_remarks(&self) -> impl Iterator<Item = &str> {
         self.files.iter().filter_map(|file| file.unit_remark.as_deref())
     }
 
-    /// The pieces of a size. A file of one size need not call it so: its pieces are of the size that is asked for.
+    /// The pieces of a size. Those of a file with a single size are taken for it, under any name.
     pub fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
         let mut pieces = Vec::new();
         for file in &self.files {
@@ -141,19 +147,19 @@ impl Nest {
         Ok(pieces)
     }
 
-    /// The pieces of all sizes but one; a size that cannot be sewn has its reason instead.
-    pub fn others(&self, size: &str) -> Vec<(String, Result<Vec<Piece>>)> {
+    /// The pieces of all sizes but one.
+    pub fn others(&self, size: &str) -> Vec<SizePieces> {
         let others = self.sizes().into_iter().filter(|other| !other.eq_ignore_ascii_case(size));
-        others.map(|other| (other.to_owned(), self.pieces(other))).collect()
+        others.map(|other| SizePieces { size: other.to_owned(), pieces: self.pieces(other) }).collect()
     }
 }
 
-/// The unit of a name in a study file.
+/// The unit that a study file names so.
 pub fn unit_of(name: &str) -> Option<Unit> {
     Unit::ALL.into_iter().find(|unit| unit.as_str() == name)
 }
 
-/// [`style`] from files already read.
+/// Reads a style as [`style`] does, from files that are in memory.
 pub fn read_style(
     pattern: &SourceFile,
     seams: Option<&SourceFile>,
@@ -169,8 +175,7 @@ pub fn read_style(
         style
     } else {
         let Some(seams) = seams else {
-            let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
-            return Err(StudyError::refused(Origin::Pattern, message));
+            return Err(SpecError::NoSeams { pattern: pattern.name.clone() }.into());
         };
         let pieces = pieces(pattern, size, unit)?;
         Style::read(&pieces, &seams.bytes, &seams.name).origin(Origin::Pattern)?
@@ -182,50 +187,30 @@ pub fn read_style(
     Ok(style)
 }
 
-/// Refuses a style without pieces, or with pieces that nobody could wear: then its file is in another unit than it says.
+/// Refuses a style without pieces, or with pieces that no person could wear, since its file is then in another unit
+/// than it says.
 fn check_scale(style: &Style, file: &str) -> Result<()> {
     if style.pieces.is_empty() {
-        let accepted = "at least one piece (`toile pattern propose` proposes what it recognises)";
-        return Err(StudyError::refused(
-            Origin::Pattern,
-            format!("{file}: found no piece to sew; accepted: {accepted}"),
-        ));
+        return Err(SpecError::NoPiece { pattern: file.to_owned() }.into());
     }
     let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
     match scale::doubt(longest_m, Unit::M) {
-        Some(_) => Err(StudyError::refused(
-            Origin::Pattern,
-            format!(
-                "{file}: found a longest piece of {longest_m:.2} m; accepted: 0.08 to 6 m for a person; the unit of the file is wrong"
-            ),
-        )),
+        Some(_) => Err(SpecError::Scale { pattern: file.to_owned(), longest_m }.into()),
         None => Ok(()),
     }
 }
 
-/// A style's mesh at an edge length, m, and how good its triangles are.
+/// Meshes a style at an edge length, m, and measures the quality of the triangles.
 ///
 /// # Errors
 /// When the edge length is out of range or the outline cannot be meshed.
 pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
     let garment = style.mesh(edge_length_m).origin(Origin::Mesh)?;
-    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::refused(Origin::Mesh, "no triangles"))?;
+    let quality = MeshQuality::of(&garment).ok_or(SpecError::NoTriangles)?;
     Ok((garment, quality))
 }
 
-/// The style's pieces on a sheet, as SVG with numbered measurements.
-#[must_use]
-pub fn sheet(style: &Style) -> String {
-    drawing::svg(style)
-}
-
-/// The style's pieces on a sheet, as SVG with its points of measure numbered.
-#[must_use]
-pub fn points_sheet(style: &Style) -> String {
-    drawing::points_svg(style)
-}
-
-/// The files of a drafted style: a DXF a size and the seam file.
+/// The files of a drafted style: a DXF file for each size, and the seam file.
 #[must_use]
 pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
     model.files()

@@ -1,6 +1,6 @@
-//! When a job is started, and the limits it is held to.
+//! Schedule of a job: its place in the queue and its limits.
 
-/// What a job may take; one that takes more is ended and has failed. Results do not depend on it.
+/// Limits of a job. One that exceeds them is ended and has failed. Results do not depend on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Limits {
     /// Time from its start, s.
@@ -10,26 +10,26 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Whether there is one.
+    /// True if there is a limit.
     #[must_use]
     pub fn is_some(&self) -> bool {
         self.time_s.is_some() || self.memory_mb.is_some()
     }
 
-    /// These limits, and others where these say nothing.
+    /// These limits, with those of `others` where one is not set.
     #[must_use]
     pub fn or(self, others: Self) -> Self {
         Self { time_s: self.time_s.or(others.time_s), memory_mb: self.memory_mb.or(others.memory_mb) }
     }
 }
 
-/// When a job is started, and what it may take: nothing of this is an input of its result.
+/// Schedule of a job. Nothing of it is an input of the result.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Schedule {
-    /// Greater runs earlier.
+    /// Priority in the queue; jobs of greater priority run earlier.
     pub priority: i64,
     /// Garments whose jobs on the same subject, by the same simulator, must have results before.
     pub after: Vec<String>,
-    /// What it may take.
+    /// Limits of time and memory.
     pub limits: Limits,
 }

@@ -1,5 +1,5 @@
-//! The numbers of a fabric as a laboratory's sheet or another program has them: KES-F, FAST, a cantilever, CLO. Each stands for a number of
-//! [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS) and is turned into it as it is read.
+//! Numbers of a fabric in the units of laboratories and other programs: KES-F, FAST, a cantilever, CLO. Each is
+//! converted to a number of [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS) as it is read.
 
 use std::sync::LazyLock;
 
@@ -10,13 +10,13 @@ use sim::Fabric;
 /// 1 gf, N.
 const GRAM_FORCE_N: f64 = 1e-3 * GRAVITY;
 
-/// Secant modulus (stress over Green strain, N/m) of a strip that a pull (N/m) stretches by some percent.
+/// Secant modulus (stress over Green strain, N/m) of a strip that a force per width (N/m) stretches by a percentage.
 fn modulus_n_m(pull_n_m: f64, stretch_pct: f64) -> f64 {
     let stretch = stretch_pct / 100.0;
     pull_n_m / ((1.0 + stretch) * stretch * (1.0 + 0.5 * stretch))
 }
 
-/// A number that is turned into one of a fabric by a function of itself and of the fabric, whose weight is known by then.
+/// A number and its conversion, a function of the number and of the fabric, whose areal density is set by then.
 macro_rules! sheet {
     ($key:literal, $label:literal, $range:expr, $field:ident, $convert:expr) => {{
         let convert: fn(f64, &Fabric) -> f64 = $convert;
@@ -36,7 +36,7 @@ macro_rules! sheet {
     }};
 }
 
-/// All of them; those of the weight come first.
+/// All of them. Those of the areal density come first, since later conversions use it.
 pub static FABRIC_SHEETS: LazyLock<Vec<Sheet<Fabric>>> = LazyLock::new(|| {
     vec![
         sheet!("weight_g_m2", "areal density", 5.0..=5000.0, density_kg_m2, |w, _| 1e-3 * w),

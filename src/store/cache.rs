@@ -1,5 +1,5 @@
-//! What the stages made, kept by the hash of everything it was made from: the latest in memory while a run lasts, all in
-//! the database. Two workers that need the same thing at once make it once.
+//! The cache of products: each is kept by the hash of all its inputs. The latest stay in memory while a run lasts, and
+//! all are in the database. Where two workers need the same product at once, one makes it and the other waits.
 
 use std::any::Any;
 use std::collections::{BTreeMap, VecDeque};
@@ -20,9 +20,9 @@ use geom::DistanceField;
 
 /// A product that can be stored.
 pub trait Artefact: Sized + Send + Sync + 'static {
-    /// The product as bytes, to be stored.
+    /// Returns the product as bytes, to be stored.
     fn encode(&self) -> Result<Vec<u8>>;
-    /// From the bytes of [`Artefact::encode`].
+    /// Reads a product from the bytes of [`Artefact::encode`].
     fn decode(bytes: &[u8]) -> std::result::Result<Self, String>;
 }
 
@@ -70,14 +70,14 @@ impl Artefact for DistanceField {
     }
 }
 
-/// One product a job used.
+/// One product that a job used.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Used {
     /// Stage that made it.
     pub stage: StageKind,
-    /// Hash of what it was made from, hex.
+    /// Hash of its inputs, hex.
     pub hash: String,
-    /// Whether it was there already.
+    /// True where the cache had it.
     pub was_cached: bool,
 }
 
@@ -92,10 +92,10 @@ impl std::fmt::Display for Used {
 const KEPT_BYTES: usize = 512 << 20;
 
 type Product = Arc<dyn Any + Send + Sync>;
-/// Filled by whoever comes first; the others wait for the lock.
+/// Place of one product. The first worker fills it; the others wait for its lock.
 type Slot = Arc<Mutex<Option<Product>>>;
 
-/// The products of one run, over those of a database.
+/// The products of one run in memory, over those of a database.
 pub struct Cache {
     path: PathBuf,
     slots: Mutex<BTreeMap<String, Slot>>,
@@ -110,7 +110,7 @@ impl Cache {
         Self { path: database, slots: Mutex::default(), filled: Mutex::default() }
     }
 
-    /// The product of a stage: from memory, from the database, or made now (then stored).
+    /// Returns the product of a stage: from memory, from the database, or made now and then stored.
     ///
     /// # Errors
     /// Those of `make`, and of the database.
@@ -146,8 +146,8 @@ impl Cache {
         Ok((product, used(was_cached)))
     }
 
-    /// Notes a product that was put into memory, and forgets the oldest ones beyond what may be kept. Whoever uses one of
-    /// those still has it.
+    /// Notes a product that was put into memory, and drops the oldest ones beyond `most` bytes. A worker that still
+    /// uses one of those keeps its own reference.
     fn keep(&self, hash: &str, size: usize, most: usize) {
         let mut filled = lock(&self.filled);
         filled.push_back((hash.to_owned(), size));
@@ -160,12 +160,12 @@ impl Cache {
     }
 }
 
-/// Locks; a panic elsewhere while it was held leaves at most an empty slot behind.
+/// Locks a mutex. A panic of another thread that held it leaves at most an empty slot behind.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// The stored bytes of a hash; damaged ones count as missing.
+/// The stored bytes of a hash; `None` also where they are damaged.
 pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>>> {
     let sql = "SELECT bytes FROM artefact WHERE hash = ?";
     let packed: Option<Vec<u8>> = connection.prepare_cached(sql)?.query_row([hash], |row| row.get(0)).optional()?;
@@ -175,7 +175,8 @@ pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>
     }))
 }
 
-/// Stores bytes by their hash, packed: most of a distance field is far from the body and constant; unreadable ones of an earlier program are replaced.
+/// Stores bytes by their hash, compressed, since most of a distance field is far from the body and constant. Bytes of
+/// an earlier program that cannot be read any more are replaced.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
     packer.write_all(bytes).origin(Origin::Store)?;
@@ -185,7 +186,10 @@ fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> 
     Ok(())
 }
 
-/// A stored product; an error when it is missing or unreadable.
+/// Returns a stored product.
+///
+/// # Errors
+/// When it is missing or cannot be read.
 pub fn stored<T: Artefact>(connection: &Connection, hash: &str) -> Result<T> {
     let fail = |message: &str| StudyError::Artefact { hash: hash.to_owned(), message: message.to_owned() };
     let bytes = load(connection, hash)?.ok_or_else(|| fail("it is not in the database"))?;

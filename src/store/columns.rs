@@ -1,11 +1,11 @@
-//! Columns of SQL that hold names.
+//! Values from columns of SQL that hold names.
 
 use rusqlite::Row;
 
 use crate::rows::Status;
 use fit::{FitClass, Simulator};
 
-/// A name from a column, as the value it stands for.
+/// The value that the name in a column stands for.
 pub(crate) fn named<T>(row: &Row<'_>, column: usize, parse: impl Fn(&str) -> Option<T>) -> rusqlite::Result<T> {
     let name: String = row.get(column)?;
     parse(&name).ok_or_else(|| {
@@ -17,7 +17,7 @@ pub(crate) fn named<T>(row: &Row<'_>, column: usize, parse: impl Fn(&str) -> Opt
 /// Status of a job from its name in a column.
 ///
 /// # Errors
-/// When no status is called so.
+/// When no status has the name.
 pub fn status(row: &Row<'_>, column: usize) -> rusqlite::Result<Status> {
     named(row, column, Status::from_name)
 }
@@ -25,7 +25,7 @@ pub fn status(row: &Row<'_>, column: usize) -> rusqlite::Result<Status> {
 /// Simulator from its name in a column.
 ///
 /// # Errors
-/// When none is called so.
+/// When no simulator has the name.
 pub fn simulator(row: &Row<'_>, column: usize) -> rusqlite::Result<Simulator> {
     named(row, column, |name| [Simulator::Fem, Simulator::Hybrid].into_iter().find(|sim| sim.as_str() == name))
 }

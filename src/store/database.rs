@@ -7,11 +7,11 @@ use rusqlite::Connection;
 use crate::connection::{Access, open};
 use crate::error::{Result, StudyError};
 
-/// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's
-/// own writes. `Send`, not `Sync`: one a thread.
+/// An open database. Queries and changes use separate connections, so that [`Store::version`] also notices this
+/// process's own writes. It is `Send`, but not `Sync`: each thread opens its own.
 pub struct Store {
     path: PathBuf,
-    /// Connection for questions.
+    /// Connection for queries.
     pub reader: Connection,
     pub(crate) writer: Option<Connection>,
 }
@@ -33,13 +33,13 @@ impl Store {
         &self.path
     }
 
-    /// Whether actions are refused.
+    /// True if the database was opened for reading only.
     #[must_use]
     pub fn is_readonly(&self) -> bool {
         self.writer.is_none()
     }
 
-    /// A number that changes whenever anything was written by any process; costs microseconds.
+    /// A number that changes whenever any process has written to the database. Reading it costs microseconds.
     ///
     /// # Errors
     /// When the database cannot be read.
@@ -47,7 +47,7 @@ impl Store {
         Ok(self.reader.pragma_query_value(None, "data_version", |row| row.get(0))?)
     }
 
-    /// The connection for actions.
+    /// The connection for changes.
     ///
     /// # Errors
     /// When the database is open for reading only.

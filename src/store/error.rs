@@ -1,4 +1,4 @@
-//! What can go wrong between a study file and its results.
+//! Errors of the store and of the crates above it.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub enum StudyError {
     Open {
         /// The database file.
         path: PathBuf,
-        /// What stands in the way.
+        /// Reason.
         reason: String,
     },
     /// The database was written by a newer program.
@@ -50,7 +50,7 @@ pub enum StudyError {
         what: &'static str,
         /// Name of the entry.
         name: String,
-        /// What is wrong with each value.
+        /// Problem of each value.
         problems: Vec<String>,
     },
     /// A study whose name is that of one in another folder.
@@ -81,25 +81,25 @@ pub enum StudyError {
     NotFound {
         /// Kind of thing (`job`, `study`, ...).
         what: &'static str,
-        /// What was asked for.
+        /// The name or number that was asked for.
         name: String,
-        /// Names that there are, for a suggestion.
+        /// Names that exist, for a suggestion.
         known: Vec<String>,
     },
-    /// One of several was not asked for by its name.
+    /// A name is missing where there are several.
     #[error("which {what}? --{what} says it; there are: {}", .known.join(", "))]
     Unsaid {
         /// Kind of thing, and the flag that names it.
         what: &'static str,
-        /// What there is.
+        /// Names that exist.
         known: Vec<String>,
     },
-    /// An entry of the catalogue was asked for that was removed, and stays stored for its results.
+    /// An entry of the catalogue that was removed, and stays stored for its results.
     #[error("no {what} `{name}`; {}", hidden_hint(.what))]
     Hidden {
         /// Part of the catalogue.
         what: &'static str,
-        /// What was asked for.
+        /// Name of the entry.
         name: String,
     },
     /// A part of the program refused its input.
@@ -115,13 +115,13 @@ pub enum StudyError {
     Artefact {
         /// Hash under which the bytes are stored.
         hash: String,
-        /// What is wrong.
+        /// The problem.
         message: String,
     },
     /// A job failed on another machine.
     #[error("{message}")]
     Elsewhere {
-        /// What was said there.
+        /// Message of that machine.
         message: String,
     },
     /// The run was asked to stop.
@@ -130,13 +130,13 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// A file error with its path.
+    /// Returns the closure that gives an error of the operating system its path.
     pub fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::Io { path, source }
     }
 
-    /// What a simulator says; [`Self::Interrupted`] where it was asked to stop.
+    /// The error of a simulator; [`Self::Interrupted`] where it was asked to stop.
     #[must_use]
     pub fn sim(error: SimError) -> Self {
         match error {
@@ -145,7 +145,7 @@ impl StudyError {
         }
     }
 
-    /// A refusal of a part of the program: its own error, or a sentence.
+    /// The error of a part of the program, with its origin.
     pub fn refused(origin: Origin, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
         Self::Refusal { origin, source: source.into() }
     }
@@ -244,7 +244,7 @@ impl<T, E: Into<Box<dyn std::error::Error + Send + Sync>>> InOrigin<T> for std::
     }
 }
 
-/// What a stage said of a file.
+/// Error of a stage, with the file that it read.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {source}")]
 pub struct InFile<E: std::error::Error + 'static> {
@@ -252,6 +252,47 @@ pub struct InFile<E: std::error::Error + 'static> {
     pub file: String,
     /// Error of the stage that read it.
     pub source: E,
+}
+
+/// Refusal of a file or of its name.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// A folder that is no pattern.
+    #[error(
+        "{}: a folder with no DXF file and {patterns} patterns as JSON; accepted: DXF files, or one pattern as JSON",
+        folder.display()
+    )]
+    NoPattern {
+        /// The folder.
+        folder: PathBuf,
+        /// Number of its JSON files that are patterns.
+        patterns: usize,
+    },
+    /// A file to be written whose name leads out of its folder.
+    #[error("{}: file `{name}` would not lie in it; accepted: names below the folder", folder.display())]
+    Outside {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the file.
+        name: String,
+    },
+    /// A file to be written in a format that is not accepted.
+    #[error("{}: found {found}; accepted: {accepted}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Ending of its name, in words.
+        found: String,
+        /// Names with the endings that are accepted.
+        accepted: String,
+    },
+    /// A name that no saved query can have.
+    #[error("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks")]
+    QueryName {
+        /// The name.
+        name: String,
+    },
 }
 
 /// One thing that is wrong with a study file.
@@ -263,7 +304,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// Column of the line, in characters from 1.
     pub column: Option<usize>,
-    /// What was found, and what would be accepted.
+    /// The finding, and what would be accepted.
     pub message: String,
 }
 
@@ -297,7 +338,7 @@ impl Problem {
 /// Result of a study operation.
 pub type Result<T> = std::result::Result<T, StudyError>;
 
-/// What SQLite said, and what helps.
+/// Message of SQLite, with a remedy.
 pub fn database_error(error: &rusqlite::Error) -> String {
     let advice = match error.sqlite_error_code() {
         Some(ErrorCode::DiskFull) => "; make room and start again: nothing finished is lost",
@@ -315,7 +356,7 @@ pub fn database_error(error: &rusqlite::Error) -> String {
     format!("{error}{advice}")
 }
 
-/// `; did you mean ...?` or `; there are: ...`, as far as it helps.
+/// Returns `; did you mean ...?` or `; there are: ...`; empty where no name is known.
 fn suggestion(known: &[String], name: &str) -> String {
     match nearest(name, known.iter().map(String::as_str)) {
         Some(near) => format!("; did you mean `{near}`?"),
@@ -324,12 +365,12 @@ fn suggestion(known: &[String], name: &str) -> String {
     }
 }
 
-/// What to do about a hidden entry of a part of the catalogue.
+/// Advice on a hidden entry of a part of the catalogue.
 pub fn hidden_hint(part: &str) -> String {
     format!("it is hidden: it was removed, and stays for its results; `toile {part} add` or `import` brings it back")
 }
 
-/// The candidate most like a misspelt name, if one is near: at most a third of its letters differ.
+/// The candidate nearest to a misspelt name, if at most a third of the letters of the longer one differ.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()

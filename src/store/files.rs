@@ -1,21 +1,21 @@
-//! Files that a study brings, as read; a pattern may be a folder with one piece a file.
+//! Files with their bytes: those that a study reads, and those that are written.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::error::{Origin, Result, StudyError};
+use crate::error::{FileError, Origin, Result, StudyError};
 use pattern::source::{self, Kind};
 use report::file_part;
 
-/// Most bytes of a study's name, which files are called after.
+/// Greatest length of a study's name, bytes, since files are named after it.
 const MOST_NAME_BYTES: usize = 200;
 
-/// A file that a study brings, as read, or the DXF files of a folder.
+/// A file as read, or the DXF files of a folder, where each holds a piece of one pattern.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct SourceFile {
     /// Name without folders; that of a folder ends in `/`.
     pub name: String,
-    /// Contents (base64 in JSON); of a folder, each file's name, length and contents one after another.
+    /// Contents (base64 in JSON); of a folder, the name, length and contents of each file, one after another.
     #[serde(with = "base64_bytes")]
     pub bytes: Arc<[u8]>,
 }
@@ -38,7 +38,7 @@ mod base64_bytes {
 }
 
 impl SourceFile {
-    /// Whether it is a pattern that says itself how its pieces are sewn: GarmentCode JSON, by its contents.
+    /// True if the file is a pattern that holds its own seams: GarmentCode JSON, by its contents.
     #[must_use]
     pub fn holds_seams(&self) -> bool {
         !self.name.ends_with('/') && source::kind(&self.bytes) == Kind::GarmentCode
@@ -53,8 +53,8 @@ impl SourceFile {
         Ok(Self { name: name_of(path), bytes: bytes.into() })
     }
 
-    /// Reads a pattern: a file, or all DXF files that lie in a folder, by name; of a folder without any the one JSON file that
-    /// is a pattern, whatever it is called.
+    /// Reads a pattern: a file, or all DXF files of a folder, by name. Of a folder without DXF files it is the one JSON
+    /// file that is a pattern, under any name.
     ///
     /// # Errors
     /// When it cannot be read, or the folder has no DXF file and not just one pattern as JSON.
@@ -80,12 +80,8 @@ impl SourceFile {
             if json.len() == 1 {
                 return Ok(json.swap_remove(0));
             }
-            let message = format!(
-                "{}: a folder with no DXF file and {} patterns as JSON; accepted: DXF files, or one pattern as JSON",
-                path.display(),
-                json.len()
-            );
-            return Err(StudyError::refused(Origin::Pattern, message));
+            let error = FileError::NoPattern { folder: path.to_owned(), patterns: json.len() };
+            return Err(StudyError::refused(Origin::Pattern, error));
         }
         let mut bytes = Vec::new();
         for file in files {
@@ -96,7 +92,7 @@ impl SourceFile {
         Ok(Self { name: format!("{}/", name_of(path)), bytes: bytes.into() })
     }
 
-    /// The files it is made of: itself, or those of the folder.
+    /// The files that it is made of: itself, or those of the folder.
     #[must_use]
     pub fn parts(&self) -> Vec<Self> {
         if !self.name.ends_with('/') {
@@ -104,7 +100,7 @@ impl SourceFile {
         }
         let mut parts = Vec::new();
         let mut rest = &self.bytes[..];
-        // What `read_pattern` wrote splits without a rest; other bytes end the list.
+        // The bytes of `read_pattern` split without a remainder; other bytes end the list.
         while let Some((name, after)) = split_zero(rest) {
             let Some((length, after)) = split_zero(after) else { break };
             let length = String::from_utf8_lossy(length).parse().unwrap_or(usize::MAX);
@@ -128,31 +124,31 @@ fn name_of(path: &Path) -> String {
     named.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// What stands before and after the first zero byte.
+/// The bytes before and after the first zero byte.
 fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = bytes.iter().position(|&byte| byte == 0)?;
     Some((&bytes[..at], &bytes[at + 1..]))
 }
 
-/// The format that the name of a file to be written says: one of those whose endings are accepted.
+/// The format of a file to be written, by the ending of its name: one of those that are accepted.
 ///
 /// # Errors
-/// What was found and would be accepted.
-pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Result<T, String> {
+/// [`FileError::Format`] when the name ends otherwise.
+pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Result<T, FileError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     if let Some((_, kind)) = accepted.iter().find(|(ending, _)| extension.eq_ignore_ascii_case(ending)) {
         return Ok(*kind);
     }
     let found = if extension.is_empty() { "no ending".to_owned() } else { format!("`.{extension}`") };
     let names: Vec<String> = accepted.iter().map(|(ending, _)| format!("X.{ending}")).collect();
-    let names = match names.split_last() {
+    let accepted = match names.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
         _ => names.concat(),
     };
-    Err(format!("{}: found {found}; accepted: {names}", path.display()))
+    Err(FileError::Format { path: path.to_owned(), found, accepted })
 }
 
-/// Makes a folder, or finds out that it cannot be written, before hours are spent on what goes there.
+/// Makes a folder and tries to write there, so that a run fails before hours are spent on files that go into it.
 ///
 /// # Errors
 /// When it cannot be made, or no file can be made in it.
@@ -163,10 +159,10 @@ pub fn make_folder(folder: &Path) -> Result<()> {
     std::fs::remove_file(&probe).map_err(StudyError::io(&probe))
 }
 
-/// Whether a study may be called so: its reports, logs and jobs lie in a folder or file of that name.
+/// Checks the name of a study: its reports, logs and jobs lie in a folder or file of that name.
 ///
 /// # Errors
-/// What is accepted.
+/// The names that are accepted, in words.
 pub fn check_study_name(name: &str) -> std::result::Result<(), String> {
     let is_odd = |letter: char| letter.is_control() || matches!(letter, '/' | '\\');
     let is_one = !name.trim().is_empty() && name != "." && name != ".." && !name.chars().any(is_odd);
@@ -176,8 +172,8 @@ pub fn check_study_name(name: &str) -> std::result::Result<(), String> {
     Err(format!("accepted: a name that a folder may have, of at most {MOST_NAME_BYTES} bytes, without `/` and `\\`"))
 }
 
-/// What the folder or file of a study is called: as the study, whose name a study file has checked. A database may hold
-/// another from elsewhere.
+/// Name of the folder or file of a study: that of the study where [`check_study_name`] accepts it, which a name in a
+/// database from elsewhere need not pass.
 #[must_use]
 pub fn study_folder(study: &str) -> String {
     if check_study_name(study).is_ok() { study.to_owned() } else { file_part(study) }
@@ -190,9 +186,8 @@ pub fn study_folder(study: &str) -> String {
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>> {
     let is_within = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
     if let Some((name, _)) = files.iter().find(|(name, _)| name.is_empty() || !is_within(name)) {
-        let message =
-            format!("{}: file `{name}` would not lie in it; accepted: names below the folder", folder.display());
-        return Err(StudyError::refused(Origin::Store, message));
+        let error = FileError::Outside { folder: folder.to_owned(), name: name.clone() };
+        return Err(StudyError::refused(Origin::Store, error));
     }
     let mut paths = Vec::new();
     for (name, bytes) in files {
@@ -226,13 +221,14 @@ mod tests {
     fn the_ending_of_a_file_is_its_format() {
         let check = |name: &str, expect: std::result::Result<u8, &str>| {
             let found = kind_of(Path::new(name), &[("csv", 1), ("json", 2), ("txt", 3)]);
-            assert_eq!(found, expect.map_err(str::to_owned), "{name}");
+            assert_eq!(found.map_err(|error| error.to_string()), expect.map_err(str::to_owned), "{name}");
         };
         check("a.csv", Ok(1));
         check("b/a.b.JSON", Ok(2));
         check("a.parquet", Err("a.parquet: found `.parquet`; accepted: X.csv, X.json or X.txt"));
         check("csv", Err("csv: found no ending; accepted: X.csv, X.json or X.txt"));
-        assert_eq!(kind_of(Path::new("a.b"), &[("svg", ())]), Err("a.b: found `.b`; accepted: X.svg".to_owned()));
+        let told = kind_of(Path::new("a.b"), &[("svg", ())]).expect_err("another format").to_string();
+        assert_eq!(told, "a.b: found `.b`; accepted: X.svg");
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! The store: one SQLite database with its studies, jobs and results, and what every crate above it shares: errors, files
-//! as read, plain rows.
+//! The store: one SQLite database with its studies, jobs and results. It also has the values that all crates above it
+//! share: errors, files with their bytes, plain rows.
 //!
-//! The only owner of SQL connections. SI units in rows, millimetres in SQL.
+//! Only this crate opens SQL connections. Rows are in SI units; columns of SQL are in millimetres.
 
 pub mod cache;
 pub mod columns;
@@ -23,7 +23,7 @@ mod transaction;
 
 pub use connection::{Access, open, still_there};
 pub use database::Store;
-pub use error::{InFile, InOrigin, Origin, Problem, Result, StudyError, hidden_hint, nearest};
+pub use error::{FileError, InFile, InOrigin, Origin, Problem, Result, StudyError, hidden_hint, nearest};
 pub use evidence::PUBLISHED;
 pub use live::{Live, LiveFrame};
 pub use read::JobFilter;

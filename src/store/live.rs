@@ -1,4 +1,4 @@
-//! A look at a running simulation: its garment as it is now, for one job at a time and only when somebody looks.
+//! Live frames of a running simulation: the garment as it is now, of one job at a time, and only while it is watched.
 
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -6,20 +6,20 @@ use std::sync::{Mutex, PoisonError};
 use crate::rows::JobId;
 use geom::V3;
 
-/// Stands for no job; the database counts from 1.
+/// Number that stands for no job; the database counts from 1.
 const NOBODY: i64 = 0;
 
 /// The garment of a running job at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveFrame {
-    /// Job whose simulation it is of.
+    /// The job.
     pub job: JobId,
-    /// Place of every vertex of the mesh that is worked on, m; meshes grow finer as a simulation goes on.
+    /// Position of every vertex of the present mesh, m; meshes grow finer as a simulation goes on.
     pub positions: Vec<V3>,
 }
 
-/// What passes between a run and whoever watches it. A frame is copied only after the one before was taken, so that
-/// watching costs a simulation a copy of its vertices a few times a second, and its results nothing.
+/// Exchange between a run and the screen that watches it. A frame is copied only after the one before was taken, so
+/// that watching costs a simulation a copy of its vertices a few times a second. It does not touch results.
 #[derive(Debug, Default)]
 pub struct Live {
     watched: AtomicI64,
@@ -33,13 +33,13 @@ impl Live {
         drop(self.take());
     }
 
-    /// The frame that came since the last was taken.
+    /// Takes the frame that came since the last call.
     #[must_use]
     pub fn take(&self) -> Option<LiveFrame> {
         self.slot().take()
     }
 
-    /// Whether a frame of a job is wanted now.
+    /// True if the job is watched and its last frame was taken.
     pub fn wants(&self, job: JobId) -> bool {
         self.watched.load(Ordering::Relaxed) == job.0 && self.slot().is_none()
     }
@@ -49,7 +49,7 @@ impl Live {
         *self.slot() = Some(LiveFrame { job, positions: positions.to_vec() });
     }
 
-    /// The frame; a plain value, whole even after a panic elsewhere.
+    /// Locks the frame. It is a plain value, and whole even after a panic of another thread.
     fn slot(&self) -> std::sync::MutexGuard<'_, Option<LiveFrame>> {
         self.frame.lock().unwrap_or_else(PoisonError::into_inner)
     }

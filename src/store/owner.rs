@@ -1,4 +1,4 @@
-//! Who runs a job: one run of one process of one machine, and whether that process is still alive.
+//! Owners of running jobs: one run of one process of one machine, and a test of whether that process is still alive.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::rows::JobId;
 
-/// A heartbeat that stands still for so long is a dead owner's, where its process cannot be looked up.
+/// Time without a change of the heartbeat after which an owner counts as dead, where its process cannot be looked up.
 const LEASE: Duration = Duration::from_secs(60);
 
 /// Name of one run: `host/boot/pid/start/number`, unique over machines and time.
@@ -36,7 +36,7 @@ impl fmt::Display for Owner {
     }
 }
 
-/// An owner in words.
+/// Returns an owner in words.
 pub(crate) fn describe(owner: &str) -> String {
     let mut parts = owner.split('/');
     match (parts.next(), parts.nth(1)) {
@@ -45,7 +45,7 @@ pub(crate) fn describe(owner: &str) -> String {
     }
 }
 
-/// Whether an owner's process has ended; `None` where this machine cannot tell, as for another machine's.
+/// True if an owner's process has ended; `None` where this machine cannot tell, as for another machine's.
 pub(crate) fn is_dead(owner: &str) -> Option<bool> {
     let mut parts = owner.split('/');
     let (their_host, their_boot) = (parts.next()?, parts.next()?);
@@ -56,13 +56,14 @@ pub(crate) fn is_dead(owner: &str) -> Option<bool> {
     Some(their_boot != boot() || start_ticks(pid) != Some(start))
 }
 
-/// Heartbeats of other machines' jobs as this run has seen them change. The stamps are of the clocks of those machines,
-/// which may be wrong or be set: only that they change counts, and for how long they have not, by a clock nobody sets.
+/// Heartbeats of other machines' jobs as this run has seen them change. Their time stamps come from the clocks of those
+/// machines, which may be wrong or be set. So a stamp is only compared with the one before, and the time since its last
+/// change is measured by this machine's monotonic clock.
 #[derive(Debug, Default)]
 pub struct Watch(BTreeMap<JobId, (i64, Instant)>);
 
 impl Watch {
-    /// Whether a job's heartbeat has stood still for longer than a lease.
+    /// True if a job's heartbeat has stood still for longer than a lease.
     pub(crate) fn stands_still(&mut self, id: JobId, heartbeat: i64) -> bool {
         self.stood_still_until(id, heartbeat, Instant::now())
     }
@@ -88,8 +89,8 @@ fn boot() -> String {
     std::fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|id| id.trim().to_owned()).unwrap_or_default()
 }
 
-/// When a process started, in clock ticks since boot; `None` when it does not run any more. Tells a process from a
-/// later one of the same number.
+/// Start of a process, clock ticks since boot; `None` when it does not run any more. It tells a process from a later
+/// one of the same number.
 fn start_ticks(pid: u32) -> Option<u64> {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     let mut fields = stat.rsplit_once(')')?.1.split_whitespace();

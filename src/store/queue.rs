@@ -1,7 +1,7 @@
-//! The job queue as a pure transition `(state, event) -> state`, and its application to the database.
+//! The job queue: a pure transition `(state, event) -> state`, and its application to the database.
 //!
-//! A running job has an owner (a run of a process) that renews its heartbeat. Whatever the owner reports is accepted
-//! only while it still is the owner, so that a job taken over or cancelled meanwhile is never finished twice.
+//! A running job has an owner (a run of a process) that renews its heartbeat. A report of the owner is accepted
+//! only while it still is the owner. A job that was taken over or cancelled meanwhile is thus never finished twice.
 
 use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
 
@@ -11,28 +11,28 @@ use crate::owner::{self, Owner, Watch};
 use crate::rows::{JobId, Status};
 use crate::transaction::now_ms;
 
-/// A job whose process died this often is failed, lest it kill every process that takes it.
+/// Number of lost processes after which a job is failed, since it might end every process that takes it.
 const MAX_LOST: u32 = 10;
 
-/// What the queue knows of a job.
+/// State of a job in the queue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct State {
-    /// Where it is in its life.
+    /// Status of the job.
     pub status: Status,
     /// Times it was started.
     pub attempts: u32,
-    /// Who runs it; exactly while it runs.
+    /// Name of the run that has it; there exactly while it runs.
     pub owner: Option<String>,
 }
 
-/// What can happen to a job.
+/// Event that can happen to a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event<'a> {
     /// A worker takes it.
     Claim(&'a str),
     /// Its owner has a result.
     Finish {
-        /// Who ran it.
+        /// Name of the run that had it.
         owner: &'a str,
         /// True where the cloth came to rest.
         converged: bool,
@@ -43,13 +43,13 @@ pub enum Event<'a> {
     Release(&'a str),
     /// Its owner is dead.
     Lose,
-    /// The user does not want it.
+    /// The user cancels it.
     Cancel,
-    /// The user wants it again.
+    /// The user queues it again.
     Retry,
 }
 
-/// The state after an event; `None` where the event does not apply.
+/// Returns the state after an event; `None` where the event does not apply.
 pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     use Status::{Cancelled, Done, Failed, NotConverged, Queued, Running};
     let ended = |status| Some(State { status, owner: None, ..state.clone() });
@@ -72,7 +72,8 @@ pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     }
 }
 
-/// Applies an event to a stored job; `None` where it does not apply (the job is then unchanged).
+/// Applies an event to a stored job. Returns its new state; `None` where the event does not apply and the job stays as
+/// it is.
 pub fn apply(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -102,7 +103,7 @@ pub fn apply(
     Ok(Some(after))
 }
 
-/// Cancels the queued jobs that need the result of one that has come to have none.
+/// Cancels the queued jobs that need the result of a job that ended without one.
 fn cancel_dependents(transaction: &Transaction<'_>, id: JobId, status: Status) -> Result<()> {
     let sql = "SELECT job_id FROM job_need JOIN job USING (job_id) WHERE needs = ? AND status = 'queued'";
     let mut statement = transaction.prepare_cached(sql)?;
@@ -116,7 +117,7 @@ fn cancel_dependents(transaction: &Transaction<'_>, id: JobId, status: Status) -
     Ok(())
 }
 
-/// Lets a job start only after others have results; in place of what it waited for before.
+/// Sets the jobs whose results a job waits for, in place of those that it waited for before.
 pub fn set_needs(transaction: &Transaction<'_>, id: JobId, needs: &[JobId]) -> Result<()> {
     transaction.prepare_cached("DELETE FROM job_need WHERE job_id = ?")?.execute([id.0])?;
     let mut statement = transaction.prepare_cached("INSERT INTO job_need (job_id, needs) VALUES (?, ?)")?;
@@ -135,15 +136,15 @@ fn load(connection: &Connection, id: JobId) -> Result<State> {
     state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }
 
-/// The jobs of which one needs the result.
+/// Returns the jobs whose results a job waits for.
 pub fn needs(connection: &Connection, id: JobId) -> Result<Vec<JobId>> {
     let mut statement = connection.prepare_cached("SELECT needs FROM job_need WHERE job_id = ? ORDER BY needs")?;
     let needs = statement.query_map([id.0], |row| row.get(0).map(JobId))?.collect::<rusqlite::Result<_>>()?;
     Ok(needs)
 }
 
-/// Names the jobs that this connection works on: [`claim`] and [`is_open`] see no others. Ten thousand of them are looked
-/// up faster in a table than in a list that goes along with every question.
+/// Names the jobs that this connection works on: [`claim`] and [`is_open`] see no others. They are in a table of the
+/// connection, since ten thousand of them are found faster there than in a list that goes with every query.
 pub fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     connection.execute_batch("CREATE TEMP TABLE wanted (job_id INTEGER PRIMARY KEY) STRICT")?;
     let all = serde_json::Value::from_iter(ids.iter().map(|id| id.0)).to_string();
@@ -151,8 +152,8 @@ pub fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     Ok(())
 }
 
-/// Takes the next queued job that is wanted for `owner` and waits for no other: greatest priority first, then in
-/// order of queueing.
+/// Takes the next job for `owner` among those of [`want`] that are queued and wait for no other: the one of greatest
+/// priority, among those of equal priority the one queued first.
 pub fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) -> Result<Option<JobId>> {
     take_over(transaction, watch)?;
     let next = transaction
@@ -194,7 +195,7 @@ pub fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()>
     Ok(())
 }
 
-/// Whether a worker may still get a job that is wanted: one is queued, or running somewhere.
+/// True if one of the jobs of [`want`] is queued, or running in any process: a worker may still get it.
 pub fn is_open(connection: &Connection) -> Result<bool> {
     let sql = "SELECT EXISTS (
         SELECT 1 FROM job WHERE status IN ('queued', 'running') AND is_current AND job_id IN wanted)";

@@ -1,4 +1,4 @@
-//! What screens and reports read: every query of the store, each beside the row it fills.
+//! Queries of screens and reports, each beside the row that it fills.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use fit::{Cuts, Simulator};
 use geom::units::from_mm;
 use sim::Step;
 
-/// Which jobs to list; empty fields accept all.
+/// Selection of jobs; a field that is empty accepts all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JobFilter {
     /// Only jobs of the study of this name.
@@ -66,6 +66,20 @@ fn axis(store: &Store, study: &str, axis: &str) -> Result<Vec<String>> {
     rows(store, sql, &[&study, &axis], |row| row.get(0))
 }
 
+/// Place of a job in the grid of a garment.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Place<'a> {
+    size: &'a str,
+    subject: &'a str,
+    simulator: Simulator,
+}
+
+impl<'a> Place<'a> {
+    fn of(job: &'a JobRow) -> Self {
+        Self { size: &job.size, subject: &job.subject, simulator: job.simulator }
+    }
+}
+
 /// A garment of a study as a grid of sizes by subjects.
 ///
 /// # Errors
@@ -86,12 +100,11 @@ pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
     simulators.sort();
     simulators.dedup();
 
-    let by_place: BTreeMap<(&str, &str, Simulator), &JobRow> =
-        jobs.iter().map(|job| ((job.size.as_str(), job.subject.as_str(), job.simulator), job)).collect();
-    let fit_at: BTreeMap<(&str, &str), FitCell> =
+    let by_place: BTreeMap<Place<'_>, &JobRow> = jobs.iter().map(|job| (Place::of(job), job)).collect();
+    let fit_of: BTreeMap<(&str, &str), FitCell> =
         eases.iter().map(|ease| ((ease.size.as_str(), ease.subject.as_str()), ease.fit)).collect();
-    let cell = |size: &str, subject: &str, simulator| {
-        let job = by_place.get(&(size, subject, simulator));
+    let cell = |place: Place<'_>| {
+        let job = by_place.get(&place);
         Cell {
             job: job.map(|job| job.id),
             status: job.map(|job| job.status),
@@ -99,18 +112,20 @@ pub fn grid(store: &Store, study: &str, garment: &str) -> Result<Grid> {
             ei: job.and_then(|job| job.ei),
         }
     };
-    let cells_of = |size: &String| -> Vec<Vec<Cell>> {
-        subjects.iter().map(|subject| simulators.iter().map(|&sim| cell(size, subject, sim)).collect()).collect()
+    let cells_of_size = |size: &String| -> Vec<Vec<Cell>> {
+        let cells_on =
+            |subject: &String| simulators.iter().map(|&simulator| cell(Place { size, subject, simulator })).collect();
+        subjects.iter().map(cells_on).collect()
     };
-    let fits_of = |size: &String| -> Vec<Option<FitCell>> {
-        subjects.iter().map(|subject| fit_at.get(&(size.as_str(), subject.as_str())).copied()).collect()
+    let fits_of_size = |size: &String| -> Vec<Option<FitCell>> {
+        subjects.iter().map(|subject| fit_of.get(&(size.as_str(), subject.as_str())).copied()).collect()
     };
-    let cells = sizes.iter().map(cells_of).collect();
-    let fits = sizes.iter().map(fits_of).collect();
+    let cells = sizes.iter().map(cells_of_size).collect();
+    let fits = sizes.iter().map(fits_of_size).collect();
     Ok(Grid { study: study.to_owned(), garment: garment.to_owned(), sizes, subjects, simulators, cells, fits })
 }
 
-/// Jobs in the order they will run or were queued.
+/// Jobs of a selection, by study and in the order of queueing.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -302,7 +317,7 @@ fn rows<T>(
     Ok(rows)
 }
 
-/// The columns [`job_row`] reads.
+/// The columns that [`job_row`] reads.
 const SELECT_JOB: &str =
     "SELECT job_id, study.name, garment, size, subject, simulator, repeat, status, is_current, priority,
         attempts, error, queued_at, started_at, finished_at, wall_ms, metrics.ei,
@@ -341,7 +356,7 @@ fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
     })
 }
 
-/// A step from five columns; SQLite stores NaN as NULL.
+/// A step from five columns, the first of them `first`. SQLite stores NaN as NULL.
 fn step(row: &Row<'_>, first: usize) -> rusqlite::Result<Step> {
     let number = |k: usize| row.get::<_, Option<f64>>(first + k).map(|x| x.unwrap_or(f64::NAN));
     Ok(Step {
@@ -353,7 +368,7 @@ fn step(row: &Row<'_>, first: usize) -> rusqlite::Result<Step> {
     })
 }
 
-/// Where the fit classes of a study meet; the usual places for a study that is not stored.
+/// Eases at which the fit classes of a study meet; the default ones of a study that is not stored.
 pub fn cuts(store: &Store, study: &str) -> Result<Cuts> {
     let sql = "SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = ?";
     let read = |row: &Row<'_>| Ok(Cuts { tight_below_m: row.get(0)?, loose_above_m: row.get(1)? });

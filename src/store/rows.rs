@@ -1,4 +1,4 @@
-//! The plain values the store hands out: identifiers, states, and the rows that screens and reports show.
+//! Plain values that the store returns: identifiers, states, and the rows that screens and reports show.
 
 use std::fmt;
 use std::str::FromStr;
@@ -26,11 +26,12 @@ impl FromStr for JobId {
     }
 }
 
-/// Number of a revision of a subject in its database: stands for one set of measurements for good.
+/// Number of a revision of a subject in its database. Its measurements never change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubjectId(pub i64);
 
-/// Revisions of a style and of a size of it in their database: stand for one pattern and one seam file for good.
+/// Numbers of the revisions of a style and of one of its sizes in their database. Their pattern and seam file never
+/// change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SizeKey {
     /// Row of the style.
@@ -53,7 +54,7 @@ pub enum Status {
     NotConverged,
     /// Ended with an error.
     Failed,
-    /// Was told not to run.
+    /// Was cancelled.
     Cancelled,
 }
 
@@ -81,23 +82,23 @@ impl Status {
         Self::ALL.into_iter().find(|status| status.as_str() == name)
     }
 
-    /// Whether a result is stored.
+    /// True if the job has a result.
     #[must_use]
     pub fn has_result(self) -> bool {
         matches!(self, Self::Done | Self::NotConverged)
     }
 
-    /// Whether nothing will happen to the job by itself any more.
+    /// True if the job has ended, and only a user can change its state.
     #[must_use]
     pub fn is_final(self) -> bool {
         !matches!(self, Self::Queued | Self::Running)
     }
 }
 
-/// Where a running job stands.
+/// Progress of a running job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobProgress {
-    /// What it is doing (`sew`, `drape`, ...).
+    /// Present phase (`sew`, `drape`, ...).
     pub phase: String,
     /// Share done, 0 to 1.
     pub fraction: f64,
@@ -111,14 +112,14 @@ impl From<&Progress> for JobProgress {
     }
 }
 
-/// A study and how far it has come; counts are of its current jobs.
+/// A study and the states of its current jobs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyRow {
     /// Name of the study, unique in the database.
     pub name: String,
     /// Its `study.toml`.
     pub path: std::path::PathBuf,
-    /// Whether no new jobs of it are started.
+    /// True while none of its jobs is started.
     pub paused: bool,
     /// Jobs in each state, in the order of [`Status::ALL`].
     pub counts: [usize; 6],
@@ -155,34 +156,34 @@ pub struct JobRow {
     pub subject: String,
     /// Simulator that it runs.
     pub simulator: Simulator,
-    /// Which repeat of the same cell, from 1.
+    /// Number of the repeat of the same cell, from 1.
     pub repeat: u32,
     /// State in the queue.
     pub status: Status,
-    /// Whether its inputs are the study's own now.
+    /// True while its inputs are those of the study file.
     pub is_current: bool,
-    /// Greater runs earlier.
+    /// Priority in the queue; jobs of greater priority run earlier.
     pub priority: i64,
     /// Times it was started.
     pub attempts: u32,
-    /// Why it failed.
+    /// Reason of its failure.
     pub error: Option<String>,
-    /// When it was queued, ms since 1970 (UTC).
+    /// Time of its queueing, ms since 1970 (UTC).
     pub queued_at_ms: i64,
-    /// When it was last started, ms since 1970 (UTC).
+    /// Time of its last start, ms since 1970 (UTC).
     pub started_at_ms: Option<i64>,
-    /// When it ended, ms since 1970 (UTC).
+    /// Time of its end, ms since 1970 (UTC).
     pub finished_at_ms: Option<i64>,
     /// Time from its last start to its end, ms; `None` until it ends.
     pub wall_ms: Option<i64>,
-    /// Where it stands, while it runs.
+    /// Its progress, while it runs.
     pub progress: Option<JobProgress>,
     /// EI of its result.
     pub ei: Option<f64>,
 }
 
 impl JobRow {
-    /// Estimated time left, ms: what it has taken so far, scaled by the share not done.
+    /// Estimated time left, ms: the time since its start times (1 - f) / f, with the share f that is done.
     #[must_use]
     pub fn eta_ms(&self, now_ms: i64) -> Option<i64> {
         let fraction = self.progress.as_ref()?.fraction;
@@ -207,13 +208,13 @@ pub struct Cell {
 /// The fit of one size on one subject: the ease that decides the fit class.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitCell {
-    /// Fit class that the ease means.
+    /// Fit class of the ease.
     pub class: FitClass,
     /// Pattern girth minus body girth, m.
     pub ease_m: f64,
-    /// Whether the pattern is smaller than the body.
+    /// True where the pattern is smaller than the body.
     pub undersized: bool,
-    /// Whether the ease lies where the thesis's ranges overlap.
+    /// True where the ease is in the overlap of two fit classes of the thesis.
     pub borderline: bool,
 }
 
@@ -245,11 +246,11 @@ pub struct ChiRow {
     pub no: u32,
     /// Name of the measurement in the style.
     pub name: String,
-    /// Whether it goes once round.
+    /// True for a closed girth.
     pub is_girth: bool,
-    /// Whether it runs along an edge that no seam holds.
+    /// True where it runs along an edge that no seam holds.
     pub is_free_edge: bool,
-    /// Whether the simulator restores it by construction.
+    /// True where the simulator restores it by construction.
     pub is_controlled: bool,
     /// Pattern length, m.
     pub l2d_m: f64,
@@ -265,7 +266,7 @@ impl ChiRow {
     }
 }
 
-/// The numbers of one result.
+/// Metrics of one result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MetricsRow {
     /// Number of measurements.
@@ -286,16 +287,16 @@ pub struct MetricsRow {
     pub iterations: u32,
     /// Rms residual force over the mean vertex weight.
     pub residual: f64,
-    /// Whether the residual reached its tolerance.
+    /// True where the residual reached its tolerance.
     pub converged: bool,
     /// Deepest penetration into the body, m.
     pub penetration_max_m: f64,
     /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
-    /// Edges that pierce the garment's own cloth; `None` for results of programs that did not count them.
+    /// Edges that pierce the garment's own cloth; `None` for results of earlier programs, which did not count them.
     pub self_crossings: Option<u32>,
-    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of programs that did not
-    /// measure it.
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of earlier programs, which
+    /// did not measure it.
     pub distortion: Option<f64>,
 }
 
@@ -314,13 +315,13 @@ pub struct EaseRow {
     pub pattern_girth_m: f64,
     /// Girth of the body there, m.
     pub body_girth_m: f64,
-    /// Whether this level has the least ease and so decides the fit class.
+    /// True where this level has the least ease and so decides the fit class.
     pub decides: bool,
     /// Its class and marks.
     pub fit: FitCell,
 }
 
-/// Which simulator to use for one garment and fit class, and how strong the evidence is.
+/// Recommended simulator of one garment and fit class, with its evidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecommendationRow {
     /// Name of the garment in the study.
@@ -333,7 +334,7 @@ pub struct RecommendationRow {
     pub basis: String,
     /// `fem`, `hybrid`, `no_difference` or `insufficient_evidence`.
     pub verdict: String,
-    /// What the thesis's rule says.
+    /// Simulator that the thesis's rule names.
     pub rule_says: Simulator,
     /// Mean EI difference FEM - Hybrid over subjects.
     pub effect: Option<f64>,
@@ -343,35 +344,35 @@ pub struct RecommendationRow {
     pub n_subjects: u32,
     /// The reason in words.
     pub reason: String,
-    /// p of the sign-flip test after Holm, where there are subjects enough.
+    /// p of the sign-flip test, adjusted after Holm, where there are enough subjects.
     pub p_holm: Option<f64>,
-    /// What would settle or flip it.
+    /// Data that would settle the question or reverse the recommendation, in words.
     pub would_settle: String,
 }
 
 /// One line of a job's log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogLine {
-    /// When, ms since 1970 (UTC).
+    /// Time of the event, ms since 1970 (UTC).
     pub at_ms: i64,
     /// `info`, `warn` or `error`.
     pub level: String,
-    /// What happened, as a sentence.
+    /// The event, as a sentence.
     pub text: String,
 }
 
-/// A stage of a job: whether the cache had it, and from which inputs it is made.
+/// A stage of a job, with the hash of its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageRow {
     /// `body`, `field`, `mesh` or `drape`.
     pub stage: String,
     /// Hash of the stage's inputs, under which its product is kept.
     pub hash: String,
-    /// Whether it was there already.
+    /// True where the cache had it.
     pub was_cached: bool,
 }
 
-/// A table of text and numbers: catalogue listings and SQL answers.
+/// A table of text and numbers, such as a listing of the catalogue or the rows of a query.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// Heading of each column.
@@ -381,7 +382,12 @@ pub struct Table {
 }
 
 impl Table {
-    /// As CSV; of its texts no spreadsheet takes one for a formula.
+    /// Makes a table of columns and rows.
+    pub fn new<'a>(columns: impl IntoIterator<Item = &'a str>, rows: impl IntoIterator<Item = Vec<Value>>) -> Self {
+        Self { columns: columns.into_iter().map(str::to_owned).collect(), rows: rows.into_iter().collect() }
+    }
+
+    /// Returns it as CSV. Texts that a spreadsheet would take for formulas are guarded.
     #[must_use]
     pub fn csv(&self) -> String {
         let rows = self.rows.iter().map(|row| csv_row(row));
@@ -429,17 +435,29 @@ impl fmt::Display for Value {
     }
 }
 
-/// A cached stage of a job; each depends on some of the job's inputs.
+impl From<&Value> for serde_json::Value {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Null => Self::Null,
+            Value::Integer(number) => (*number).into(),
+            Value::Real(number) => (*number).into(),
+            Value::Text(text) => text.as_str().into(),
+            Value::Blob(_) => value.to_string().into(),
+        }
+    }
+}
+
+/// A cached stage of a job. Each depends on a part of the job's inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StageKind {
-    /// The human model.
+    /// Body.
     Body,
-    /// Its distance field.
+    /// Distance field of the body.
     Field,
-    /// The garment, meshed.
+    /// Mesh of the flat garment.
     Mesh,
-    /// The sewn, draped garment.
+    /// Drape: the garment sewn and at rest on the body.
     Drape,
 }
 

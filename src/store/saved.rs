@@ -1,9 +1,9 @@
-//! Queries that have names.
+//! Saved queries.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::error::{Origin, Result, StudyError};
+use crate::error::{FileError, Origin, Result, StudyError};
 use crate::files::write_files;
 
 /// Queries that come with the program.
@@ -18,18 +18,19 @@ const SAVED: [(&str, &str); 8] = [
     ("times", include_str!("../../db/queries/times.sql")),
 ];
 
-/// A query that has a name.
+/// A query with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedQuery {
     /// Name by which it is asked for.
     pub name: String,
-    /// What it asks: its first line, where that is a comment.
+    /// Its purpose: its first line, where that is a comment.
     pub about: String,
     /// Text of the query.
     pub sql: String,
 }
 
-/// The saved queries by name: those of the program, and of a folder with a file NAME.sql each, which win.
+/// The saved queries by name: those of the program, and those of a folder with a file NAME.sql each. Of two with the
+/// same name the one of the folder counts.
 ///
 /// # Errors
 /// When the folder has a file that cannot be read.
@@ -47,15 +48,14 @@ pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
     Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
 }
 
-/// Saves a query under a name in a folder, over one of that name.
+/// Saves a query under a name in a folder, in place of one of that name.
 ///
 /// # Errors
-/// When the name is none of a file, or it cannot be written.
+/// When no file can have the name, or it cannot be written.
 pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
-        let problem = format!("`{name}` is no name of a query; accepted: letters, digits, - _ . and blanks");
-        return Err(StudyError::refused(Origin::Sql, problem));
+        return Err(StudyError::refused(Origin::Sql, FileError::QueryName { name: name.to_owned() }));
     }
     write_files(folder, &[(format!("{name}.sql"), format!("{}\n", sql.trim_end()).into_bytes())]).map(drop)
 }

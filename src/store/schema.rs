@@ -1,4 +1,4 @@
-//! The schema: migrations in order, and bringing a database up to date.
+//! Migrations of the schema, and their application to a database.
 
 use rusqlite::Connection;
 
@@ -6,7 +6,7 @@ use crate::error::{Result, StudyError};
 use crate::evidence::judge::refresh_all;
 use crate::transaction::write;
 
-/// Schema changes in order, never edited once released: `user_version` counts how many a database has.
+/// Schema changes in order, never edited once released. `user_version` is the number of them that a database has.
 const MIGRATIONS: [&str; 18] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
@@ -31,7 +31,7 @@ const MIGRATIONS: [&str; 18] = [
 /// Version of the latest schema.
 pub(crate) const LATEST: i64 = MIGRATIONS.len() as i64;
 
-/// Applies the migrations a database does not have yet, all or none.
+/// Applies the migrations that a database does not have yet, all or none.
 pub(crate) fn migrate(connection: &mut Connection) -> Result<()> {
     if check_version(connection, 0)? == MIGRATIONS.len() {
         return Ok(());
@@ -96,7 +96,8 @@ mod tests {
         assert_eq!(std::fs::read_to_string(SCHEMA).expect("db/schema.sql"), schema);
     }
 
-    /// The migrations as they were before crossings were counted and reports remembered: both came in without a version.
+    /// The migrations as they were before crossings were counted and reports remembered: both came in without a
+    /// version.
     fn of_the_first_days() -> [String; 9] {
         std::array::from_fn(|k| {
             let sql = MIGRATIONS[k];

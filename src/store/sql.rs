@@ -1,4 +1,4 @@
-//! Questions in SQL, which nothing can be written by.
+//! Queries in SQL, on a connection that cannot write.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
@@ -14,29 +14,29 @@ use crate::error::{InOrigin, Origin, Result, StudyError};
 use crate::files::kind_of;
 use crate::rows::{Table, Value, csv_head, csv_row};
 
-/// Stops a query that another thread waits for.
+/// Handle that stops a query of another thread.
 pub struct Interrupter(rusqlite::InterruptHandle);
 
 impl Interrupter {
-    /// Makes the query that runs now end with an error; does nothing when none runs.
+    /// Makes the query that runs now end with an error. Does nothing where none runs.
     pub fn interrupt(&self) {
         self.0.interrupt();
     }
 }
 
-/// A handle that stops a running [`query`] from another thread.
+/// Returns a handle that stops a running [`query`] from another thread.
 #[must_use]
 pub fn interrupter(store: &Store) -> Interrupter {
     Interrupter(store.reader.get_interrupt_handle())
 }
 
-/// Answers a query, or several separated by `;` (the last one's rows). Nothing can be written this way.
+/// Returns the rows of a query, or of the last of several that `;` separates. Nothing can be written this way.
 ///
 /// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
 /// 1, linear between order statistics).
 ///
 /// # Errors
-/// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
+/// The message of SQLite on the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
 pub fn query(store: &Store, sql: &str) -> Result<Table> {
     Ok(answer(store, sql, usize::MAX, &AtomicBool::new(false))?.table)
 }
@@ -51,12 +51,12 @@ pub(crate) fn value(value: ValueRef<'_>) -> Value {
     }
 }
 
-/// The rows of a query, as far as they were wanted.
+/// The rows of a query, up to a limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SqlAnswer {
     /// Columns and rows.
     pub table: Table,
-    /// Whether there are more rows.
+    /// True where there are more rows.
     pub is_cut: bool,
 }
 
@@ -69,10 +69,10 @@ pub struct Relation {
     pub columns: Vec<String>,
 }
 
-/// Answers a query as [`query`] does, with at most so many rows; `stop` ends it early.
+/// Returns at most `most` rows of a query, as [`query`] does; `stop` ends it early.
 ///
 /// # Errors
-/// What SQLite says of the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
+/// The message of SQLite on the query; [`Interrupted`](crate::StudyError::Interrupted) when it was stopped.
 pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
     let mut answer = SqlAnswer::default();
     each_row(store, text, stop, |columns, row| {
@@ -92,11 +92,11 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
     Ok(answer)
 }
 
-/// Writes all rows of a query into a file, CSV or JSON as its name ends. Returns how many rows.
+/// Writes all rows of a query into a file, CSV or JSON by the ending of its name. Returns the number of rows.
 ///
 /// # Errors
-/// What SQLite says of the query; when the file has another ending, is there already or cannot be written; when it was
-/// stopped.
+/// The message of SQLite on the query; when the file has another ending, is there already or cannot be written; when
+/// the query was stopped.
 pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
     let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
@@ -127,7 +127,7 @@ pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -
     written.map(|()| rows)
 }
 
-/// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
+/// Hands the columns of the last statement of a text to `take`, then each of its rows, until `take` returns false.
 fn each_row(
     store: &Store,
     text: &str,
@@ -171,7 +171,7 @@ fn walk_rows(
     Ok(())
 }
 
-/// The views and tables there are, views first, with their columns: what a query may name.
+/// The views and tables that a query may name, views first, with their columns.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -194,14 +194,8 @@ pub fn relations(store: &Store) -> Result<Vec<Relation>> {
 
 /// A row as a JSON object, keys in order of the columns.
 fn json_line(columns: &[String], row: &[Value]) -> String {
-    let cell = |value: &Value| match value {
-        Value::Null => serde_json::Value::Null,
-        Value::Integer(number) => (*number).into(),
-        Value::Real(number) => (*number).into(),
-        Value::Text(text) => text.as_str().into(),
-        Value::Blob(_) => value.to_string().into(),
-    };
-    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(row.iter().map(cell)).collect();
+    let cells = row.iter().map(serde_json::Value::from);
+    let object: serde_json::Map<_, _> = columns.iter().cloned().zip(cells).collect();
     serde_json::Value::Object(object).to_string()
 }
 

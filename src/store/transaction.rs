@@ -11,8 +11,8 @@ pub fn write(connection: &mut Connection) -> rusqlite::Result<Transaction<'_>> {
     connection.transaction_with_behavior(TransactionBehavior::Immediate)
 }
 
-/// Does something in a transaction that a power cut may undo, though nothing else may: what a queue is told need not wait
-/// for the disk. The next result that is stored makes it last, too.
+/// Runs `act` in a transaction that does not wait for the disk: only a power cut can undo it, until the next result is
+/// stored. The queue's own bookkeeping is written so.
 pub fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>) -> Result<T>) -> Result<T> {
     let usual: i64 = connection.pragma_query_value(None, "synchronous", |row| row.get(0))?;
     connection.pragma_update(None, "synchronous", "normal")?;
@@ -25,7 +25,7 @@ pub fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>
     done
 }
 
-/// The clock, ms since 1970 (UTC). Only queue bookkeeping reads it; results never depend on it.
+/// Returns the time, ms since 1970 (UTC). Only bookkeeping reads it; results never depend on it.
 #[must_use]
 pub fn now_ms() -> i64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_millis() as i64)

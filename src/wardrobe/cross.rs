@@ -1,8 +1,9 @@
-//! Every garment of a folder on every body of another, as a study: what `toile audit garments` runs.
+//! The study of `toile audit garments`: every garment of a folder on every body of another.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::error::WardrobeError;
 use crate::seams::{Asking, proposal};
 use body::Measurements;
 use fit::Simulator;
@@ -17,16 +18,16 @@ use store::{InOrigin, Origin, Problem, Result, StudyError};
 /// Endings of files that are bodies.
 const BODIES: [&str; 9] = ["obj", "ply", "stl", "glb", "toml", "smis", "vit", "yaml", "yml"];
 
-/// What is to be dressed in what.
+/// Garments and bodies of a study, by their folders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wardrobe {
-    /// Name of the study that it becomes.
+    /// Name of the study.
     pub name: String,
     /// Folder of patterns: DXF, GarmentCode.
     pub garments: PathBuf,
     /// Folder of bodies: meshes, measurements.
     pub bodies: PathBuf,
-    /// A table with the columns `garment` and `body`: which goes with which; without one all with all.
+    /// A table of pairs with the columns `garment` and `body`; without one every body wears every garment.
     pub pairs: Option<PathBuf>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
@@ -43,21 +44,23 @@ pub struct Wardrobe {
 pub struct Opened {
     /// Its files: `study.toml`, and a seam file for each pattern that holds none.
     pub files: Vec<(String, Vec<u8>)>,
-    /// Files that cannot be used, and why.
+    /// Files that cannot be used, each with the reason.
     pub refused: Vec<(PathBuf, String)>,
 }
 
-/// A body as a study has it.
+/// A body of a study: measurements, or the path of a scan.
 enum Wearer {
     Measured(Box<Measurements>),
     Scanned(PathBuf),
 }
 
 impl Wardrobe {
-    /// The study. Patterns without seams are sewn as proposed; what cannot be read or sewn is refused with its reason.
+    /// Makes the study. Patterns without seams are sewn as proposed. Files that cannot be read or sewn are listed with
+    /// the reason.
     ///
     /// # Errors
-    /// When a folder cannot be read or holds nothing of use, or the table of pairs names what is not there.
+    /// When a folder cannot be read or has no file that can be used, or the table of pairs names a file that is not
+    /// there.
     pub fn open(&self) -> Result<Opened> {
         let mut opened = Opened::default();
         let bodies = self.wearers(&mut opened)?;
@@ -73,17 +76,15 @@ impl Wardrobe {
         });
         if garments.is_empty() || bodies.is_empty() {
             let reasons = opened.refused.iter().map(|(path, why)| format!("{}: {why}", path.display()));
-            return Err(StudyError::refused(
-                Origin::Audit,
-                format!("nothing to dress: {}", reasons.collect::<Vec<_>>().join("; ")),
-            ));
+            let reasons = reasons.collect::<Vec<_>>().join("; ");
+            return Err(WardrobeError::NothingToDress { reasons }.into());
         }
         let text = self.text(&garments, &bodies, &wearers, &opened.files)?;
         opened.files.push(("study.toml".to_owned(), text.into_bytes()));
         Ok(opened)
     }
 
-    /// The bodies of the folder by name; enters those that cannot be used.
+    /// The bodies of the folder by name; those that cannot be used are listed in `opened`.
     fn wearers(&self, opened: &mut Opened) -> Result<BTreeMap<String, Wearer>> {
         let mut found = BTreeMap::new();
         for (name, path) in named(self.body_files()?) {
@@ -110,16 +111,13 @@ impl Wardrobe {
         }
         found.sort();
         if found.is_empty() {
-            let (folder, accepted) = (self.bodies.display(), BODIES.join(", "));
-            return Err(StudyError::refused(
-                Origin::Body,
-                format!("{folder}: found no body; accepted: files ending in {accepted}"),
-            ));
+            let error = WardrobeError::NoBody { folder: self.bodies.clone(), accepted: BODIES.join(", ") };
+            return Err(error.into());
         }
         Ok(found)
     }
 
-    /// Who wears each garment.
+    /// Names of the bodies that wear each garment.
     fn couples(
         &self,
         garments: &BTreeMap<String, PathBuf>,
@@ -139,7 +137,7 @@ impl Wardrobe {
             let found = head.iter().position(|column| column == name);
             found.ok_or_else(|| refuse(line, format!("no column `{name}`; accepted: the columns garment and body")))
         };
-        let (of_garment, of_body) = (column("garment")?, column("body")?);
+        let (garment_column, body_column) = (column("garment")?, column("body")?);
         let mut problems = Vec::new();
         for Row { line, cells } in rows.iter().skip(1) {
             let mut known = |what, column: usize, names: Vec<&String>| {
@@ -151,8 +149,8 @@ impl Wardrobe {
                 }
                 name.to_owned()
             };
-            let garment = known("garment", of_garment, garments.keys().collect());
-            let body = known("body", of_body, bodies.keys().collect());
+            let garment = known("garment", garment_column, garments.keys().collect());
+            let body = known("body", body_column, bodies.keys().collect());
             wearers.entry(garment).or_default().push(body);
         }
         if !problems.is_empty() {
@@ -161,14 +159,14 @@ impl Wardrobe {
         Ok(wearers)
     }
 
-    /// Checks that a pattern can be sewn; one without seams gets a seam file.
+    /// Checks that a pattern can be sewn, and adds a seam file for one without seams.
     fn sewn(&self, name: &str, path: &Path, files: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
         let pattern = SourceFile::read(path)?;
         if pattern.holds_seams() {
             return patterns::read_style(&pattern, None, None, self.unit).map(drop);
         }
         let how = Asking { size: None, unit: self.unit, allowance_m: self.allowance_m, answers: &[] };
-        let (proposal, _) = proposal(&pattern, &how)?;
+        let proposal = proposal(&pattern, &how)?.proposal;
         let proposal = proposal.to_drape().origin(Origin::Pattern)?;
         let seams = SourceFile { name: seam_file(name), bytes: proposal.toml(name).into_bytes().into() };
         patterns::read_style(&pattern, Some(&seams), None, self.unit)?;
@@ -230,7 +228,7 @@ fn absolute(path: &Path) -> Result<PathBuf> {
     std::fs::canonicalize(path).map_err(StudyError::io(path))
 }
 
-/// Files by their names without endings; files of one name by those of their folders too.
+/// Files by their names without endings. Where two have the same name, that of the folder goes before it.
 fn named(paths: Vec<PathBuf>) -> BTreeMap<String, PathBuf> {
     let mut found: BTreeMap<String, PathBuf> = BTreeMap::new();
     for path in paths {

@@ -1,15 +1,17 @@
-//! How well bodies are measured: every body of a folder, from each of its sources, against its true measurements.
+//! Accuracy of the measurement of bodies: every body of a folder, from each of its sources, against its true
+//! measurements.
 //!
-//! The folder holds `manifest.csv` (id, sex, file), `measurements.csv` (the truth, cm), and where there are any `scans.csv`
+//! The folder holds `manifest.csv` (id, sex, file) and `measurements.csv` (the truth, cm). It may hold `scans.csv`
 //! (id, file) and `images.csv` (id, kind, view, projection, file, camera).
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::error::{TableProblem, WardrobeError};
 use body::{Camera, Girths, Sex, from_pictures, from_scan};
 use geom::units::mm;
 use pattern::table;
-use store::{Origin, Result, StudyError};
+use store::Result;
 
 /// A row of a table: values by column.
 type Row = BTreeMap<String, String>;
@@ -17,7 +19,7 @@ type Row = BTreeMap<String, String>;
 /// A measurement with its column of `measurements.csv`.
 type Known = (&'static str, &'static str);
 
-/// What is compared on scans and meshes.
+/// Measurements that are compared on scans and meshes.
 const OF_SCANS: [Known; 14] = [
     ("stature", "stature_cm"),
     ("neck_girth", "neck_girth_cm"),
@@ -35,7 +37,7 @@ const OF_SCANS: [Known; 14] = [
     ("crotch_level", "crotch_height_cm"),
 ];
 
-/// What is compared on pictures.
+/// Measurements that are compared on pictures.
 const OF_PICTURES: [Known; 9] = [
     ("neck_girth", "neck_girth_cm"),
     ("chest_girth", "chest_girth_cm"),
@@ -68,11 +70,11 @@ pub struct Evaluated {
     pub id: String,
     /// `scan`, `silhouette_orthographic`, `silhouette_perspective` or `photo`.
     pub source: &'static str,
-    /// What was read.
+    /// Files that were read.
     pub files: Vec<String>,
     /// Measured minus true, mm.
     pub errors_mm: BTreeMap<&'static str, f64>,
-    /// Why nothing was measured.
+    /// Reason why nothing was measured.
     pub error: Option<String>,
 }
 
@@ -88,8 +90,8 @@ pub struct Evaluation {
 /// Measures every body of a folder from its mesh, scans, silhouettes and photographs.
 ///
 /// # Errors
-/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is
-/// listed with the reason.
+/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is listed with the
+/// reason.
 pub fn evaluate(folder: &Path) -> Result<Evaluation> {
     let manifest = table(folder, "manifest.csv")?;
     let truth: BTreeMap<String, Row> =
@@ -103,9 +105,9 @@ pub fn evaluate(folder: &Path) -> Result<Evaluation> {
             bodies.push(from_mesh(folder, row, sex, known));
         }
     }
-    for (id, source, pair) in pairs(&optional("images.csv")?) {
-        if let Some((&sex, known)) = sexes.get(id.as_str()).zip(truth.get(&id)) {
-            bodies.push(from_pair(folder, id, source, pair, sex, known));
+    for pair in picture_pairs(&optional("images.csv")?) {
+        if let Some((&sex, known)) = sexes.get(pair.id.as_str()).zip(truth.get(&pair.id)) {
+            bodies.push(from_pictures_of(folder, pair, sex, known));
         }
     }
     Ok(Evaluation { source: accuracy(&bodies), bodies })
@@ -113,21 +115,19 @@ pub fn evaluate(folder: &Path) -> Result<Evaluation> {
 
 fn table(folder: &Path, name: &str) -> Result<Vec<Row>> {
     let path = folder.join(name);
-    let refuse = |problem: String| {
-        let accepted = "CSV tables manifest.csv and measurements.csv with a column id";
-        StudyError::refused(Origin::Body, format!("{}: {problem}; accepted: {accepted}", path.display()))
-    };
-    let bytes = std::fs::read(&path).map_err(|error| refuse(error.to_string()))?;
-    let text = table::text(&bytes).map_err(|line| refuse(format!("line {line} is no UTF-8")))?;
+    let refuse = |problem: TableProblem| WardrobeError::Table { path: path.clone(), problem };
+    let bytes = std::fs::read(&path).map_err(|error| refuse(error.into()))?;
+    let text = table::text(&bytes).map_err(|line| refuse(TableProblem::Encoding(line)))?;
     let mut rows = table::rows(text).into_iter();
     let heads = rows.next().map_or_else(Vec::new, |row| row.cells);
     if !heads.iter().any(|head| head == "id") {
-        return Err(refuse("it has no column id".to_owned()));
+        return Err(refuse(TableProblem::NoId).into());
     }
     let mut read = Vec::new();
     for row in rows {
         if row.cells.len() > heads.len() {
-            return Err(refuse(format!("line {} has {} cells for {} columns", row.line, row.cells.len(), heads.len())));
+            let (line, cells, columns) = (row.line, row.cells.len(), heads.len());
+            return Err(refuse(TableProblem::Cells { line, cells, columns }).into());
         }
         read.push(heads.iter().cloned().zip(row.cells).collect());
     }
@@ -154,7 +154,8 @@ fn from_mesh(folder: &Path, row: &Row, sex: Sex, known: &Row) -> Evaluated {
         from_scan(&bytes, None, Some(sex)).map_err(|error| error.to_string())
     };
     let found = read().map(|scan| scan_values(&scan.girths));
-    compared(text(row, "id").to_owned(), "scan", vec![file.clone()], &OF_SCANS, found, known)
+    let taken = Taken { id: text(row, "id").to_owned(), source: "scan", files: vec![file.clone()] };
+    taken.compared(&OF_SCANS, found, known)
 }
 
 fn scan_values(girths: &Girths) -> Vec<(&'static str, f64)> {
@@ -162,12 +163,17 @@ fn scan_values(girths: &Girths) -> Vec<(&'static str, f64)> {
     OF_SCANS.into_iter().filter_map(read).collect()
 }
 
-/// Front and side picture of one body and kind.
-type Pair<'a> = [Option<&'a Row>; 2];
+/// Front and side picture of one body from one source.
+struct PicturePair<'a> {
+    id: String,
+    source: &'static str,
+    /// Rows of the front and the side picture.
+    views: [Option<&'a Row>; 2],
+}
 
-/// Pictures by body and source, in the order of the table.
-fn pairs(images: &[Row]) -> Vec<(String, &'static str, Pair<'_>)> {
-    let mut pairs: Vec<(String, &'static str, Pair<'_>)> = Vec::new();
+/// Pairs of pictures by body and source, in the order of the table.
+fn picture_pairs(images: &[Row]) -> Vec<PicturePair<'_>> {
+    let mut pairs: Vec<PicturePair<'_>> = Vec::new();
     for row in images {
         let kind = text(row, "kind");
         let source = match (kind.contains("mask"), kind.contains("photo"), text(row, "projection")) {
@@ -177,11 +183,12 @@ fn pairs(images: &[Row]) -> Vec<(String, &'static str, Pair<'_>)> {
             _ => "silhouette_perspective",
         };
         let id = text(row, "id");
-        let at = pairs.iter().position(|(other, of, _)| other == id && *of == source).unwrap_or_else(|| {
-            pairs.push((id.to_owned(), source, [None, None]));
+        let known = pairs.iter().position(|pair| pair.id == id && pair.source == source);
+        let index = known.unwrap_or_else(|| {
+            pairs.push(PicturePair { id: id.to_owned(), source, views: [None, None] });
             pairs.len() - 1
         });
-        pairs[at].2[usize::from(text(row, "view") == "side")] = Some(row);
+        pairs[index].views[usize::from(text(row, "view") == "side")] = Some(row);
     }
     pairs
 }
@@ -192,10 +199,12 @@ fn camera(row: &Row) -> Option<Camera> {
     Some(Camera::of_focal(focal, height as u32, number(row, "cam_distance_cm")? / 100.0))
 }
 
-fn from_pair(folder: &Path, id: String, source: &'static str, pair: Pair<'_>, sex: Sex, known: &Row) -> Evaluated {
-    let files = pair.iter().flatten().map(|row| text(row, "file").to_owned()).collect();
+/// Measures one body on its pictures.
+fn from_pictures_of(folder: &Path, pair: PicturePair<'_>, sex: Sex, known: &Row) -> Evaluated {
+    let PicturePair { id, source, views } = pair;
+    let files = views.iter().flatten().map(|row| text(row, "file").to_owned()).collect();
     let read = || {
-        let [Some(front), Some(side)] = pair else { return Err("front or side picture is not listed".to_owned()) };
+        let [Some(front), Some(side)] = views else { return Err("front or side picture is not listed".to_owned()) };
         let bytes = |row: &Row| {
             let file = text(row, "file");
             std::fs::read(folder.join(file)).map_err(|error| format!("{file}: {error}"))
@@ -216,26 +225,34 @@ fn from_pair(folder: &Path, id: String, source: &'static str, pair: Pair<'_>, se
             .flat_map(|((girth, level), l)| [(*girth, mm(l.girth_m)), (*level, mm(l.level_m))]);
         both.chain([("crotch_level", mm(pictured.crotch_level_m))]).collect()
     });
-    compared(id, source, files, &OF_PICTURES, found, known)
+    Taken { id, source, files }.compared(&OF_PICTURES, found, known)
 }
 
-/// Measured values beside the truth.
-fn compared(
+/// A body and the files that it is measured on.
+struct Taken {
     id: String,
     source: &'static str,
     files: Vec<String>,
-    columns: &[Known],
-    found: std::result::Result<Vec<(&'static str, f64)>, String>,
-    known: &Row,
-) -> Evaluated {
-    let truth = |name: &str| {
-        let (_, column) = columns.iter().find(|(of, _)| *of == name)?;
-        Some(number(known, column)? * 10.0)
-    };
-    let error = found.as_ref().err().cloned();
-    let values = found.unwrap_or_default();
-    let errors_mm = values.into_iter().filter_map(|(name, value)| Some((name, value - truth(name)?))).collect();
-    Evaluated { id, source, files, errors_mm, error }
+}
+
+impl Taken {
+    /// Measured values, mm, less the true ones.
+    fn compared(
+        self,
+        columns: &[Known],
+        found: std::result::Result<Vec<(&'static str, f64)>, String>,
+        known: &Row,
+    ) -> Evaluated {
+        let Self { id, source, files } = self;
+        let truth_mm = |name: &str| {
+            let (_, column) = columns.iter().find(|(measurement, _)| *measurement == name)?;
+            Some(number(known, column)? * 10.0)
+        };
+        let error = found.as_ref().err().cloned();
+        let values = found.unwrap_or_default();
+        let errors_mm = values.into_iter().filter_map(|(name, value)| Some((name, value - truth_mm(name)?))).collect();
+        Evaluated { id, source, files, errors_mm, error }
+    }
 }
 
 fn accuracy(bodies: &[Evaluated]) -> BTreeMap<&'static str, BTreeMap<&'static str, Accuracy>> {

@@ -1,8 +1,9 @@
-//! The wardrobe: the catalogue of subjects, styles, sizes and fabrics with their revisions, and patterns with their seams:
-//! checked, proposed, edited, decided question by question.
+//! The wardrobe: the catalogue of subjects, styles, sizes and fabrics with their revisions, and work on the seams of
+//! patterns. Seams are checked, proposed, edited, and confirmed question by question.
 
 pub mod catalogue;
 pub mod cross;
+mod error;
 pub mod evaluate;
 pub mod seams;
 #[cfg(test)]
@@ -13,3 +14,4 @@ pub use catalogue::{
     doubts, is_doubtful, percentile, percentile_text, with_bending,
 };
 pub use cross::{Opened, Wardrobe};
+pub use error::{TableProblem, WardrobeError};

@@ -89,7 +89,7 @@ fn open() -> (tempfile::TempDir, Store) {
     (folder, store)
 }
 
-fn of<'a>(pairs: &'a [Pair], garment: &str) -> Vec<&'a Pair> {
+fn pairs_of<'a>(pairs: &'a [Pair], garment: &str) -> Vec<&'a Pair> {
     pairs.iter().filter(|pair| pair.garment.ends_with(garment)).collect()
 }
 
@@ -100,7 +100,7 @@ fn the_published_tables_know_no_winner() {
     let pairs = evidence::pairs(&store, PUBLISHED).expect("readable");
     let all = |_: &Errors| true;
     let check =
-        |garment: &str, expected: [usize; 2]| assert_eq!(wins(&of(&pairs, garment), all), expected, "{garment}");
+        |garment: &str, expected: [usize; 2]| assert_eq!(wins(&pairs_of(&pairs, garment), all), expected, "{garment}");
     check("", [27, 27]);
     check("tshirt", [5, 13]);
     check("trousers", [8, 10]);

@@ -1,4 +1,4 @@
-//! The `[[garment]]` tables of a study file: who wears it, how it is sewn, in which cloth, its sizes.
+//! The `[[garment]]` tables of a study file: wearers, seams, fabric and sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -8,7 +8,7 @@ use toml::Spanned;
 use crate::file::reader::{Place, Reader};
 use crate::file::sweep::{self, EDGE_MM};
 use crate::file::values::{lookup, source, unique};
-use crate::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, Subject, schedule, target};
+use crate::file::{GarmentEntry, KnownSize, KnownStyle, Placed, Sewn, SizeFile, Subject, schedule, target};
 use crate::parameters::Parameters;
 use crate::patterns::{Nest, Unit, unit_of};
 use crate::schedule::Limits;
@@ -35,23 +35,23 @@ const GARMENT_KEYS: [&str; 15] = [
     "memory_limit_mb",
 ];
 
-/// What garments of a file have in common.
+/// Values that all garments of a file share.
 pub(super) struct Common<'a> {
     /// Folder of the file.
     pub folder: &'a Path,
-    /// Fabrics they may name.
+    /// Fabrics that they may name.
     pub fabrics: &'a BTreeMap<String, Fabric>,
-    /// Styles they may name.
+    /// Styles that they may name.
     pub styles: &'a BTreeMap<String, KnownStyle>,
-    /// Edge length of the finest mesh, m, where a garment says nothing else.
+    /// Edge length of the finest mesh, m, of garments that give none.
     pub edge_length_m: f64,
-    /// Parameters of the simulators, likewise.
+    /// Parameters of the simulators; those of a garment replace them.
     pub parameters: Parameters,
-    /// What a simulation may take, likewise.
+    /// Limits of a simulation; those of a garment replace them.
     pub limits: Limits,
 }
 
-/// All garments with their cloth and those who wear them.
+/// Reads all garments with their fabrics and wearers.
 pub(super) fn garments(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -87,7 +87,7 @@ pub(super) fn garments(
         let edge_length_m = reader.number(&place, "edge_length_mm", EDGE_MM).map_or(common.edge_length_m, from_mm);
         let mut parameters = common.parameters.clone();
         for (name, value) in sweep::parameters(reader, &place).iter() {
-            // It was accepted when it was read.
+            // The value was accepted when it was read.
             let _ = parameters.set(name, value.clone());
         }
         let target = target::target(reader, &place);
@@ -117,15 +117,15 @@ pub(super) fn garments(
     garments
 }
 
-/// Refuses sizes that would be the same pieces: several of one file, which does not hold each of them.
+/// Reports sizes that would be the same pieces: several sizes of one file that does not hold each of them.
 fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], unit: Option<&str>) {
-    let mut of_file: BTreeMap<String, Vec<&SizeFile>> = BTreeMap::new();
+    let mut by_file: BTreeMap<String, Vec<&SizeFile>> = BTreeMap::new();
     for size in sizes {
-        of_file.entry(size.pattern.hash()).or_default().push(size);
+        by_file.entry(size.pattern.hash()).or_default().push(size);
     }
-    for sharing in of_file.into_values().filter(|sharing| sharing.len() > 1) {
+    for sharing in by_file.into_values().filter(|sharing| sharing.len() > 1) {
         let pattern = &sharing[0].pattern;
-        // A file that cannot be read says why when it is.
+        // The reason why a file cannot be read is reported elsewhere.
         let Some(held) = held_sizes(pattern, unit.and_then(unit_of)) else { continue };
         let mut taken = BTreeSet::new();
         for size in &sharing {
@@ -156,7 +156,7 @@ fn held_sizes(pattern: &SourceFile, unit: Option<Unit>) -> Option<Vec<String>> {
     Some(nest.sizes().into_iter().map(str::to_owned).collect())
 }
 
-/// A style of the catalogue in all of its sizes, or those that are named.
+/// Reads a style of the catalogue in all of its sizes, or in those that are named.
 fn in_catalogue(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -166,13 +166,14 @@ fn in_catalogue(
     let mut sewn = Sewn { seams: None, unit: unit(reader, place), sizes: vec![] };
     let Some(style) = lookup(reader, styles, name, "style in the catalogue") else { return sewn };
     sewn.seams.clone_from(&style.seams);
-    let known: BTreeMap<String, ()> = style.sizes.iter().map(|(size, _)| (size.name.clone(), ())).collect();
+    let known: BTreeMap<String, ()> = style.sizes.iter().map(|known| (known.size.name.clone(), ())).collect();
     let wanted = reader.texts(place, "sizes").map(|names| {
         let found = names.iter().filter(|size| lookup(reader, &known, size, "size of the style").is_some());
         found.map(|size| (*size.get_ref()).to_owned()).collect::<Vec<_>>()
     });
-    let wanted = wanted.unwrap_or_else(|| style.sizes.iter().map(|(size, _)| size.name.clone()).collect());
-    for (size, unit) in wanted.iter().filter_map(|name| style.sizes.iter().find(|(size, _)| size.name == *name)) {
+    let wanted = wanted.unwrap_or_else(|| style.sizes.iter().map(|known| known.size.name.clone()).collect());
+    let of_name = |name: &String| style.sizes.iter().find(|known| known.size.name == *name);
+    for KnownSize { size, unit } in wanted.iter().filter_map(of_name) {
         if unit.is_some() && sewn.unit.is_some() && *unit != sewn.unit {
             let message =
                 format!("{}: sizes of `{}` are in different units; name those of one", place.name, name.get_ref());
@@ -184,12 +185,12 @@ fn in_catalogue(
     sewn
 }
 
-/// Who wears a garment: the subjects it names, or else all of the file.
+/// Names of the subjects who wear a garment: those that it names, or else all of the file.
 fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
     let Some(names) = reader.texts(garment, "subjects") else {
         return subjects.iter().map(|subject| subject.id.clone()).collect();
     };
-    // Subjects that are in the file but wrong are told of once, at their own place.
+    // A subject that is in the file but wrong is reported once, at its own line.
     let known: BTreeMap<String, ()> = reader
         .tables(top, "subject", "subject")
         .iter()
@@ -204,7 +205,8 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
             reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
         } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
             seen.insert(*name.get_ref());
-            wearers.extend(subjects.iter().filter(|one| one.is_called(name.get_ref())).map(|one| one.id.clone()));
+            let called = subjects.iter().filter(|subject| subject.is_called(name.get_ref()));
+            wearers.extend(called.map(|subject| subject.id.clone()));
         }
     }
     if names.is_empty() {
@@ -215,7 +217,7 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
     wearers
 }
 
-/// All garments without their cloth.
+/// Reads all garments without their fabric.
 pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) -> Vec<Placed<Sewn>> {
     let mut garments = Vec::new();
     let mut names = BTreeSet::new();
@@ -227,7 +229,7 @@ pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) 
     garments
 }
 
-/// The name of a garment, which its place then bears.
+/// Reads the name of a garment, and gives it to the place for messages.
 fn named<'t>(
     reader: &mut Reader<'_>,
     place: &mut Place<'t>,

@@ -1,7 +1,7 @@
 //! The study file `study.toml`: which subjects wear which garments, in which fabric, by which simulators.
 //!
-//! `docs/reference.md` lists its keys, and a test holds that page to what is read here.
-//! Everything is checked before anything runs, and all problems are told at once.
+//! `docs/reference.md` lists its keys, and a test compares that page with the keys that are read here.
+//! The whole file is checked before anything runs, and all problems are reported at once.
 
 mod garments;
 mod outfits;
@@ -33,14 +33,14 @@ use store::{InFile, Origin, Problem, Result, StudyError};
 pub struct Subject {
     /// Name in results.
     pub id: String,
-    /// Who it is, in the pose that results are of.
+    /// The person, in the pose of the results.
     pub person: Person,
-    /// Pose in which garments are put on, where they are carried from there.
+    /// Pose in which garments are put on, where the body then moves into another pose and carries them.
     pub carried_from: Option<Pose>,
 }
 
 impl Subject {
-    /// The same in the pose in which garments are put on; `None` where that is the pose that results are of.
+    /// The same subject in the pose in which garments are put on; `None` where that is the pose of the results.
     #[must_use]
     pub fn dressed(&self) -> Option<Self> {
         let (from, to) = (self.carried_from?, self.person.pose?);
@@ -49,7 +49,7 @@ impl Subject {
         Some(Self { id: format!("{name} {from}"), person, carried_from: None })
     }
 
-    /// Whether a name is that of the subject, or of somebody of whom it is one pose.
+    /// True if a name is that of the subject, or of the person of whom it is one pose.
     #[must_use]
     pub fn is_called(&self, name: &str) -> bool {
         let of_pose = || self.person.pose.is_some_and(|pose| self.id == format!("{name} {pose}"));
@@ -57,23 +57,23 @@ impl Subject {
     }
 }
 
-/// Somebody who wears garments.
+/// A person who wears garments.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Person {
-    /// What is known of the body; of a scan, what is measured on it.
+    /// Known measurements of the body; of a scan, those that are taken on it.
     pub measurements: Measurements,
     /// The scan that is the body, where there is one.
     pub scan: Option<ScanFile>,
-    /// How they stand, where that is not as they are built or scanned.
+    /// Pose, where it differs from the one that the body is built or scanned in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
 }
 
 impl Person {
-    /// The body: the scan, or one that is built from the measurements, in its pose.
+    /// Makes the body: the scan, or one that is built from the measurements, in its pose.
     ///
     /// # Errors
-    /// When the measurements are those of nobody, or the scan cannot wear garments or stand so.
+    /// When no body has the measurements, or the scan cannot wear garments or take the pose.
     pub fn body(&self) -> Result<Body> {
         let body = match &self.scan {
             None => bodies::build_body(&self.measurements)?,
@@ -96,24 +96,24 @@ impl From<Measurements> for Person {
 }
 
 impl ScanFile {
-    /// Reads a scan and who it is; measured, which tells whether it is a standing person. The unit and the sex are told from it where
-    /// they are not given.
+    /// Reads a scan and measures it. Its unit and sex are inferred where they are not given.
     ///
     /// # Errors
-    /// When it is no body.
-    pub(crate) fn person(self, sex: Option<Sex>) -> Result<Person> {
-        Ok(self.person_and_notes(sex)?.0)
-    }
-
-    /// As [`Self::person`], with what was guessed or repaired.
-    ///
-    /// # Errors
-    /// When it is no body.
-    pub fn person_and_notes(self, sex: Option<Sex>) -> Result<(Person, Vec<String>)> {
+    /// When it is no standing person.
+    pub fn read(self, sex: Option<Sex>) -> Result<ScannedPerson> {
         let found = bodies::whole_scan(&self.file, self.unit, sex)?;
         let person = Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None };
-        Ok((person, found.imported.notes))
+        Ok(ScannedPerson { person, notes: found.imported.notes })
     }
+}
+
+/// A person whose body is a scan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScannedPerson {
+    /// The person, with the measurements of the scan.
+    pub person: Person,
+    /// Remarks on guesses and repairs.
+    pub notes: Vec<String>,
 }
 
 /// A body scan of a study.
@@ -121,7 +121,7 @@ impl ScanFile {
 pub struct ScanFile {
     /// OBJ, PLY, STL or GLB.
     pub file: SourceFile,
-    /// Unit of the file; told from its height where it is not given.
+    /// Unit of the file; inferred from its height where it is not given.
     pub unit: Option<LengthUnit>,
 }
 
@@ -141,7 +141,7 @@ pub struct GarmentEntry {
     pub name: String,
     /// Identifiers of the subjects who wear it, in order.
     pub subjects: Vec<String>,
-    /// How its pieces are sewn and measured; `None` where the patterns hold their own seams (GarmentCode JSON).
+    /// Seam file; `None` where the patterns hold their own seams (GarmentCode JSON).
     pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
@@ -155,13 +155,13 @@ pub struct GarmentEntry {
     pub edge_length_m: f64,
     /// Values of the simulators' parameters that are not the default ones.
     pub parameters: Parameters,
-    /// What ease it is to have; no input of a result.
+    /// Intended ease; no input of a result.
     pub target: Target,
     /// Names and values that a sweep gave it.
     pub swept: Vec<(String, String)>,
-    /// When its jobs are started, and what each may take.
+    /// Priority, order and limits of its jobs.
     pub schedule: Schedule,
-    /// What it is worn with, as a layer of an outfit.
+    /// The outfit of which it is a layer.
     pub outfit: Option<WornWith>,
 }
 
@@ -172,12 +172,12 @@ pub struct WornWith {
     pub name: String,
     /// Its layer, the inmost 0.
     pub layer: usize,
-    /// All layers as they are alone; sizes at one place of their lists are worn together.
+    /// All layers as garments of their own; sizes at the same index of their lists are worn together.
     pub layers: Vec<GarmentEntry>,
 }
 
 impl GarmentEntry {
-    /// Its name in the file, where a sweep made it.
+    /// Its name in the file, without the values that a sweep appends.
     #[must_use]
     pub fn unswept_name(&self) -> &str {
         self.swept.iter().rev().fold(&self.name, |name, (axis, value)| {
@@ -204,11 +204,11 @@ pub struct Study {
     pub simulators: Vec<Simulator>,
     /// Simulations of each cell.
     pub repeats: u32,
-    /// Where the fit classes meet.
+    /// Eases at which the fit classes meet.
     pub cuts: Cuts,
 }
 
-/// What a study file may name instead of bringing it.
+/// Entries that a study file may name instead of defining them.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     /// Subjects of the catalogue.
@@ -226,11 +226,20 @@ pub struct Known {
 pub struct KnownStyle {
     /// Seam file; `None` where the patterns hold their own seams.
     pub seams: Option<SourceFile>,
-    /// Sizes, each with the unit of its pattern where its file names none.
-    pub sizes: Vec<(SizeFile, Option<String>)>,
+    /// Its sizes.
+    pub sizes: Vec<KnownSize>,
 }
 
-/// An entry of a file, and where it stands.
+/// A size of a style of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownSize {
+    /// Name and pattern.
+    pub size: SizeFile,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<String>,
+}
+
+/// An entry of a file, with its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed<T> {
     /// Path of the file.
@@ -239,12 +248,12 @@ pub struct Placed<T> {
     pub line: usize,
     /// Name of the entry.
     pub name: String,
-    /// What the file says there.
+    /// The entry.
     pub entry: T,
 }
 
 impl<T> Placed<T> {
-    /// Something made of the entry, at the same place.
+    /// Converts the entry, and keeps its line.
     pub fn map<U>(self, make: impl FnOnce(T) -> U) -> Placed<U> {
         let Self { file, line, name, entry } = self;
         Placed { file, line, name, entry: make(entry) }
@@ -256,10 +265,10 @@ impl<T> Placed<T> {
     }
 }
 
-/// How a garment is sewn, and its sizes: a `[[garment]]` without its cloth.
+/// Seams and sizes of a garment: a `[[garment]]` without its fabric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sewn {
-    /// Seam file; a file of sizes alone need not name it.
+    /// Seam file; `None` where a file brings sizes only.
     pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
@@ -267,21 +276,21 @@ pub struct Sewn {
     pub sizes: Vec<SizeFile>,
 }
 
-/// The study file of a path that names it or its folder.
+/// Path of a study file, from its own path or that of its folder.
 #[must_use]
 pub fn study_file(path: &Path) -> PathBuf {
     if path.is_dir() { path.join("study.toml") } else { path.to_owned() }
 }
 
 impl Study {
-    /// Sets what each simulation may take, over what the file says.
+    /// Sets limits of each simulation, in place of those of the file.
     pub fn limit(&mut self, limits: Limits) {
         for garment in self.garments.iter_mut().chain(&mut self.layers) {
             garment.schedule.limits = limits.or(garment.schedule.limits);
         }
     }
 
-    /// All that results are of, in order: garments alone, then the layers of outfits.
+    /// All garments that have results, in order: those worn alone, then the layers of outfits.
     pub fn worn(&self) -> impl Iterator<Item = &GarmentEntry> {
         self.garments.iter().chain(&self.layers)
     }
@@ -289,7 +298,7 @@ impl Study {
     /// Reads and checks a study: the file or its folder.
     ///
     /// # Errors
-    /// [`StudyError::File`] with everything that is wrong; [`StudyError::Io`] when the file itself cannot be read.
+    /// [`StudyError::File`] with all problems; [`StudyError::Io`] when the file itself cannot be read.
     pub fn load(path: &Path, known: &Known) -> Result<Self> {
         let path = study_file(path);
         let text = std::fs::read_to_string(&path).map_err(StudyError::io(&path))?;
@@ -297,7 +306,7 @@ impl Study {
     }
 }
 
-/// The subjects of the text of a study file, or of one that has nothing else.
+/// Reads the subjects of the text of a study file, or of a file with subjects only.
 pub fn subjects(path: &Path, text: &str, known: &Known) -> std::result::Result<Vec<Placed<Subject>>, Vec<Problem>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     parse::entries(path, text, |reader, top| {
@@ -306,48 +315,41 @@ pub fn subjects(path: &Path, text: &str, known: &Known) -> std::result::Result<V
     })
 }
 
-/// The fabrics of the text of a study file, or of one that has nothing else.
+/// Reads the fabrics of the text of a study file, or of a file with fabrics only.
 pub fn fabrics(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Fabric>>, Vec<Problem>> {
     parse::entries(path, text, parse::own_fabrics)
 }
 
-/// The garments of the text of a study file, or of one that has nothing else; without their cloth.
+/// Reads the garments of the text of a study file, or of a file with garments only, without their fabric.
 pub fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Sewn>>, Vec<Problem>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     parse::entries(path, text, |reader, top| garments::all_sewn(reader, top, folder))
 }
 
-/// Measurements from the text of a file with those of a `[[subject]]`.
-///
-/// # Errors
-/// [`StudyError::File`] with everything that is wrong.
-pub(crate) fn measurements(path: &Path, text: &str) -> Result<Measurements> {
-    parse::measurements_file(path, text).map_err(StudyError::File)
-}
-
-/// Whether a file holds measurements by its ending, and no mesh.
+/// True if the ending of a file is one of measurements, not of a mesh.
 pub fn holds_measurements(path: &Path) -> bool {
     ["toml", "smis", "vit", "yaml", "yml", "json"]
         .iter()
         .any(|ending| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending)))
 }
 
-/// Measurements from a TOML file with those of a study's `[[subject]]`, or as SeamlyMe, Valentina and GarmentCode keep them;
-/// `sex` where such a file does not say.
+/// Reads measurements from a TOML file with the keys of a `[[subject]]`, or from a file of SeamlyMe, Valentina or
+/// GarmentCode. `sex` counts where such a file names none.
 ///
 /// # Errors
-/// Everything that is wrong with the file, at once.
+/// All problems of the file at once.
 pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> {
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
-        return measurements(path, &text);
+        return parse::measurements_file(path, &text).map_err(StudyError::File);
     }
     let source = SourceFile::read(path)?;
     let in_file = |error| StudyError::refused(Origin::Body, InFile { file: source.name.clone(), source: error });
     body::read_foreign(&source.bytes, sex).map_err(in_file)
 }
 
-/// The body of a file, measurements or a mesh, in a unit and of a sex where that cannot be told from it; and what had to be guessed.
+/// Makes the body of a file of measurements or of a mesh; returns it with remarks on guesses. `unit` and `sex` count
+/// where they cannot be inferred from the file.
 ///
 /// # Errors
 /// When it cannot be used.
@@ -361,10 +363,10 @@ pub fn read_body(path: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Res
     Ok((bodies::scanned_body(&source, scan)?, notes))
 }
 
-/// A fabric from a TOML file with what stands under a study's `[[fabric]]`.
+/// Reads a fabric from a TOML file with the keys of a `[[fabric]]`.
 ///
 /// # Errors
-/// Everything that is wrong with the file, at once.
+/// All problems of the file at once.
 pub fn read_fabric(path: &Path) -> Result<Fabric> {
     let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
     parse::fabric_file(path, &text).map_err(StudyError::File)

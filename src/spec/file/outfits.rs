@@ -1,4 +1,4 @@
-//! The `[[outfit]]` tables of a study file: garments that are worn over each other.
+//! The `[[outfit]]` tables of a study file: garments worn over each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,12 +8,13 @@ use crate::file::reader::{Place, Reader};
 use crate::file::values::{lookup, unique};
 use crate::file::{GarmentEntry, SizeFile, WornWith};
 
-/// Fewest layers of an outfit, and most: contact keeps no more apart between skin and coat.
+/// Accepted numbers of layers. Contact keeps no more than five apart.
 const LAYERS: std::ops::RangeInclusive<usize> = 2..=5;
 
-/// Every layer of every outfit as a garment of its own: `office shirt`.
+/// Reads every layer of every outfit as a garment of its own, such as `office shirt`.
 pub(super) fn outfits(reader: &mut Reader<'_>, top: &Place<'_>, garments: &[GarmentEntry]) -> Vec<GarmentEntry> {
-    let known: BTreeMap<String, &GarmentEntry> = garments.iter().map(|one| (one.name.clone(), one)).collect();
+    let known: BTreeMap<String, &GarmentEntry> =
+        garments.iter().map(|garment| (garment.name.clone(), garment)).collect();
     let mut names = BTreeSet::new();
     let mut all = Vec::new();
     for mut place in reader.tables(top, "outfit", "outfit") {
@@ -30,7 +31,7 @@ pub(super) fn outfits(reader: &mut Reader<'_>, top: &Place<'_>, garments: &[Garm
     all
 }
 
-/// The garments of an outfit, the inner first.
+/// The garments of an outfit, the inmost first.
 fn layers<'k>(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -55,13 +56,13 @@ fn layers<'k>(
     Some(found.into_iter().copied().collect())
 }
 
-/// The sizes that are worn together, one of each layer: those that are named, or all that the layers have in common, or else the only one
-/// of each.
+/// The sizes that are worn together, one of each layer: those that are named, or else all that the layers have in
+/// common, or else the only size of each.
 fn sizes(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Option<Vec<Vec<SizeFile>>> {
-    let of = |layer: &GarmentEntry, name: &str| layer.sizes.iter().find(|size| size.name == name).cloned();
+    let size_of = |layer: &GarmentEntry, name: &str| layer.sizes.iter().find(|size| size.name == name).cloned();
     if let Some(named) = reader.texts(place, "sizes") {
         let found: Option<Vec<SizeFile>> =
-            named.iter().zip(layers).map(|(name, layer)| of(layer, name.get_ref())).collect();
+            named.iter().zip(layers).map(|(name, layer)| size_of(layer, name.get_ref())).collect();
         return match found {
             Some(together) if named.len() == layers.len() => Some(vec![together]),
             _ => {
@@ -77,12 +78,12 @@ fn sizes(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -
         };
     }
     let first = layers.first()?;
-    let common = first.sizes.iter().map(|size| layers.iter().map(|layer| of(layer, &size.name)).collect());
+    let common = first.sizes.iter().map(|size| layers.iter().map(|layer| size_of(layer, &size.name)).collect());
     let common: Vec<Vec<SizeFile>> = common.collect::<Vec<Option<_>>>().into_iter().flatten().collect();
     let only =
         || layers.iter().map(|layer| <[SizeFile; 1]>::try_from(layer.sizes.clone()).ok().map(|[size]| size)).collect();
     let together: Option<Vec<Vec<SizeFile>>> =
-        if common.is_empty() { Option::map(only(), |one| vec![one]) } else { Some(common) };
+        if common.is_empty() { Option::map(only(), |sizes| vec![sizes]) } else { Some(common) };
     if together.is_none() {
         reader.missing(place, "sizes", "one size of each layer, since they have none in common");
     }
@@ -93,7 +94,7 @@ fn known_sizes(layer: &GarmentEntry) -> String {
     layer.sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// Who wears an outfit: those who wear all of its layers, or some of them.
+/// Names of the subjects who wear an outfit: all who wear every layer, or those among them that it names.
 fn wearers(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Vec<String> {
     let first = layers.first().map_or(&[][..], |layer| &layer.subjects);
     let all: Vec<String> =
@@ -109,12 +110,13 @@ fn wearers(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry])
     wanted.map(|name| (*name.get_ref()).to_owned()).collect()
 }
 
-/// Where a key stands, or the table where it does not.
+/// Place of a key in the text, or of its table where it is missing.
 fn span(place: &Place<'_>, key: &str) -> std::ops::Range<usize> {
     place.table.get(key).map_or(place.span.clone(), Spanned::span)
 }
 
-/// The layers of an outfit as they are in results, each after the one under it: they are draped at once, and that is kept.
+/// The layers of an outfit as garments. Each waits for the layer under it, since one simulation drapes them all, and
+/// its result is kept.
 fn worn(outfit: &str, layers: &[&GarmentEntry], sizes: &[Vec<SizeFile>], subjects: &[String]) -> Vec<GarmentEntry> {
     let together: Vec<GarmentEntry> = layers
         .iter()

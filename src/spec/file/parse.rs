@@ -1,4 +1,4 @@
-//! From the text of a study file to a [`Study`], or to everything that is wrong with it.
+//! Reads the text of a study file into a [`Study`], or into all of its problems.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -36,7 +36,7 @@ const STUDY_KEYS: [&str; 13] = [
     "memory_limit_mb",
 ];
 
-/// Checks the text of a study file; files it names are looked up beside it.
+/// Reads the text of a study file; files that it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     reader.hidden.clone_from(&known.hidden);
@@ -65,7 +65,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         limits: schedule::limits(&mut reader, &top),
     };
     let worn = garments(&mut reader, &top, &common, &subjects);
-    let garments = schedule::unfolded(sweep::swept(&mut reader, &top, worn, &fabrics));
+    let garments = schedule::after_swept(sweep::swept(&mut reader, &top, worn, &fabrics));
     let study = Study {
         name,
         path: path.to_owned(),
@@ -82,7 +82,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
     reader.end(study)
 }
 
-/// Entries of one kind from the text of a file with tables like those of a study file.
+/// Reads entries of one kind from the text of a file with the tables of a study file.
 pub(super) fn entries<T>(
     path: &Path,
     text: &str,
@@ -95,7 +95,7 @@ pub(super) fn entries<T>(
     reader.end(entries)
 }
 
-/// Reads a file with one entry: what stands under `[[key]]`, or the file itself where it has no such header.
+/// Reads a file with one entry: the table `[[key]]`, or the whole file where it has no such header.
 fn sole<'t, T>(
     path: &'t Path,
     text: &'t str,
@@ -124,7 +124,7 @@ fn sole<'t, T>(
     }
 }
 
-/// Checks the text of a file with one subject's measurements.
+/// Reads the text of a file with the measurements of one subject.
 pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
     sole(path, text, "subject", |reader, place| {
         reader.only(&place, &[&["id"], &keys::<Measurements>()[..]].concat());
@@ -132,14 +132,14 @@ pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements,
     })
 }
 
-/// Checks the text of a file with one fabric.
+/// Reads the text of a file with one fabric.
 pub(super) fn fabric_file(path: &Path, text: &str) -> Result<Fabric, Vec<Problem>> {
     sole(path, text, "fabric", |reader, place| {
         own_fabric(reader, place, &mut BTreeSet::new()).map(|placed| placed.entry)
     })
 }
 
-/// Parses TOML; where it is broken only that is told, since all else would follow from it.
+/// Parses TOML. Where it is broken only those errors are reported, since all others would follow from them.
 fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTable<'t>>), Vec<Problem>> {
     let mut reader = Reader::new(path, text);
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -149,7 +149,7 @@ fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTabl
     if reader.problems.is_empty() { Ok((reader, document)) } else { Err(reader.problems) }
 }
 
-/// Name of the folder a study lies in.
+/// Name of the folder of a study.
 fn folder_name(folder: &Path) -> String {
     let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     full.file_name().map_or_else(|| "study".into(), |name| name.to_string_lossy().into_owned())
@@ -193,21 +193,21 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-/// The known fabrics and those of the file itself, which win.
+/// The known fabrics and those of the file; of two with the same name that of the file counts.
 fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fabric>) -> BTreeMap<String, Fabric> {
     let mut fabrics = known.clone();
     fabrics.extend(own_fabrics(reader, top).into_iter().map(|placed| (placed.name, placed.entry)));
     fabrics
 }
 
-/// The fabrics of the file itself.
+/// Reads the fabrics of the file.
 pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Placed<Fabric>> {
     let mut names = BTreeSet::new();
     let places = reader.tables(top, "fabric", "fabric");
     places.into_iter().filter_map(|place| own_fabric(reader, place, &mut names)).collect()
 }
 
-/// One of them, its name told from those before it.
+/// Reads one fabric; its name must differ from those before it.
 fn own_fabric<'t>(
     reader: &mut Reader<'_>,
     mut place: Place<'t>,

@@ -1,4 +1,4 @@
-//! Reading TOML with every problem kept: which line, what was found, what would be accepted.
+//! A reader of TOML that collects all problems: the line, the finding, and what would be accepted.
 
 use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
@@ -10,11 +10,11 @@ use toml::de::{DeTable, DeValue};
 use crate::file::Placed;
 use store::{Problem, nearest};
 
-/// Collects what is wrong with one file.
+/// Reader of one file, with its problems.
 pub(super) struct Reader<'a> {
     path: &'a Path,
     text: &'a str,
-    /// Where its lines end, bytes, rising.
+    /// Positions of the line feeds, bytes, ascending.
     ends: Vec<usize>,
     pub problems: Vec<Problem>,
     /// Entries of the catalogue that were removed and stay stored: `subject male-ii`.
@@ -26,14 +26,14 @@ pub(super) struct Reader<'a> {
 pub(super) struct Place<'t> {
     /// `[fit]`, `subject ii`, ...
     pub name: String,
-    /// Where it starts, bytes.
+    /// Place in the text, bytes.
     pub span: Range<usize>,
     pub table: &'t DeTable<'t>,
 }
 
 impl<'a> Reader<'a> {
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(position, _)| position).collect();
         Self { path, text, ends, problems: Vec::new(), hidden: BTreeSet::new() }
     }
 
@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
         1 + self.ends.partition_point(|end| *end < span.start)
     }
 
-    /// An entry and where it stands.
+    /// Adds file, line and name to an entry.
     pub fn placed<T>(&self, span: &Range<usize>, name: &str, entry: T) -> Placed<T> {
         Placed { file: self.path.to_owned(), line: self.line(span), name: name.to_owned(), entry }
     }
@@ -61,7 +61,7 @@ impl<'a> Reader<'a> {
         &self.text.as_bytes()[..span.start.min(self.text.len())]
     }
 
-    /// What was read, or all that is wrong with it.
+    /// Returns the value that was read, or all problems.
     pub fn end<T>(mut self, read: T) -> Result<T, Vec<Problem>> {
         self.problems.sort_by_key(|problem| problem.line);
         if self.problems.is_empty() { Ok(read) } else { Err(self.problems) }
@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         self.problem(&place.span.clone(), format!("{}: `{key}` is missing; give {wanted}", place.name));
     }
 
-    /// Text that need not be there; a value of another type is a problem.
+    /// Optional text; a value of another type is a problem.
     pub fn text<'t>(&mut self, place: &Place<'t>, key: &str) -> Option<Spanned<&'t str>> {
         let value = place.table.get(key)?;
         let Some(text) = value.get_ref().as_str() else {
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
         Some(Spanned::new(value.span(), text))
     }
 
-    /// Text that must be there.
+    /// Required text.
     pub fn need_text<'t>(&mut self, place: &Place<'t>, key: &str, wanted: &str) -> Option<Spanned<&'t str>> {
         if !place.table.contains_key(key) {
             self.missing(place, key, wanted);
@@ -135,12 +135,12 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
-        // What does not fit into the type is out of every range.
+        // A number that does not fit its type is outside of every range.
         let accepted = check(number.unwrap_or(f64::INFINITY));
         accepted.map_err(|problem| self.problem(&value.span(), format!("{}: {problem}", place.name))).ok()
     }
 
-    /// The tables of `[[key]]`, or of a list of inline tables.
+    /// Tables of `[[key]]`, or of a list of inline tables.
     pub fn tables<'t>(&mut self, place: &Place<'t>, key: &str, what: &str) -> Vec<Place<'t>> {
         let Some(value) = place.table.get(key) else { return Vec::new() };
         let Some(list) = value.get_ref().as_array() else {

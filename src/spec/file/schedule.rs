@@ -1,4 +1,4 @@
-//! When jobs of a study file are started and what they may take: `priority`, `after`, `time_limit_s`, `memory_limit_mb`.
+//! Schedule of the jobs of a study file: `priority`, `after`, `time_limit_s`, `memory_limit_mb`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,14 +7,14 @@ use crate::file::reader::{Place, Reader};
 use crate::file::values::lookup;
 use crate::schedule::{Limits, Schedule};
 
-/// Longest time that a simulation may be given, s: thirty days.
+/// Greatest limit of time, s: thirty days.
 const LONGEST_S: f64 = 30.0 * 86_400.0;
-/// Least memory a process of its own can start in, and the most that can be said, MB.
+/// Accepted limits of memory, MB. No process starts in less than the least.
 const MEMORY_MB: std::ops::RangeInclusive<f64> = 50.0..=4e6;
-/// Priorities that can be given.
+/// Accepted priorities.
 const PRIORITY: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
 
-/// The limits that a table gives.
+/// Reads the limits of a table.
 pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
     Limits {
         time_s: reader.number(place, "time_limit_s", 0.001..=LONGEST_S),
@@ -22,7 +22,7 @@ pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
     }
 }
 
-/// The schedule of a garment; it waits only for those that come before it in the file, so never in a circle.
+/// Reads the schedule of a garment. It waits only for garments before it in the file, so that no circle can arise.
 pub(super) fn schedule(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -39,8 +39,8 @@ pub(super) fn schedule(
     }
 }
 
-/// The same garments, those that are waited for by the names that sweeps gave them.
-pub(super) fn unfolded(mut garments: Vec<GarmentEntry>) -> Vec<GarmentEntry> {
+/// Replaces the names of garments that are waited for by those that sweeps gave them.
+pub(super) fn after_swept(mut garments: Vec<GarmentEntry>) -> Vec<GarmentEntry> {
     let names: Vec<[String; 2]> =
         garments.iter().map(|garment| [garment.unswept_name().to_owned(), garment.name.clone()]).collect();
     for garment in &mut garments {

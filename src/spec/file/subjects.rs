@@ -6,7 +6,6 @@ use std::path::Path;
 use toml::Spanned;
 
 use crate::entry::{Entry, keys};
-
 use crate::fields::sex;
 use crate::file::reader::{Place, Reader};
 use crate::file::values::{lookup, numbers, source, unique};
@@ -14,7 +13,7 @@ use crate::file::{Person, Placed, ScanFile, Subject};
 use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
 use store::files::SourceFile;
 
-/// What else a subject of a study may be.
+/// End of a message where a subject may also name an entry of the catalogue.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";
 
 /// Reads every `[[subject]]` table, with its problems noted in the reader.
@@ -65,7 +64,7 @@ pub(super) fn subjects(
     subjects
 }
 
-/// The poses that a subject names.
+/// Reads the poses that a subject names.
 fn poses(reader: &mut Reader<'_>, place: &Place<'_>) -> Vec<Pose> {
     let names = reader.texts(place, "poses").unwrap_or_default();
     names.iter().filter_map(|name| pose(reader, place, name)).collect()
@@ -76,21 +75,21 @@ fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Opt
     read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
 }
 
-/// A subject in each of some poses, called after them; as it is where there are none. Garments are put on in the pose `from`, where that
-/// is given, and carried into the others.
+/// A subject in each of some poses, named after them; without poses the subject as it is. Garments are put on in the
+/// pose `from`, where it is given, and carried into the others.
 fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<Subject> {
     let reached = |pose: &Pose| from.map_or(*pose, |from| from.then(*pose));
-    let stands = |id: String, pose: Option<Pose>| {
+    let in_pose = |id: String, pose: Option<Pose>| {
         let carried_from = from.filter(|from| pose != Some(*from));
         Subject { id, person: Person { pose, ..person.clone() }, carried_from }
     };
     if poses.is_empty() {
-        return vec![stands(id.to_owned(), person.pose.as_ref().map(reached))];
+        return vec![in_pose(id.to_owned(), person.pose.as_ref().map(reached))];
     }
-    poses.iter().map(reached).map(|pose| stands(format!("{id} {pose}"), Some(pose))).collect()
+    poses.iter().map(reached).map(|pose| in_pose(format!("{id} {pose}"), Some(pose))).collect()
 }
 
-/// Refuses keys beside those of a subject that is named or scanned.
+/// Reports a key that a subject of the catalogue or of a scan does not have.
 fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
     if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
         let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
@@ -98,7 +97,7 @@ fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
     }
 }
 
-/// Somebody whose scan lies beside the study file.
+/// Reads a person from a scan beside the study file.
 fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, folder: &Path) -> Option<Person> {
     let sex = reader.text(place, "sex").and_then(|word| sex_of(reader, place, &word));
     let unit = reader.text(place, "unit").and_then(|text| {
@@ -111,10 +110,10 @@ fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, fol
     });
     let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
     let problem = |error| reader.problem(&file.span(), format!("{}: {error}", place.name));
-    scan.person(sex).map_err(problem).ok()
+    scan.read(sex).map(|read| read.person).map_err(problem).ok()
 }
 
-/// The measurements of a place's keys; `or` is what it may be else.
+/// Reads measurements from the keys of a table; `or` ends the message where the sex is missing.
 pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
     let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
     let sex = word.and_then(|word| sex_of(reader, place, &word));

@@ -1,6 +1,7 @@
-//! `[parameters]` and `[[sweep]]` of a study file: other values of anything, and every combination of lists of them.
+//! `[parameters]` and `[[sweep]]` of a study file: other values of parameters, fabrics and edge lengths, and every
+//! combination of lists of them.
 //!
-//! A sweep makes a garment of its own of each combination, named after it: `tshirt offset_mu=0.4 bend_angle_deg=120`.
+//! A sweep makes a garment of each combination, named after it: `tshirt offset_mu=0.4 bend_angle_deg=120`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,9 +17,9 @@ use crate::parameters::Parameters;
 use geom::units::from_mm;
 use sim::Fabric;
 
-/// Edge lengths a mesh may have, mm.
+/// Accepted edge lengths of a mesh, mm.
 pub(super) const EDGE_MM: std::ops::RangeInclusive<f64> = 2.0..=100.0;
-/// Most garments that one sweep may make of one.
+/// Greatest number of garments that a sweep may make of one.
 const MOST: usize = 10_000;
 
 /// One value of an axis.
@@ -30,13 +31,13 @@ enum Setting {
     Parameter(String, Json),
 }
 
-/// A name with the values it goes through.
+/// A swept quantity with its values.
 struct Axis {
     name: String,
     settings: Vec<(String, Setting)>,
 }
 
-/// The values of a `[parameters]` table.
+/// Reads the values of a `[parameters]` table.
 pub(super) fn parameters(reader: &mut Reader<'_>, place: &Place<'_>) -> Parameters {
     let mut parameters = Parameters::default();
     let Some(value) = place.table.get("parameters") else { return parameters };
@@ -52,7 +53,7 @@ pub(super) fn parameters(reader: &mut Reader<'_>, place: &Place<'_>) -> Paramete
     parameters
 }
 
-/// Garments with those that sweeps make of them in their place.
+/// Replaces each garment that a sweep is about by the garments that the sweep makes of it.
 pub(super) fn swept(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -83,7 +84,7 @@ pub(super) fn swept(
     garments.into_iter().flat_map(|garment| made.remove(&garment.name).unwrap_or_else(|| vec![garment])).collect()
 }
 
-/// Names of the garments that a sweep is about: those it names, or all.
+/// Names of the garments that a sweep is about: those that it names, or all.
 fn chosen(reader: &mut Reader<'_>, place: &Place<'_>, garments: &[GarmentEntry]) -> Vec<String> {
     let known: BTreeMap<String, ()> = garments.iter().map(|garment| (garment.name.clone(), ())).collect();
     match reader.texts(place, "garments") {
@@ -95,12 +96,14 @@ fn chosen(reader: &mut Reader<'_>, place: &Place<'_>, garments: &[GarmentEntry])
     }
 }
 
-/// Every combination of the axes, the last one fastest.
+/// Every combination of the axes, where the last axis changes fastest.
 fn variants(garment: &GarmentEntry, axes: &[Axis]) -> Vec<GarmentEntry> {
     let mut all = vec![garment.clone()];
     for axis in axes {
         let mut next = Vec::with_capacity(all.len() * axis.settings.len());
-        for (before, (text, setting)) in all.iter().flat_map(|before| axis.settings.iter().map(move |s| (before, s))) {
+        for (before, (text, setting)) in
+            all.iter().flat_map(|before| axis.settings.iter().map(move |set| (before, set)))
+        {
             let mut variant = before.clone();
             let short = axis.name.rsplit('.').next().unwrap_or(&axis.name);
             variant.name = format!("{} {short}={text}", before.name);
@@ -122,13 +125,13 @@ fn apply(variant: &mut GarmentEntry, setting: &Setting, short: &str, text: &str)
         }
         Setting::EdgeLength(length_m) => variant.edge_length_m = *length_m,
         Setting::Parameter(name, value) => {
-            // It was accepted when the axis was read.
+            // The value was accepted when the axis was read.
             let _ = variant.parameters.set(name, value.clone());
         }
     }
 }
 
-/// The lists of a sweep, by name.
+/// Reads the lists of a sweep, by name.
 fn axes(reader: &mut Reader<'_>, place: &Place<'_>, fabrics: &BTreeMap<String, Fabric>) -> Vec<Axis> {
     let mut axes = Vec::new();
     for (name, value) in leaves("", place.table).into_iter().filter(|(name, _)| name != "garments") {
@@ -157,7 +160,7 @@ fn axes(reader: &mut Reader<'_>, place: &Place<'_>, fabrics: &BTreeMap<String, F
     axes
 }
 
-/// One value of a list.
+/// Reads one value of a list.
 fn setting(name: &str, item: &Spanned<DeValue<'_>>, fabrics: &BTreeMap<String, Fabric>) -> Result<Setting, String> {
     let value = json(item.get_ref());
     let number = || value.as_f64().ok_or_else(|| format!("`{name}` is {value}; accepted: a number"));
@@ -191,7 +194,7 @@ fn setting(name: &str, item: &Spanned<DeValue<'_>>, fabrics: &BTreeMap<String, F
     Ok(Setting::Parameter(name.to_owned(), value))
 }
 
-/// All values of a table and its tables, each with its name after dots.
+/// All values of a table and of its tables, each with its dotted name.
 fn leaves<'t>(prefix: &str, table: &'t DeTable<'t>) -> Vec<(String, &'t Spanned<DeValue<'t>>)> {
     let mut found = Vec::new();
     for (key, value) in table.iter() {
@@ -204,7 +207,7 @@ fn leaves<'t>(prefix: &str, table: &'t DeTable<'t>) -> Vec<(String, &'t Spanned<
     found
 }
 
-/// A value of TOML as one of JSON; numbers that do not fit are none.
+/// A value of TOML as one of JSON; a number that does not fit its type becomes null.
 fn json(value: &DeValue<'_>) -> Json {
     match value {
         DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).map_or(Json::Null, Json::from),

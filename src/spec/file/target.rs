@@ -1,4 +1,4 @@
-//! What ease a garment of a study file is to have: `intended_fit` and `target_ease_mm`.
+//! Intended ease of a garment of a study file: `intended_fit` and `target_ease_mm`.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -7,10 +7,10 @@ use crate::file::reader::{Place, Reader};
 use fit::target::{Intended, TARGETS, Target};
 use geom::units::from_mm;
 
-/// Eases that can be meant, mm.
+/// Accepted eases, mm.
 const EASE_MM: std::ops::RangeInclusive<f64> = -500.0..=1000.0;
 
-/// The target of a garment; a regular fit where it says none.
+/// Reads the target of a garment; a regular fit where it has none.
 pub(super) fn target(reader: &mut Reader<'_>, place: &Place<'_>) -> Target {
     let mut target = Target::default();
     if let Some(name) = reader.text(place, "intended_fit") {
@@ -59,7 +59,7 @@ fn own(reader: &mut Reader<'_>, place: &Place<'_>, table: &DeTable<'_>, target: 
     }
 }
 
-/// Two numbers in order, mm.
+/// Reads a least and a greatest ease, mm.
 fn band(value: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
     let number = |item: &Spanned<DeValue<'_>>| match item.get_ref() {
         DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).ok().map(|n| n as f64),

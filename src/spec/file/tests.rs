@@ -338,10 +338,10 @@ fn a_garment_is_carried_from_the_pose_in_which_it_is_put_on() {
     assert_eq!(found, expect.map(|(id, from)| (id.to_owned(), from.to_owned())));
 
     let jobs = crate::jobs(&study);
-    let of = |id: &str| jobs.iter().filter(move |job| job.subject == id).collect::<Vec<_>>();
-    assert!(of("ii arms_60").iter().all(|job| job.simulator == Simulator::Fem), "friction carries it");
+    let of_subject = |id: &str| jobs.iter().filter(move |job| job.subject == id).collect::<Vec<_>>();
+    assert!(of_subject("ii arms_60").iter().all(|job| job.simulator == Simulator::Fem), "friction carries it");
     // What it is carried from is what is draped in that pose, to the bit.
-    let (dressed, carried) = (of("ii arms_15"), of("ii arms_60"));
+    let (dressed, carried) = (of_subject("ii arms_15"), of_subject("ii arms_60"));
     let before = carried[0].dressed.as_ref().expect("it is put on first");
     let alone = dressed.iter().find(|job| job.simulator == Simulator::Fem).expect("by FEM-GS");
     assert_eq!(before.inputs, alone.inputs);
@@ -387,14 +387,17 @@ fn sizes_of_one_file_are_those_that_it_holds() {
         assert_eq!(told.lines().count(), expected.len(), "{sizes}: {told}");
         expected.iter().for_each(|text| assert!(told.contains(text), "{sizes}: {told}"));
     };
-    let of = |file: &str, names: &[&str]| {
+    let sizes_of = |file: &str, names: &[&str]| {
         let size = |name: &&str| format!("{{ name = \"{name}\", pattern = \"{file}\" }}");
         names.iter().map(size).collect::<Vec<_>>().join(", ")
     };
-    check(&of("nest.dxf", &["S", "M", "L"]), &[]);
-    check(&of("nest.dxf", &["S", "XS"]), &["garment tee: size `XS` is none of nest.dxf; accepted: one of S, M, L"]);
-    check(&of("nest.dxf", &["S", "s"]), &["size `s` is a second name of one size of nest.dxf"]);
-    check(&of("one.dxf", &["S"]), &[]);
+    check(&sizes_of("nest.dxf", &["S", "M", "L"]), &[]);
+    check(
+        &sizes_of("nest.dxf", &["S", "XS"]),
+        &["garment tee: size `XS` is none of nest.dxf; accepted: one of S, M, L"],
+    );
+    check(&sizes_of("nest.dxf", &["S", "s"]), &["size `s` is a second name of one size of nest.dxf"]);
+    check(&sizes_of("one.dxf", &["S"]), &[]);
     let only = "is one of 2 of one.dxf, which holds one size; accepted: a file a size, or one that holds them all";
-    check(&of("one.dxf", &["S", "M"]), &[&format!("size `S` {only}"), &format!("size `M` {only}")]);
+    check(&sizes_of("one.dxf", &["S", "M"]), &[&format!("size `S` {only}"), &format!("size `M` {only}")]);
 }

@@ -10,7 +10,7 @@ use crate::file::reader::{Place, Reader};
 use store::files::SourceFile;
 use store::{StudyError, hidden_hint, nearest};
 
-/// Reads the numbers of an entry over a blank one; `None` where one is wrong or missing.
+/// Reads the numbers of an entry into a blank one; `None` where one is wrong or missing.
 pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
     let before = reader.problems.len();
     for field in T::fields() {
@@ -43,7 +43,8 @@ pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>,
     }
 }
 
-/// An entry by name; a problem with a suggestion where there is none. Of `what` the first word is the part of the catalogue, if any.
+/// Returns an entry by name; adds a problem with a suggestion where there is none. Where the entry may be of the
+/// catalogue, the first word of `what` is its part.
 pub(super) fn lookup<'k, T>(
     reader: &mut Reader<'_>,
     known: &'k BTreeMap<String, T>,
@@ -63,7 +64,7 @@ pub(super) fn lookup<'k, T>(
     found
 }
 
-/// A file beside the study file; a problem with a suggestion where it cannot be read.
+/// Reads a file beside the study file; adds a problem with a suggestion where it cannot be read.
 pub(super) fn source(
     reader: &mut Reader<'_>,
     place: &Place<'_>,

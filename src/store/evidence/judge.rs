@@ -1,4 +1,4 @@
-//! Judging the results of a study, and keeping what comes of it.
+//! Evaluation of the evidence of a study, and its storage for the view.
 
 use rusqlite::{Connection, Row, named_params, params};
 
@@ -27,15 +27,21 @@ const PAIRS: &str = "
 
 const CELLS: &str = "SELECT DISTINCT garment, fit_class FROM v_ease WHERE study = :study AND decides ORDER BY 1, 2";
 
-/// What the results of a study say, and what they were then.
+/// Evidence of a study, with the basis that it was judged from.
 struct Judged {
     evidence: Evidence,
+    basis: Basis,
+}
+
+/// Fingerprint of the pairs of a study: it changes when they change.
+struct Basis {
     pairs: i64,
+    /// Sum of their differences of EI and of their eases, mm.
     checksum: f64,
 }
 
-/// Judges a study's results again, if they are others than those that were judged, and keeps that. While it is judged,
-/// others may write: the view sees whether the results are still the same.
+/// Judges the results of a study again where they changed since they were last judged, and stores the evidence. Other
+/// connections may write meanwhile: the view shows evidence only while its basis is that of the results.
 pub fn update(connection: &mut Connection, study: &str) -> Result<()> {
     let reading = connection.transaction()?;
     let judged = if is_judged(&reading, study)? { None } else { Some(judge(&reading, study)?) };
@@ -43,30 +49,31 @@ pub fn update(connection: &mut Connection, study: &str) -> Result<()> {
     judged.map_or(Ok(()), |judged| lightly(connection, |transaction| keep(transaction, study, &judged)))
 }
 
-/// Judges the results of a study by name and keeps what comes of it.
+/// Judges the results of a study and stores the evidence.
 pub fn refresh(connection: &Connection, study: &str) -> Result<()> {
     keep(connection, study, &judge(connection, study)?)
 }
 
-/// Whether what is kept of a study is of its results as they are, and of all its garments and fit classes.
+/// True if the stored evidence of a study is that of its present results, for all its garments and fit classes.
 fn is_judged(connection: &Connection, study: &str) -> Result<bool> {
     let kept =
         "SELECT count(*) FROM evidence JOIN study USING (study_id) WHERE name = ? AND pairs = ? AND checksum = ?";
-    let (pairs, checksum) = basis(connection, study)?;
+    let Basis { pairs, checksum } = basis(connection, study)?;
     let kept: i64 = connection.prepare_cached(kept)?.query_row(params![study, pairs, checksum], |row| row.get(0))?;
     Ok(kept == cells(connection, study)?.len() as i64)
 }
 
-/// What the evidence of a study is judged from: number of pairs, and a sum that is another one when they are others.
-fn basis(connection: &Connection, study: &str) -> Result<(i64, f64)> {
+/// Returns the basis that the evidence of a study is judged from.
+fn basis(connection: &Connection, study: &str) -> Result<Basis> {
     let sql = "SELECT count(*), total(d_ei) + total(ease_mm) FROM v_pair WHERE study = ?";
-    Ok(connection.prepare_cached(sql)?.query_row([study], |row| Ok((row.get(0)?, row.get(1)?)))?)
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([study], |row| Ok(Basis { pairs: row.get(0)?, checksum: row.get(1)? }))?)
 }
 
 fn judge(connection: &Connection, study: &str) -> Result<Judged> {
     let evidence = fit::judge(&cells(connection, study)?, &stored_pairs(connection, study)?);
-    let (pairs, checksum) = basis(connection, study)?;
-    Ok(Judged { evidence, pairs, checksum })
+    Ok(Judged { evidence, basis: basis(connection, study)? })
 }
 
 fn keep(connection: &Connection, study: &str, judged: &Judged) -> Result<()> {
@@ -95,8 +102,8 @@ fn keep(connection: &Connection, study: &str, judged: &Judged) -> Result<()> {
             answer.analysis.subjects.len() as i64,
             answer.reason,
             answer.would_settle,
-            judged.pairs,
-            judged.checksum
+            judged.basis.pairs,
+            judged.basis.checksum
         ])?;
     }
     Ok(())

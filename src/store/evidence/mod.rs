@@ -1,4 +1,5 @@
-//! The evidence of a study: its pairs from the store, judged, and kept for `v_recommendation`.
+//! Evidence of a study: which simulator has the lower error, judged from pairs of results and stored for
+//! `v_recommendation`.
 
 pub(crate) mod judge;
 mod published;
@@ -6,14 +7,14 @@ mod published;
 use crate::database::Store;
 use crate::error::Result;
 use crate::evidence::judge::{cells, stored_pairs};
-use fit::{self, Cell, Evidence, Pair, RuleScore};
+use fit::{self, Cell, Evidence, Pair};
 
 pub use judge::{refresh, update};
 
-/// Name under which the thesis's own printed numbers go as a study.
+/// Name of the study that stands for the printed tables of the thesis.
 pub const PUBLISHED: &str = "thesis-published";
 
-/// What the results of a study say now: an answer for every garment and fit class that is there.
+/// Evidence from the present results of a study: an answer for every garment and fit class.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -22,7 +23,7 @@ pub fn evidence(store: &Store, study: &str) -> Result<Evidence> {
     Ok(fit::judge(&cells, &pairs(store, study)?))
 }
 
-/// The cases of a study that both simulators drew.
+/// The cases of a study that both simulators have draped.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -30,26 +31,18 @@ pub fn pairs(store: &Store, study: &str) -> Result<Vec<Pair>> {
     if study == PUBLISHED { published::pairs(&store.reader) } else { stored_pairs(&store.reader, study) }
 }
 
-/// The ease at which the simulators change places, over all garments of a study or one, in words.
+/// The ease at which the simulators have the same EI, over all garments of a study or one, in words.
 ///
 /// # Errors
 /// When the database cannot be read.
 pub fn crossover_words(store: &Store, study: &str, garment: Option<&str>) -> Result<String> {
     let pairs = pairs(store, study)?;
-    let of: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
-    Ok(fit::crossover(&of).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
+    let chosen: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
+    Ok(fit::crossover(&chosen).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
 }
 
-/// How often the thesis's rule names the simulator with the lower EI in a study, and of how many pairs.
-///
-/// # Errors
-/// When the database cannot be read.
-pub fn rule_score(store: &Store, study: &str) -> Result<(RuleScore, usize)> {
-    let pairs = pairs(store, study)?;
-    Ok((fit::rule_score(&pairs), pairs.len()))
-}
-
-/// Judges a study's results again and keeps that for `v_recommendation`; nothing happens in a read-only store.
+/// Judges the results of a study again and stores the evidence for `v_recommendation`. Does nothing in a read-only
+/// store.
 ///
 /// # Errors
 /// When the database cannot be read or written.

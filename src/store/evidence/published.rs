@@ -1,4 +1,4 @@
-//! The thesis's printed tables as pairs: chi recomputed from the printed lengths, fit by the girth that is printed.
+//! Pairs from the printed tables of the thesis, with chi computed again from the printed lengths.
 
 use rusqlite::{Connection, Row};
 
@@ -7,9 +7,10 @@ use crate::error::Result;
 use fit::{Cuts, Errors, Pair, Simulator};
 use geom::units::from_mm;
 
-/// A row for each measurement of each case and simulator. No pattern girth at chest or hip is printed, so the fit is by
-/// a proxy. It is the hem's girth less the chest for tops and the dress, the waist's less the hip for trousers (FEM's
-/// L2D: Table 6-21 prints something else as the waist). Subjects of both sexes have the same names and are told apart.
+/// A row for each measurement of each case and simulator. The thesis prints no pattern girth at chest or hip, so the
+/// ease is a substitute: the hem girth less the chest girth for tops and the dress, the waist girth less the hip girth
+/// for trousers. The lengths are FEM's L2D, since Table 6-21 prints another length as the waist. Subjects of both sexes
+/// have the same names, so the sex is put before the name.
 const ROWS: &str = "
     WITH girth AS (
         SELECT garment, size, l2d_mm FROM published
@@ -27,7 +28,7 @@ const FREE_EDGES: [&str; 3] = ["Hem", "Sleeve Opening", "Neck Opening"];
 /// Name of the measurement that pop-up sets to its pattern length by construction [T 5.4].
 const CONTROLLED: &str = "Hem";
 
-/// All 54 cases.
+/// Returns all 54 cases.
 pub fn pairs(connection: &Connection) -> Result<Vec<Pair>> {
     let mut statement = connection.prepare_cached(ROWS)?;
     let mut rows = statement.query([])?;

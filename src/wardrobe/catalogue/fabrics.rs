@@ -17,21 +17,21 @@ pub struct FabricRow {
     pub fabric: Fabric,
     /// Number of the revision.
     pub revision: i64,
-    /// Whether somebody here added or changed it; else it is of the library.
+    /// True where a user or a study added or changed it; else it is of the library.
     pub is_own: bool,
-    /// Jobs that use it, in whatever revision.
+    /// Number of jobs that use any of its revisions.
     pub jobs: i64,
 }
 
 impl FabricRow {
-    /// Whether it stands for a class of cloths.
+    /// True if it stands for a class of cloths, not for one cloth.
     #[must_use]
     pub fn is_class(&self) -> bool {
         self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
     }
 
-    /// What it stands for, in words: one cloth, with the parts that are of another, or a class, with the bending lengths of eight
-    /// tenths of its cloths; nothing where somebody here made it.
+    /// Kind of a fabric of the library, in words: one cloth, with the parts that are of another, or a class, with the
+    /// bending lengths of eight tenths of its cloths. `None` for any other fabric.
     #[must_use]
     pub fn stands_for(&self) -> Option<String> {
         let known = self.fabric.known()?;
@@ -49,8 +49,8 @@ impl FabricRow {
         Some(format!("{}{told}", known.kind))
     }
 
-    /// Force that stretches a strip along the grain and across it by a share of its length, per width, N/m; the strip may
-    /// become narrower.
+    /// Force per width, N/m, that stretches a strip by a share of its length, along the grain and across it. The strip
+    /// is free to become narrower.
     #[must_use]
     pub fn tensions_n_m(&self, stretch: f64) -> [f64; 2] {
         let strain = stretch * (1.0 + 0.5 * stretch);
@@ -76,7 +76,7 @@ pub(super) fn stored_fabrics(connection: &Connection) -> Result<Vec<FabricRow>> 
     Ok(rows)
 }
 
-/// What follows from a fabric's numbers, as columns of [`with_bending`].
+/// Columns that [`with_bending`] adds.
 const BENDING: [&str; 8] = [
     "stands_for",
     "of_another",
@@ -88,14 +88,14 @@ const BENDING: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// A table of fabrics, its columns those of `v_fabrics`, with columns of what follows from their numbers. These are
-/// what a fabric of the library stands for, which of its parts are of another cloth, and its bending lengths. They are
-/// also where its bending stands among the known cloths of its weight, and from where to where those of a class lie.
+/// Adds columns to a table of fabrics that has those of `v_fabrics`: the kind of a fabric of the library, its parts
+/// that are of another cloth, its bending lengths, their ranks among the known cloths of its weight, and the range of a
+/// class.
 #[must_use]
 pub fn with_bending(mut table: Table) -> Table {
-    let place = |key: &str| table.columns.iter().position(|column| column == key);
-    let name = place("fabric");
-    let places: Vec<_> = FABRIC_NUMBERS.iter().map(|field| place(field.key)).collect();
+    let column_of = |key: &str| table.columns.iter().position(|column| column == key);
+    let name = column_of("fabric");
+    let places: Vec<_> = FABRIC_NUMBERS.iter().map(|field| column_of(field.key)).collect();
     for row in &mut table.rows {
         let mut fabric = Fabric::blank(&name.map_or_else(String::new, |k| row[k].to_string()));
         for (field, place) in FABRIC_NUMBERS.iter().zip(&places) {
@@ -131,7 +131,7 @@ fn bending(fabric: &Fabric) -> [Value; 8] {
     [kind, text(borrowed), along, across, rank_along, rank_across, class_along, class_across]
 }
 
-/// Parts of a cloth as words.
+/// Parts of a cloth in words.
 fn parts(parts: &[sim::fabric::Part]) -> String {
     parts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

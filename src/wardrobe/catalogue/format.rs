@@ -1,4 +1,4 @@
-//! Formats of the files that entries come from.
+//! Formats of the files that entries are imported from.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ pub(super) enum Format {
     Mesh,
 }
 
-/// The format that a file's name tells.
+/// The format of a file, by the ending of its name.
 pub(super) fn format_of(path: &Path) -> Option<Format> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "csv" | "tsv" => Some(Format::Csv),
@@ -24,7 +24,7 @@ pub(super) fn format_of(path: &Path) -> Option<Format> {
     }
 }
 
-/// That a file is of no format that can be imported.
+/// The problem of a file that is of no format that can be imported.
 pub(super) fn unknown_format(path: &Path, accepted: &str) -> Problem {
     Problem::of(path, format!("its name tells no format that can be imported; accepted: {accepted}"))
 }

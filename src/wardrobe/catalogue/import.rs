@@ -1,4 +1,4 @@
-//! Entries of the catalogue from files: all of them, or none where anything is wrong with one, unless the good ones are asked for.
+//! Import of entries from files: all of them, or none where one has a problem, unless the good ones are asked for.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,34 +11,35 @@ use body::Measurements;
 use sim::Fabric;
 use spec::Person;
 use spec::entry::Entry;
-use spec::file::{self, Placed, ScanFile};
+use spec::file::{self, Placed, ScanFile, ScannedPerson};
 use store::files::SourceFile;
 use store::{Problem, Result, Store, StudyError};
 
-/// What becomes of files in which something is wrong.
+/// Treatment of files with problems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
-    /// None of their entries is taken.
+    /// No entry is imported.
     AllOrNone,
-    /// Rows of tables that are right are taken, and the others told. A table that cannot be read at all is still refused.
+    /// Rows without a problem are imported, and the others reported. A table that cannot be read at all is still
+    /// refused.
     GoodRows,
 }
 
-/// What an import did.
+/// Outcome of an import.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Imported {
     /// Entries that were saved.
     pub saved: Vec<Saved>,
-    /// What is wrong with rows that were left out.
+    /// Problems of rows that were left out.
     pub left_out: Vec<Problem>,
 }
 
-/// Brings all entries of some files into the catalogue: TOML with the tables of a study file (a study file itself will
-/// do), and for subjects and fabrics CSV with the same keys. Scans are brought in too, each a subject of the file's
-/// name. Where anything is wrong with one of them, none is taken, or as `strictness` says.
+/// Imports all entries of some files into the catalogue. They are study files, TOML with tables of a study file, and
+/// for subjects and fabrics CSV with the same keys. A scan becomes a subject with the name of its file. `strictness`
+/// decides on files with problems.
 ///
 /// # Errors
-/// Everything that is wrong with the files, each with its line.
+/// All problems of the files, each with its line.
 pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Strictness) -> Result<Imported> {
     match part {
         Part::Subject => {
@@ -51,9 +52,9 @@ pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Stri
                     all_good(subjects.into_iter().map(|placed| placed.map(|subject| subject.person)).collect())
                 }
                 Some(Format::Mesh) => {
-                    let (placed, told) = scanned(path, bytes)?;
-                    notes.borrow_mut().insert(placed.name.clone(), told);
-                    all_good(vec![placed])
+                    let scanned = scanned(path, bytes)?;
+                    notes.borrow_mut().insert(scanned.name.clone(), scanned.entry.notes.clone());
+                    all_good(vec![scanned.map(|read| read.person)])
                 }
                 None => Err(vec![unknown_format(path, "CSV (.csv), TOML (.toml) or a scan (.obj, .ply, .stl, .glb)")]),
             })?;
@@ -73,7 +74,7 @@ pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Stri
     }
 }
 
-/// Imports the entries that are read in files; a file that cannot be read at all is refused.
+/// Imports the entries that `read` finds in files; a file that cannot be read at all is refused.
 fn import_entries<T: Stored>(
     store: &mut Store,
     files: &[PathBuf],
@@ -84,10 +85,10 @@ fn import_entries<T: Stored>(
     for path in files {
         let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
         match read(path, &bytes) {
-            Ok((read, problems)) if read.is_empty() && problems.is_empty() => {
+            Ok(Read { entries: read, problems }) if read.is_empty() && problems.is_empty() => {
                 unusable.push(Problem::of(path, format!("no {} in it", T::PART)));
             }
-            Ok((read, problems)) => {
+            Ok(Read { entries: read, problems }) => {
                 entries.extend(read);
                 wrong.extend(problems);
             }
@@ -116,30 +117,30 @@ fn import_entries<T: Stored>(
     Ok(Imported { saved, left_out: wrong })
 }
 
-/// Entries none of which is wrong so far.
+/// Entries of a file without problems.
 fn all_good<T>(entries: Vec<Placed<T>>) -> std::result::Result<Read<T>, Vec<Problem>> {
-    Ok((entries, Vec::new()))
+    Ok(Read { entries, problems: Vec::new() })
 }
 
-/// Entries made of the rows of a table.
+/// Reads the rows of a table as entries.
 fn read_rows<R: Entry, T: From<R>>(
     path: &Path,
     part: Part,
     bytes: &[u8],
 ) -> std::result::Result<Read<T>, Vec<Problem>> {
-    let (rows, problems) = table::read::<R>(path, part, bytes)?;
-    Ok((rows.into_iter().map(|placed| placed.map(T::from)).collect(), problems))
+    let Read { entries, problems } = table::read::<R>(path, part, bytes)?;
+    Ok(Read { entries: entries.into_iter().map(|placed| placed.map(T::from)).collect(), problems })
 }
 
-/// Somebody who is a scan, named after its file, with what was guessed or repaired.
-fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<(Placed<Person>, Vec<String>), Vec<Problem>> {
+/// Reads a person from a scan, named after its file.
+fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<ScannedPerson>, Vec<Problem>> {
     let name = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let scan = ScanFile { file: SourceFile { name: name(path.file_name()), bytes: bytes.into() }, unit: None };
-    let read = scan.person_and_notes(None).map_err(|error| vec![Problem::of(path, error.to_string())]);
-    read.map(|(entry, notes)| (Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry }, notes))
+    let entry = scan.read(None).map_err(|error| vec![Problem::of(path, error.to_string())])?;
+    Ok(Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry })
 }
 
-/// Verifies entries on all cores: a body takes a while to build.
+/// Verifies entries on all cores, since a body takes long to build.
 fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<String>, String>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = entries.len().div_ceil(threads).max(1);

@@ -1,4 +1,4 @@
-//! What is in the catalogue: the current revisions, what is built in, and what becomes of entries that are removed.
+//! Contents of the catalogue: current revisions, built-in entries, and removal.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,37 +6,39 @@ use rusqlite::{Connection, OptionalExtension, Row, Transaction};
 
 use crate::catalogue::numbers::{columns, read_numbers};
 use crate::catalogue::revision::{self, By};
+use crate::catalogue::style::{CURRENT_SIZES, seam_file};
+use crate::catalogue::table::{self, Read};
 use crate::catalogue::{Part, Removed};
 use body::{LengthUnit, Measurements, Pose, Sex};
 use sim::{self, Fabric};
 use spec::entry::Entry;
-use spec::file::{Known, KnownStyle, ScanFile, SizeFile};
+use spec::file::{Known, KnownSize, KnownStyle, ScanFile, SizeFile};
 use spec::{FABRIC_NUMBERS, MEASUREMENTS, Person};
 use store::files::SourceFile;
-use store::{Result, Store, StudyError, SubjectId};
+use store::{Result, SizeKey, Store, StudyError, SubjectId};
 
-/// The thesis's twelve subjects [T tables 6-1 to 6-4].
+/// The twelve subjects of the thesis [T tables 6-1 to 6-4].
 const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
 
 /// A subject of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubjectRow {
-    /// Number of the revision's row: stands for these measurements for good.
+    /// Number of the revision in the database. Its measurements never change.
     pub id: SubjectId,
-    /// Name by which studies call it, the same in all its revisions.
+    /// Name in studies, the same in all revisions.
     pub name: String,
     /// Number of the revision.
     pub revision: i64,
-    /// What is known of the body; of a scan, what is measured on it.
+    /// Known measurements of the body; of a scan, those that are taken on it.
     pub measurements: Measurements,
     /// File of the scan that is the body, where there is one.
     pub scan: Option<String>,
-    /// How they stand, where that is not as they are built or scanned.
+    /// Pose, where it differs from the one that the body is built or scanned in.
     pub pose: Option<Pose>,
 }
 
-/// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet. A database that has
-/// them from this program is only read: whoever asks it something need not wait for those who write.
+/// Adds the subjects of the thesis and the fabric library to the catalogue, where they are missing. A database that has
+/// those of this program is only read, so that queries need not wait for other processes that write.
 pub fn add_builtin(connection: &mut Connection) -> Result<()> {
     let mut content = blake3::Hasher::new();
     content.update(THESIS_SUBJECTS.as_bytes());
@@ -58,7 +60,7 @@ pub fn add_builtin(connection: &mut Connection) -> Result<()> {
     Ok(transaction.commit()?)
 }
 
-/// What study files may name: the current entries of a database, the built-in ones without a database.
+/// Entries that study files may name: the current ones of a database, or the built-in ones without a database.
 pub fn known(connection: Option<&Connection>) -> Result<Known> {
     let Some(connection) = connection else {
         return Ok(Known {
@@ -82,7 +84,7 @@ pub fn known(connection: Option<&Connection>) -> Result<Known> {
     })
 }
 
-/// Entries that were removed and stay stored: `subject male-ii`.
+/// Entries that were removed and stay stored, such as `subject male-ii`.
 fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
     let sql = "SELECT part || ' ' || name FROM catalogue_entry WHERE is_retired";
     Ok(connection.prepare_cached(sql)?.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?)
@@ -90,44 +92,49 @@ fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
 
 /// The current styles with their current sizes, by name.
 fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
-    let sql = "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
-        FROM size
-            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
-                AND sized.revision = size.revision AND NOT sized.is_retired
-            JOIN style ON style.name = size.style
-            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
-                AND styled.revision = style.revision AND NOT styled.is_retired
-        ORDER BY style.name, size_id";
-    let mut statement = connection.prepare_cached(sql)?;
+    let sql = format!(
+        "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
+        {CURRENT_SIZES}"
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
     let mut rows = statement.query([])?;
     let mut styles: BTreeMap<String, KnownStyle> = BTreeMap::new();
     while let Some(row) = rows.next()? {
-        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
-        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
+        let seams = seam_file(row.get(1)?, row.get(2)?);
         let pattern = SourceFile { name: row.get(4)?, bytes: row.get::<_, Vec<u8>>(5)?.into() };
         let style = styles.entry(row.get(0)?).or_insert(KnownStyle { seams, sizes: vec![] });
-        style.sizes.push((SizeFile { name: row.get(3)?, pattern }, row.get(6)?));
+        style.sizes.push(KnownSize { size: SizeFile { name: row.get(3)?, pattern }, unit: row.get(6)? });
     }
     Ok(styles)
 }
 
-/// A style and a size by their rows: name, seam file, pattern and its unit.
-pub fn read_style(
-    connection: &Connection,
-    style: i64,
-    size: i64,
-) -> Result<(String, Option<SourceFile>, SourceFile, Option<String>)> {
+/// Files of a style and of one of its sizes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StyleFiles {
+    /// Name of the style.
+    pub style: String,
+    /// Seam file; `None` where the pattern holds its seams.
+    pub seams: Option<SourceFile>,
+    /// Pattern of the size.
+    pub pattern: SourceFile,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<String>,
+}
+
+/// Reads the files of a style and a size by the numbers of their revisions.
+///
+/// # Errors
+/// When there is no such revision.
+pub fn read_style(connection: &Connection, SizeKey { style, size }: SizeKey) -> Result<StyleFiles> {
     let sql = "SELECT style.name, seam_file, seams, pattern_file, pattern, unit FROM style, size
         WHERE style_id = ? AND size_id = ?";
     Ok(connection.prepare_cached(sql)?.query_row([style, size], |row| {
-        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
-        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
         let pattern = SourceFile { name: row.get(3)?, bytes: row.get::<_, Vec<u8>>(4)?.into() };
-        Ok((row.get(0)?, seams, pattern, row.get(5)?))
+        Ok(StyleFiles { style: row.get(0)?, seams: seam_file(row.get(1)?, row.get(2)?), pattern, unit: row.get(5)? })
     })?)
 }
 
-/// A fabric by its row.
+/// Reads a fabric by the number of its revision.
 pub fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
     let sql = format!("SELECT name, source, {} FROM fabric WHERE fabric_id = ?", columns(&FABRIC_NUMBERS));
     Ok(connection.prepare_cached(&sql)?.query_row([id], |row| {
@@ -149,7 +156,7 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
     Ok(rows)
 }
 
-/// What [`subject_row`] reads.
+/// Query of the columns that [`subject_row`] reads.
 fn select_subject() -> String {
     let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
     format!("SELECT subject_id, name, revision, sex, {scan}, pose, {} FROM subject", columns(&MEASUREMENTS))
@@ -177,7 +184,7 @@ fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile
     Ok(connection.prepare_cached(sql)?.query_row([id.0], row).optional()?)
 }
 
-/// Who a revision of a subject is.
+/// The person of a revision of a subject.
 ///
 /// # Errors
 /// When there is none of that number.
@@ -189,15 +196,15 @@ pub fn person(store: &Store, id: SubjectId) -> Result<Person> {
 /// The built-in subjects, by name.
 pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     let path = std::path::Path::new("db/subjects.csv");
-    let read = crate::catalogue::table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
-    let (rows, problems) = read.map_err(StudyError::File)?;
+    let read = table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
+    let Read { entries, problems } = read.map_err(StudyError::File)?;
     if !problems.is_empty() {
         return Err(StudyError::File(problems));
     }
-    Ok(rows.into_iter().map(|placed| (placed.name, placed.entry)).collect())
+    Ok(entries.into_iter().map(|placed| (placed.name, placed.entry)).collect())
 }
 
-/// Why an entry cannot be had, edited or removed: it is hidden, or there is none of that name.
+/// The error of an entry that is asked for: it is hidden, or there is none of the name.
 pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result<StudyError> {
     if hidden(connection)?.contains(&format!("{part} {name}")) {
         return Ok(StudyError::Hidden { what: part.as_str(), name: name.to_owned() });
@@ -208,12 +215,12 @@ pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result
     Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
 }
 
-/// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+/// Removes an entry. Where jobs use it or it is built in, it is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
 /// When there is none of that name, or the database is open read-only.
 pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
-    if revision::current(transaction, part, name)?.is_none_or(|(_, is_retired)| is_retired) {
+    if revision::current(transaction, part, name)?.is_none_or(|current| current.is_retired) {
         return Err(missing(transaction, part, name)?);
     }
     if part == Part::Style {
@@ -272,7 +279,7 @@ pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
     })
 }
 
-/// A subject of the catalogue, latest revision.
+/// Returns the current revision of a subject of the catalogue.
 ///
 /// # Errors
 /// When there is none of that name.

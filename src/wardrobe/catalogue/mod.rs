@@ -1,12 +1,13 @@
-//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, content seen before is
-//! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
+//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, or makes an earlier one
+//! of the same content current. Revisions never change, since results refer to them. An entry that results use is only
+//! hidden when it is removed.
 
 mod fabrics;
 mod format;
 mod import;
 mod known;
-mod norms;
 mod numbers;
+mod percentiles;
 pub mod revision;
 mod sizes;
 mod style;
@@ -25,17 +26,17 @@ use body::{LengthUnit, Sex};
 use sim::Fabric;
 use sim::fabric::USUAL;
 use spec::entry::{Entry, filled};
-use spec::file::ScanFile;
+use spec::file::{ScanFile, ScannedPerson};
 use spec::{Given, Person};
 use store::files::SourceFile;
 use store::{Result, Store, StudyError};
 
 pub use fabrics::{FabricRow, fabrics, with_bending};
 pub use import::{Imported, Strictness, import};
-pub use known::{SubjectRow, known, person, read_fabric, read_style, subject, subject_revision, subjects};
-pub use norms::{doubts, is_doubtful, percentile, percentile_text};
-pub use sizes::{SizeRow, sizes, workpiece};
-pub use style::{StyleGiven, save_seams, save_size, save_style, style_of};
+pub use known::{StyleFiles, SubjectRow, known, person, read_fabric, read_style, subject, subject_revision, subjects};
+pub use percentiles::{doubts, is_doubtful, percentile, percentile_text};
+pub use sizes::{SizeRow, sizes, style_of, workpiece};
+pub use style::{StyleGiven, save_seams, save_size, save_style};
 
 /// Opens a database with a catalogue; without `readonly` it is created where there is none, brought up to date, and has
 /// the built-in fabrics and subjects.
@@ -55,7 +56,7 @@ pub fn open(path: &Path, readonly: bool) -> Result<Store> {
 pub enum Part {
     /// Bodies: measurements or a scan.
     Subject,
-    /// How pieces are sewn and measured.
+    /// Seams and measurements of a garment.
     Style,
     /// A pattern of a style; named `STYLE/SIZE`.
     Size,
@@ -82,35 +83,35 @@ impl fmt::Display for Part {
     }
 }
 
-/// Whether an entry is to be there already when it is saved.
+/// Way of saving an entry: whether one of its name must be there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// It must not.
+    /// There must be none of the name.
     Add,
-    /// It must be there.
+    /// There must be one of the name.
     Edit,
-    /// It may be there or not.
+    /// There may be one of the name.
     Import,
 }
 
-/// What saving an entry did.
+/// Outcome of saving an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Saved {
     /// Part of the catalogue.
     pub part: Part,
     /// Name of the entry.
     pub name: String,
-    /// Its revision that is now the current one.
+    /// Number of the revision that is now current.
     pub revision: i64,
-    /// What was done.
+    /// Change of the catalogue.
     pub deed: Deed,
     /// Values that are possible but rare.
     pub doubts: Vec<String>,
-    /// What was guessed or repaired of a scan.
+    /// Remarks on guesses and repairs of a scan.
     pub notes: Vec<String>,
 }
 
-/// How a saved revision became the current one.
+/// Change that saving an entry made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deed {
     /// The entry is new, or was removed before.
@@ -135,7 +136,7 @@ impl fmt::Display for Saved {
     }
 }
 
-/// What removing an entry did.
+/// Outcome of removing an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Removed {
     /// Part of the catalogue.
@@ -144,7 +145,7 @@ pub struct Removed {
     pub name: String,
     /// Jobs that use it. It is hidden, and stays stored, where there are any or where it is built in.
     pub jobs: i64,
-    /// Whether it is only hidden.
+    /// True where the entry is hidden and stays stored.
     pub is_hidden: bool,
 }
 
@@ -163,17 +164,18 @@ impl fmt::Display for Removed {
 trait Stored: Sync {
     const PART: Part;
 
-    /// Whether it can be; what is rare about it.
+    /// Checks that the entry is possible; returns doubts about rare values.
     fn verify(&self) -> std::result::Result<Vec<String>, String>;
 
-    /// Makes it the current revision of its name.
+    /// Stores it as the current revision of its name.
     fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
 }
 
 impl Stored for Person {
     const PART: Part = Part::Subject;
 
-    /// Makes the body: that alone tells whether the measurements are those of one person, and whether a scan can wear garments.
+    /// Makes the body, since only that shows whether a person can have the measurements, and whether a scan can wear
+    /// garments.
     fn verify(&self) -> std::result::Result<Vec<String>, String> {
         self.body().map_err(|error| error.to_string())?;
         Ok(doubts(&self.measurements))
@@ -201,12 +203,12 @@ impl Stored for Fabric {
     }
 }
 
-/// Why an entry cannot be saved.
+/// The error of an entry that cannot be saved.
 fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
     StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems }
 }
 
-/// Whether a name can be that of an entry.
+/// Checks the name of an entry.
 fn check_name(name: &str) -> std::result::Result<(), String> {
     let is_odd = |letter: char| letter.is_control() || letter == '/';
     if !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(is_odd) {
@@ -215,7 +217,7 @@ fn check_name(name: &str) -> std::result::Result<(), String> {
     Err("its name; accepted: 1 to 64 characters, no `/`, no space at either end".to_owned())
 }
 
-/// Makes a revision current with `store`, as far as the mode allows; says what that did.
+/// Stores a revision with `store`, if the mode allows it.
 fn save(
     transaction: &Transaction<'_>,
     part: Part,
@@ -223,7 +225,7 @@ fn save(
     mode: Mode,
     store: impl FnOnce() -> Result<revision::Revision>,
 ) -> Result<Saved> {
-    let before = revision::current(transaction, part, name)?.filter(|(_, is_retired)| !is_retired);
+    let before = revision::current(transaction, part, name)?.filter(|current| !current.is_retired);
     match mode {
         Mode::Add if before.is_some() => {
             return Err(StudyError::Exists { what: part.as_str(), name: name.to_owned() });
@@ -234,7 +236,7 @@ fn save(
     let after = store()?;
     let deed = match before {
         None => Deed::Added,
-        Some((number, _)) if number == after.number => Deed::Unchanged,
+        Some(current) if current.number == after.number => Deed::Unchanged,
         Some(_) if after.is_new => Deed::Revised,
         Some(_) => Deed::Restored,
     };
@@ -246,17 +248,18 @@ fn save(
 pub struct ScanGiven {
     /// OBJ, PLY, STL or GLB.
     pub file: PathBuf,
-    /// Unit of the file; told from its height where it is not given.
+    /// Unit of the file; inferred from its height where it is not given.
     pub unit: Option<LengthUnit>,
-    /// Sex; told from the shape where it is not given.
+    /// Sex; inferred from the shape where it is not given.
     pub sex: Option<Sex>,
 }
 
-/// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
+/// Saves a subject: given values in place of those that it has, or of none. The body is built to check that it is
+/// possible.
 ///
 /// # Errors
-/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the store is
-/// read-only.
+/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the
+/// store is read-only.
 pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
     let base = match mode {
         Mode::Edit => Some(subject(store, name)?),
@@ -270,18 +273,19 @@ pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) 
     save_entry(store, mode, name, &Person::from(measurements))
 }
 
-/// Saves a subject whose body is a scan; what is known of it is measured there.
+/// Saves a subject whose body is a scan, with the measurements that are taken on it.
 ///
 /// # Errors
-/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is open read-only.
+/// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is
+/// open read-only.
 pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -> Result<Saved> {
     let ScanGiven { file, unit, sex } = given;
     let scan = ScanFile { file: SourceFile::read(file)?, unit: *unit };
-    let (person, notes) = scan.person_and_notes(*sex)?;
+    let ScannedPerson { person, notes } = scan.read(*sex)?;
     Ok(Saved { notes, ..save_entry(store, mode, name, &person)? })
 }
 
-/// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
+/// Saves a fabric: given values in place of those that it has, of those of the fabric `like`, or of none.
 ///
 /// # Errors
 /// As [`save_subject`].
@@ -294,7 +298,7 @@ pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>
     save_entry(store, mode, name, &entry_of(Part::Fabric, name, base.as_ref(), given)?)
 }
 
-/// Returns a fabric of the catalogue, its current revision; the usual one where none is named.
+/// Returns the current revision of a fabric of the catalogue; of the usual one where none is named.
 ///
 /// # Errors
 /// When there is none of that name.
@@ -306,7 +310,7 @@ pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
     }
 }
 
-/// An entry of given values over those that it has.
+/// Returns an entry of given values in place of those of `base`.
 fn entry_of<T: Entry>(part: Part, name: &str, base: Option<&T>, given: &[Given]) -> Result<T> {
     let texts = |problems: Vec<Given>| problems.into_iter().map(|(_, problem)| problem).collect();
     filled(base, name, given).map_err(|problems| refused(part, name, texts(problems)))
@@ -322,7 +326,7 @@ fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -
     Ok(Saved { doubts, ..saved })
 }
 
-/// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+/// Removes an entry. Where jobs use it or it is built in, it is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
 /// When there is none of that name, or the database is open read-only.

@@ -1,4 +1,4 @@
-//! Revisions: what is stored of an entry, found again by its content, and which of them is the current one.
+//! Revisions of entries: found by their content, added where it is new, and made current.
 
 use rusqlite::{OptionalExtension, ToSql, Transaction, named_params, params};
 
@@ -11,14 +11,14 @@ use spec::{FABRIC_NUMBERS, Inputs, MEASUREMENTS, Person, fabric_inputs, subject_
 use store::files::SourceFile;
 use store::{Result, now_ms};
 
-/// Who brings a revision.
+/// Origin of a revision, which decides whether it becomes current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// The program, with what is built in: becomes current where nobody else has changed the entry.
+    /// The program, with a built-in entry: it becomes current where no user or study has changed the entry.
     Program,
-    /// A study that is run: becomes current where the content is new.
+    /// A study that is run: it becomes current where its content is new.
     Study,
-    /// A user: becomes current.
+    /// A user: it becomes current.
     User,
 }
 
@@ -29,18 +29,26 @@ pub struct Revision {
     pub id: i64,
     /// Number, from 1.
     pub number: i64,
-    /// Whether it was added just now.
+    /// True where it was added now.
     pub is_new: bool,
 }
 
-/// The current revision of an entry and whether it was removed; `None` where there never was one.
-pub(super) fn current(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Option<(i64, bool)>> {
+/// The current revision of an entry.
+pub(super) struct Current {
+    /// Its number.
+    pub number: i64,
+    /// True where the entry was removed.
+    pub is_retired: bool,
+}
+
+/// The current revision of an entry; `None` where there never was one.
+pub(super) fn current(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Option<Current>> {
     let sql = "SELECT revision, is_retired FROM catalogue_entry WHERE part = ? AND name = ?";
-    let row = |row: &rusqlite::Row<'_>| Ok((row.get(0)?, row.get(1)?));
+    let row = |row: &rusqlite::Row<'_>| Ok(Current { number: row.get(0)?, is_retired: row.get(1)? });
     Ok(transaction.prepare_cached(sql)?.query_row([part.as_str(), name], row).optional()?)
 }
 
-/// Makes a revision the current one, as far as whoever brings it may.
+/// Makes a revision the current one, where its origin allows it.
 fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision: Revision, by: By) -> Result<()> {
     transaction
         .prepare_cached(
@@ -56,7 +64,7 @@ fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision:
     Ok(())
 }
 
-/// The revision that a query finds, its columns id and number.
+/// The revision that a query with the columns id and number finds.
 fn found(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Option<Revision>> {
     let row = |row: &rusqlite::Row<'_>| Ok(Revision { id: row.get(0)?, number: row.get(1)?, is_new: false });
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row).optional()?)
@@ -68,7 +76,7 @@ fn added(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) ->
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row)?)
 }
 
-/// The revision of a subject who is this person, added where it is new.
+/// The revision of a subject with this body, added where it is new.
 pub fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: By) -> Result<Revision> {
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, person);
@@ -113,7 +121,7 @@ pub fn fabric(transaction: &Transaction<'_>, cloth: &Fabric, by: By) -> Result<R
     Ok(revision)
 }
 
-/// Adds a revision of a subject or a fabric: its text and its numbers, each with the name of its column.
+/// Adds a revision of a subject or a fabric. Its text and its numbers have the names of their columns.
 fn insert(
     transaction: &Transaction<'_>,
     table: &str,
@@ -128,7 +136,7 @@ fn insert(
         VALUES (?1, 1 + (SELECT count(*) FROM {table} WHERE name = ?1), ?2, ?3, ?4{})
         RETURNING {table}_id, revision",
         columns.join(", "),
-        ", ?".repeat(columns.len()), // each is numbered on from the greatest before it
+        ", ?".repeat(columns.len()), // SQLite numbers each one after the greatest number before it
     );
     let now = now_ms();
     let mut parameters: Vec<&dyn ToSql> = vec![&name, &hash, &now, &text];
@@ -136,7 +144,7 @@ fn insert(
     added(transaction, &sql, &parameters)
 }
 
-/// The revision of a style with this seam file, added where it is new; the name and text of no seam file are empty.
+/// The revision of a style with this seam file, added where it is new. Without a seam file its name and text are empty.
 pub fn style(transaction: &Transaction<'_>, name: &str, seams: Option<&SourceFile>, by: By) -> Result<Revision> {
     let none = SourceFile { name: String::new(), bytes: [].into() };
     let seams = seams.unwrap_or(&none);

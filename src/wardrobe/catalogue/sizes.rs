@@ -1,19 +1,19 @@
-//! The styles of the catalogue with their sizes, as lists show them and as seams are worked on.
+//! Sizes of the styles of the catalogue: as lists show them, and as pieces of work on their seams.
 
 use rusqlite::{OptionalExtension, Row};
 
-use crate::catalogue::style::seam_file;
+use crate::catalogue::style::{CURRENT_SIZES, seam_file};
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
-use pattern::size_order;
+use pattern::{Style, size_order};
 use spec::patterns;
 use store::files::SourceFile;
-use store::{Result, SizeKey, Store, StudyError};
+use store::{JobId, Result, SizeKey, Store, StudyError};
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SizeRow {
-    /// Rows of the two revisions.
+    /// Numbers of the two revisions.
     pub key: SizeKey,
     /// Name of the style.
     pub style: String,
@@ -33,20 +33,16 @@ pub struct SizeRow {
     pub unconfirmed: usize,
 }
 
-/// The current sizes of all styles, by style and from the smallest to the largest.
+/// The current sizes of all styles, by style, from the smallest to the largest.
 ///
 /// # Errors
 /// When the database cannot be read.
 pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
-    let sql = "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
+    let sql = format!(
+        "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
             seam_file, unit, seams
-        FROM size
-            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
-                AND sized.revision = size.revision AND NOT sized.is_retired
-            JOIN style ON style.name = size.style
-            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
-                AND styled.revision = style.revision AND NOT styled.is_retired
-        ORDER BY style.name, size_id";
+        {CURRENT_SIZES}"
+    );
     let row = |row: &Row<'_>| {
         let seam_file: String = row.get(7)?;
         let unsure = confidences(&row.get::<_, String>(9)?).into_iter().flatten();
@@ -62,7 +58,7 @@ pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
             unconfirmed: unsure.count(),
         })
     };
-    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut statement = store.reader.prepare_cached(&sql)?;
     let mut sizes = statement.query_map([], row)?.collect::<rusqlite::Result<Vec<SizeRow>>>()?;
     for style in sizes.chunk_by_mut(|a, b| a.style == b.style) {
         size_order::sort(style, |row| &row.size);
@@ -88,4 +84,17 @@ pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
     };
     let found = store.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;
     found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
+}
+
+/// The style that a job was made from.
+///
+/// # Errors
+/// When there is no such job.
+pub fn style_of(store: &Store, id: JobId) -> Result<Style> {
+    let sql = "SELECT style_id, size_id FROM job WHERE job_id = ?";
+    let row = |row: &Row<'_>| Ok(SizeKey { style: row.get(0)?, size: row.get(1)? });
+    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+    let Workpiece { pattern, seams, size, unit } = workpiece(store, found.ok_or_else(missing)?)?;
+    patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit)
 }

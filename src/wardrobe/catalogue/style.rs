@@ -1,4 +1,4 @@
-//! Styles and their sizes in the catalogue: a seam file, and a pattern a size that can be sewn by it.
+//! Saving and importing styles: a seam file, and for each size a pattern that can be sewn by it.
 
 use std::path::PathBuf;
 
@@ -8,36 +8,33 @@ use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
 use crate::seams::workpiece::Workpiece;
-use pattern::{Style, size_order, source};
-use spec::file::{self, Placed, Sewn, SizeFile};
-use spec::patterns::{self, Nest};
+use pattern::{size_order, source};
+use spec::file::{self, KnownSize, Placed, Sewn, SizeFile};
+use spec::patterns::{self, Nest, SizePieces};
 use store::files::SourceFile;
-use store::{InOrigin, JobId, Origin, Problem, Result, Store, StudyError};
+use store::{InOrigin, Origin, Problem, Result, Store, StudyError};
 
-/// What is given of a style or a size; an edit keeps what is not.
+/// Given parts of a style or a size; an edit keeps the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleGiven {
     /// Seam file of the style.
     pub seams: Option<PathBuf>,
-    /// Whether seams are proposed where a new style has none: no seam file, and patterns that hold none.
+    /// True where seams are proposed for a new style that has neither a seam file nor patterns that hold seams.
     pub is_proposed: bool,
     /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
-    /// Patterns, each with the size it is; a file without one brings all sizes in it.
+    /// Patterns, each with the name of its size; without a name all sizes of the file are taken.
     pub patterns: Vec<(Option<String>, PathBuf)>,
 }
 
-/// The size of a pattern that names none.
+/// Name of the size of a pattern that names none.
 const UNNAMED: &str = "ONE";
 
-/// A size with the unit of its pattern.
-type Sized = (SizeFile, Option<String>);
-
-/// What becomes of the seams of a style.
+/// Seams that a style is saved with.
 enum Seams {
-    /// They stay those that the style has.
+    /// Those that the style has.
     Kept,
-    /// They are those of a file, or of the patterns themselves.
+    /// Those of a file, or those of the patterns themselves.
     Given(Option<SourceFile>),
 }
 
@@ -45,20 +42,21 @@ enum Seams {
 struct Draft {
     name: String,
     seams: Seams,
-    sizes: Vec<Sized>,
+    sizes: Vec<KnownSize>,
 }
 
-/// Saves a style: its seam file, and its sizes. Every size, given now or earlier, must be sewable by the seams.
+/// Saves a style: its seam file and its sizes. Every size, given now or earlier, must fit the seams.
 ///
 /// # Errors
-/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open read-only.
+/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open
+/// read-only.
 pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
     check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
     let sizes = sizes_given(store, name, given)?;
     let seams = match (&given.seams, sizes.first()) {
         (Some(path), first) if mode != Mode::Add || first.is_some() => Seams::Given(Some(SourceFile::read(path)?)),
         (None, _) if mode != Mode::Add => Seams::Kept,
-        (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
+        (None, Some(_)) if sizes.iter().all(|known| known.size.pattern.holds_seams()) => Seams::Given(None),
         (None, Some(_)) if given.is_proposed => Seams::Given(Some(proposed(name, &sizes)?)),
         _ => {
             let problem = "a new style needs at least one pattern, and a seam file (or --propose) unless its patterns \
@@ -69,26 +67,27 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
     store_style(store, mode, Draft { name: name.to_owned(), seams, sizes })
 }
 
-/// The seam file proposed for all sizes of a style, made on the sample size of the first pattern that holds several, or
-/// else on the middle size.
-fn proposed(style: &str, sizes: &[Sized]) -> Result<SourceFile> {
+/// Proposes the seam file of all sizes of a style. It is made on the sample size of a pattern that holds several sizes,
+/// the last one where there are several such patterns, or else on the middle size.
+fn proposed(style: &str, sizes: &[KnownSize]) -> Result<SourceFile> {
     let unit_of = |unit: &Option<String>| unit.as_deref().and_then(patterns::unit_of);
     let mut made_on = &sizes[sizes.len() / 2];
     let mut drawn = Vec::new();
-    for sized in sizes {
-        let nest = Nest::read(&sized.0.pattern, unit_of(&sized.1))?;
-        if nest.sizes().len() > 1 && nest.sample_size().eq_ignore_ascii_case(&sized.0.name) {
-            made_on = sized;
+    for known in sizes {
+        let KnownSize { size, unit } = known;
+        let nest = Nest::read(&size.pattern, unit_of(unit))?;
+        if nest.sizes().len() > 1 && nest.sample_size().eq_ignore_ascii_case(&size.name) {
+            made_on = known;
         }
-        drawn.push((sized.0.name.clone(), nest.pieces(&sized.0.name)));
+        drawn.push(SizePieces { size: size.name.clone(), pieces: nest.pieces(&size.name) });
     }
-    let (size, unit) = made_on;
-    drawn.retain(|(name, _)| *name != size.name);
+    let KnownSize { size, unit } = made_on;
+    drawn.retain(|other| other.size != size.name);
     let pattern = size.pattern.clone();
     Workpiece { pattern, seams: None, size: size.name.clone(), unit: unit_of(unit) }.proposed_for(style, drawn)
 }
 
-/// Saves other seams of a style that is there. Every size must be sewable by them.
+/// Saves other seams of a style of the catalogue. Every size must fit them.
 ///
 /// # Errors
 /// As [`save_style`].
@@ -108,7 +107,7 @@ fn store_style(store: &mut Store, mode: Mode, draft: Draft) -> Result<Vec<Saved>
     Ok(saved)
 }
 
-/// Saves a size, named `STYLE/SIZE`, of a style that is there.
+/// Saves a size, named `STYLE/SIZE`, of a style of the catalogue.
 ///
 /// # Errors
 /// As [`save_style`].
@@ -118,13 +117,14 @@ pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) 
     check_name(size).map_err(|problem| refuse(&problem))?;
     let sizes = match (given.patterns.as_slice(), &given.unit) {
         ([(_, path)], unit) => {
-            let before = sizes_of(store, style)?.into_iter().find(|(before, _)| before.name == size);
-            let unit = unit.clone().or(before.and_then(|(_, unit)| unit));
-            vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read_pattern(path)? }, unit)]
+            let before = sizes_of(store, style)?.into_iter().find(|before| before.size.name == size);
+            let unit = unit.clone().or(before.and_then(|before| before.unit));
+            let size = SizeFile { name: size.to_owned(), pattern: SourceFile::read_pattern(path)? };
+            vec![KnownSize { size, unit }]
         }
         ([], Some(unit)) => {
-            let before = sizes_of(store, style)?.into_iter().filter(|(before, _)| before.name == size);
-            before.map(|(before, _)| (before, Some(unit.clone()))).collect()
+            let before = sizes_of(store, style)?.into_iter().filter(|before| before.size.name == size);
+            before.map(|before| KnownSize { unit: Some(unit.clone()), ..before }).collect()
         }
         _ => return Err(refuse("a size has one pattern")),
     };
@@ -139,7 +139,7 @@ pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) 
     saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
 }
 
-/// Brings the garments of study files, or of files with nothing else, into the catalogue: for [`Part::Size`] only
+/// Imports the garments of study files, or of files with garments only, into the catalogue; for [`Part::Size`] only
 /// their sizes.
 pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
     let mut drafts: Vec<Placed<Draft>> = Vec::new();
@@ -178,11 +178,11 @@ pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) ->
     Ok(saved)
 }
 
-/// The sizes that are given of a style, with their units; all it has, where only the unit is given.
-fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Sized>> {
+/// The sizes that are given of a style, with their units; all sizes of the style, where only the unit is given.
+fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<KnownSize>> {
     let unit = given.unit.clone();
     if given.patterns.is_empty() {
-        let with_unit = |(size, _): Sized| (size, unit.clone());
+        let with_unit = |known: KnownSize| KnownSize { unit: unit.clone(), ..known };
         return Ok(if unit.is_some() { sizes_of(store, style)?.into_iter().map(with_unit).collect() } else { vec![] });
     }
     let mut sizes = Vec::new();
@@ -198,14 +198,15 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Siz
                 let problem = format!("{}: `{name}` is no name of a size; say SIZE={}", pattern.name, path.display());
                 refused(Part::Style, style, vec![problem])
             })?;
-            sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));
+            sizes.push(KnownSize { size: SizeFile { name, pattern: pattern.clone() }, unit: unit.clone() });
         }
     }
-    size_order::sort(&mut sizes, |sized| &sized.0.name);
+    size_order::sort(&mut sizes, |known| &known.size.name);
     Ok(sizes)
 }
 
-/// Why sizes of a style could not be sewn were a draft stored: its own, and with new seams those there are as well.
+/// Problems of sizes that do not fit the seams of a draft: its own sizes, and with new seams also those of the
+/// catalogue.
 fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     let (seams, is_new) = match (&draft.seams, seams_of(store, &draft.name)?) {
         (Seams::Given(seams), _) => (seams.clone(), true),
@@ -216,10 +217,10 @@ fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     };
     let mut sizes = draft.sizes.clone();
     if is_new {
-        let is_kept = |(before, _): &Sized| !draft.sizes.iter().any(|(size, _)| size.name == before.name);
+        let is_kept = |before: &KnownSize| !draft.sizes.iter().any(|known| known.size.name == before.size.name);
         sizes.extend(sizes_of(store, &draft.name)?.into_iter().filter(is_kept));
     }
-    let problem = |(size, unit): &Sized| {
+    let problem = |KnownSize { size, unit }: &KnownSize| {
         let unit = unit.as_deref().and_then(patterns::unit_of);
         let read = patterns::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
         read.err().map(|error| format!("size {}: {error}", size.name))
@@ -227,7 +228,7 @@ fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     Ok(sizes.iter().filter_map(problem).collect())
 }
 
-/// The seam file of a style, where it has one, current revision; `None` where there is no such style.
+/// The seam file of the current revision of a style, where it has one; `None` where there is no such style.
 fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
     let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
         WHERE part = 'style' AND name = ? AND NOT is_retired";
@@ -238,8 +239,8 @@ fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
     Ok(store.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
 }
 
-/// The sizes of a style from the smallest to the largest, current revisions.
-fn sizes_of(store: &Store, style: &str) -> Result<Vec<Sized>> {
+/// The current sizes of a style, from the smallest to the largest.
+fn sizes_of(store: &Store, style: &str) -> Result<Vec<KnownSize>> {
     let sql = "SELECT size.name, pattern_file, pattern, unit
         FROM size JOIN catalogue_entry AS entry
             ON entry.name = style || '/' || size.name AND entry.revision = size.revision
@@ -247,32 +248,23 @@ fn sizes_of(store: &Store, style: &str) -> Result<Vec<Sized>> {
     let mut statement = store.reader.prepare_cached(sql)?;
     let row = |row: &Row<'_>| {
         let pattern = SourceFile { name: row.get(1)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
-        Ok((SizeFile { name: row.get(0)?, pattern }, row.get(3)?))
+        Ok(KnownSize { size: SizeFile { name: row.get(0)?, pattern }, unit: row.get(3)? })
     };
-    let mut sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<Vec<Sized>>>()?;
-    size_order::sort(&mut sizes, |sized| &sized.0.name);
+    let mut sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<Vec<KnownSize>>>()?;
+    size_order::sort(&mut sizes, |known| &known.size.name);
     Ok(sizes)
 }
 
-/// The style a job was made from.
-///
-/// # Errors
-/// When there is no such job.
-pub fn style_of(store: &Store, id: JobId) -> Result<Style> {
-    let sql = "SELECT pattern_file, pattern, seam_file, seams, unit, size.name
-        FROM job JOIN size USING (size_id) JOIN style USING (style_id) WHERE job_id = ?";
-    type Stored = (String, Vec<u8>, String, String, Option<String>, String);
-    let row =
-        |row: &Row<'_>| Ok::<Stored, _>((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?));
-    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
-    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
-    let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
-    let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
-    let seams = self::seam_file(seam_file, seams);
-    patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(patterns::unit_of))
-}
+/// Rows of the current sizes with their current styles, by style.
+pub(super) const CURRENT_SIZES: &str = "FROM size
+    JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+        AND sized.revision = size.revision AND NOT sized.is_retired
+    JOIN style ON style.name = size.style
+    JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+        AND styled.revision = style.revision AND NOT styled.is_retired
+    ORDER BY style.name, size_id";
 
-/// A seam file as stored; a style without one has an empty name there.
+/// A seam file from its columns; the name is empty for a style without one.
 pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
     (!name.is_empty()).then(|| SourceFile { name, bytes: text.into_bytes().into() })
 }
@@ -281,7 +273,7 @@ pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
 fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
     let Sewn { seams, unit, sizes } = sewn;
     let seams = if part == Part::Style { Seams::Given(seams) } else { Seams::Kept };
-    Draft { name, seams, sizes: sizes.into_iter().map(|size| (size, unit.clone())).collect() }
+    Draft { name, seams, sizes: sizes.into_iter().map(|size| KnownSize { size, unit: unit.clone() }).collect() }
 }
 
 /// Names of the sizes in a pattern file.
@@ -291,14 +283,14 @@ fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
     Ok(file.sizes().into_iter().map(str::to_owned).collect())
 }
 
-/// Stores a draft: its seams, where there are any, by one mode, and its sizes by another.
+/// Stores a draft: its seams, where they are given, by one mode, and its sizes by another.
 fn store_draft(transaction: &Transaction<'_>, [mode, of_sizes]: [Mode; 2], draft: &Draft) -> Result<Vec<Saved>> {
     let mut saved = Vec::new();
     if let Seams::Given(seams) = &draft.seams {
         let store = || revision::style(transaction, &draft.name, seams.as_ref(), By::User);
         saved.push(save(transaction, Part::Style, &draft.name, mode, store)?);
     }
-    for (size, unit) in &draft.sizes {
+    for KnownSize { size, unit } in &draft.sizes {
         let place = (draft.name.as_str(), size.name.as_str());
         let store = || revision::size(transaction, place, &size.pattern, unit.as_deref(), By::User);
         saved.push(save(transaction, Part::Size, &format!("{}/{}", draft.name, size.name), of_sizes, store)?);

@@ -1,4 +1,4 @@
-//! Entries of the catalogue from a CSV table: a column a key, a row an entry.
+//! Entries of the catalogue from a CSV table, with a column for each key and a row for each entry.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -12,21 +12,26 @@ use spec::entry::{Entry, filled, keys};
 use spec::file::Placed;
 use store::{Problem, nearest};
 
-/// Entries of a file that are right, and what is wrong with the others.
-pub(super) type Read<T> = (Vec<Placed<T>>, Vec<Problem>);
+/// Entries of a file.
+pub(super) struct Read<T> {
+    /// Entries without a problem.
+    pub entries: Vec<Placed<T>>,
+    /// Problems of the others.
+    pub problems: Vec<Problem>,
+}
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
 /// Columns that views have besides the values of an entry.
 const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose"];
-/// Those of them that are no values of a table, but make somebody another body.
+/// Those of them that change the body of a subject, so that a table with them cannot be imported.
 const BODIES: [(&str, &str); 2] =
     [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
 
-/// Reads a table: the rows that are right, and what is wrong with the others. Empty cells are no values.
+/// Reads a table. Empty cells are no values.
 ///
 /// # Errors
-/// Where its heading is wrong, or it is no table.
+/// When it is no table, or a heading is wrong.
 pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
     let mut rows = table::rows(text_of(path, bytes)?).into_iter();
     let head = rows.next().unwrap_or(Row { line: 1, cells: vec![] });
@@ -47,16 +52,16 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Re
             Err(found) => problems.extend(found.into_iter().map(|message| Problem::at(path, line, message))),
         }
     }
-    Ok((entries, problems))
+    Ok(Read { entries, problems })
 }
 
-/// A column: the key that its heading stands for, and what its numbers are multiplied by to be in the key's unit.
+/// A column: the key that its heading stands for, and the factor that converts its numbers to the unit of the key.
 struct Column {
     key: String,
     factor: f64,
 }
 
-/// Units of headings: their names, the unit of keys that they stand for, and what a number in them is of it.
+/// Units of headings: their names, the unit of keys that they are converted to, and the factor.
 const UNITS: [(&str, &str, f64); 9] = [
     ("mm", "mm", 1.0),
     ("cm", "mm", 10.0),
@@ -70,28 +75,28 @@ const UNITS: [(&str, &str, f64); 9] = [
 ];
 
 impl Column {
-    /// Of a heading: a key, or one in words and another unit, such as `Chest girth (cm)` or `chest_girth_cm`.
+    /// Reads a heading: a key, or a key in words or in another unit, such as `Chest girth (cm)` or `chest_girth_cm`.
     fn read<T: Entry>(part: Part, heading: &str) -> Self {
         let accepted = keys::<T>();
-        let as_it_is = |key: &str| Self { key: key.to_owned(), factor: 1.0 };
+        let unconverted = |key: &str| Self { key: key.to_owned(), factor: 1.0 };
         if accepted.contains(&heading) || is_name(part, heading) {
-            return as_it_is(heading);
+            return unconverted(heading);
         }
         let words: String = heading.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
         let words: Vec<&str> = words.split_whitespace().collect();
         let plain = words.join("_");
         if accepted.contains(&plain.as_str()) || is_name(part, &plain) || IGNORED.contains(&plain.as_str()) {
-            return as_it_is(&plain);
+            return unconverted(&plain);
         }
         let found = words.split_last().and_then(|(last, rest)| {
             let (_, unit, factor) = UNITS.iter().find(|(name, ..)| name == last)?;
             let key = format!("{}_{unit}", rest.join("_"));
             accepted.contains(&key.as_str()).then_some(Self { key, factor: *factor })
         });
-        found.unwrap_or_else(|| as_it_is(heading))
+        found.unwrap_or_else(|| unconverted(heading))
     }
 
-    /// A cell in the key's unit; what is no number is left as it is.
+    /// A cell in the unit of the key; a text that is no number stays as it is.
     fn value(&self, cell: &str) -> String {
         match cell.parse::<f64>() {
             Ok(number) if self.factor != 1.0 => significant(number * self.factor, 9),
@@ -100,7 +105,7 @@ impl Column {
     }
 }
 
-/// Whether a column holds the name.
+/// True if a column holds the names of entries.
 fn is_name(part: Part, column: &str) -> bool {
     column == part.as_str() || NAMES.contains(&column)
 }
@@ -141,9 +146,9 @@ fn row<T: Entry>(
     let given: Vec<Given> = cells()
         .zip(columns)
         .filter(|((column, cell), _)| !cell.is_empty() && !is_name(part, column) && !IGNORED.contains(column))
-        .map(|((column, cell), of)| (column.to_owned(), of.value(cell)))
+        .map(|((name, cell), column)| (name.to_owned(), column.value(cell)))
         .collect();
-    let is_given = |(column, _): &&(&str, &str)| cells().any(|(of, cell)| of == *column && !cell.is_empty());
+    let is_given = |(column, _): &&(&str, &str)| cells().any(|(name, cell)| name == *column && !cell.is_empty());
     if let Some((column, accepted)) = BODIES.iter().find(is_given) {
         return Err(vec![format!("{name}: its `{column}` is in no table; {accepted}")]);
     }

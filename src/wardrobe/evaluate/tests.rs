@@ -21,9 +21,9 @@ fn the_reference_bodies_are_measured_within_the_limits() {
     }
     for (source, limits) in LIMITS {
         for (name, limit) in limits {
-            let of = &found.source[source][name];
-            eprintln!("{source:24} {name:12} {of:.1?}");
-            assert!(of.mae_mm <= *limit, "{source} {name}: {of:.1?}, limit {limit} mm");
+            let accuracy = &found.source[source][name];
+            eprintln!("{source:24} {name:12} {accuracy:.1?}");
+            assert!(accuracy.mae_mm <= *limit, "{source} {name}: {accuracy:.1?}, limit {limit} mm");
         }
     }
     assert!(found.bodies.iter().all(|body| body.error.is_none()));

@@ -1,4 +1,4 @@
-//! Checking how the patterns of a study are sewn.
+//! Checks of the seams of patterns.
 
 use std::path::Path;
 
@@ -17,14 +17,14 @@ use store::{Access, InOrigin, Origin, Result};
 /// Edge length of the mesh that a check makes, mm.
 pub const CHECK_EDGE_MM: f64 = 15.0;
 
-/// What a check found of one size of a garment.
+/// Outcome of a check of one size of a garment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SizeCheck {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Pieces as worn.
+    /// Number of pieces.
     pub pieces: usize,
     /// Number of seams.
     pub seams: usize,
@@ -36,40 +36,40 @@ pub struct SizeCheck {
     pub vertices: usize,
     /// Least angle of its triangles, degrees.
     pub min_angle_deg: f64,
-    /// What a person should look at.
+    /// Findings for a person to look at.
     pub findings: Vec<Finding>,
-    /// Why it cannot be sewn or meshed at all.
+    /// Reason why it cannot be sewn or meshed.
     pub error: Option<String>,
 }
 
 impl SizeCheck {
-    /// Whether anything was found.
+    /// True if anything was found.
     #[must_use]
     pub fn is_bad(&self) -> bool {
         self.error.is_some() || !self.findings.is_empty()
     }
 }
 
-/// Checks every size of every garment of a study: its file or its folder. `database` may know subjects and fabrics that
-/// the file names; it need not be there.
+/// Checks every size of every garment of a study, by the path of its file or its folder. Subjects and fabrics that the
+/// file names are looked up in `database`, if it exists.
 ///
 /// # Errors
-/// What is wrong with the study file itself; what is wrong with a pattern is told in its row.
+/// Problems of the study file itself; the problem of a pattern is in its row.
 pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
     let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
-    let of = |garment: &GarmentEntry| {
+    let check = |garment: &GarmentEntry| {
         let unit = garment.unit.as_deref().and_then(patterns::unit_of);
         let sewn = Sewn { garment: garment.name.clone(), seams: garment.seams.clone(), unit };
         sewn.check(&garment.sizes)
     };
-    Ok(study.garments.iter().flat_map(of).collect())
+    Ok(study.garments.iter().flat_map(check).collect())
 }
 
 /// Checks every size of a pattern with its seam file.
 ///
 /// # Errors
-/// When a file cannot be read; what is wrong with a size is told in its row.
+/// When a file cannot be read; the problem of a size is in its row.
 pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> Result<Vec<SizeCheck>> {
     let source = SourceFile::read_pattern(pattern)?;
     let seams = seams.map(SourceFile::read).transpose()?;
@@ -90,22 +90,29 @@ struct Sewn {
     unit: Option<Unit>,
 }
 
+/// A size that can be sewn, with the index of its row.
+struct ReadSize<'a> {
+    row: usize,
+    name: &'a str,
+    style: Style,
+}
+
 impl Sewn {
-    /// A row for each size, and what is told of lengths that leap from one to the next.
+    /// A row for each size, with findings on lengths that leap from one size to the next.
     fn check(&self, sizes: &[SizeFile]) -> Vec<SizeCheck> {
-        let (mut rows, mut styles) = (Vec::new(), Vec::new());
-        for (number, size) in sizes.iter().enumerate() {
+        let (mut rows, mut read) = (Vec::new(), Vec::new());
+        for (index, size) in sizes.iter().enumerate() {
             let mut row = self.row(size);
             match self.fill(&mut row, size) {
-                Ok(style) => styles.push((number, size.name.as_str(), style)),
+                Ok(style) => read.push(ReadSize { row: index, name: &size.name, style }),
                 Err(error) => row.error = Some(error.to_string()),
             }
             rows.push(row);
         }
-        size_order::sort(&mut styles, |(_, size, _)| size);
-        let names: Vec<String> = styles.iter().map(|(_, size, _)| (*size).to_owned()).collect();
-        for leap in leaps(&styles.iter().map(|(.., style)| style).collect::<Vec<_>>()) {
-            let row: &mut SizeCheck = &mut rows[styles[leap.sizes[1]].0];
+        size_order::sort(&mut read, |size| size.name);
+        let names: Vec<String> = read.iter().map(|size| size.name.to_owned()).collect();
+        for leap in leaps(&read.iter().map(|size| &size.style).collect::<Vec<_>>()) {
+            let row: &mut SizeCheck = &mut rows[read[leap.sizes[1]].row];
             row.findings.push(leap.finding(&names));
         }
         rows
@@ -132,7 +139,7 @@ impl Sewn {
         let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
         row.fit_mm = style.fit_levels.iter().map(level).collect();
         if let Some(seams) = &self.seams {
-            row.findings = of_files(&size.pattern, seams, Some(&size.name), self.unit)?;
+            row.findings = findings_of(&size.pattern, seams, Some(&size.name), self.unit)?;
         }
         let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
         (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
@@ -142,7 +149,7 @@ impl Sewn {
 }
 
 /// Findings of a pattern file and its seam file.
-pub(crate) fn of_files(
+pub(crate) fn findings_of(
     pattern: &SourceFile,
     seams: &SourceFile,
     size: Option<&str>,
@@ -157,12 +164,12 @@ pub(crate) fn of_files(
     Ok(check::findings(&pieces, &entries, &style))
 }
 
-/// What a person should know of a pattern and its seams that is no error.
+/// Findings on a pattern and its seam file, by their paths.
 ///
 /// # Errors
 /// As [`style`](spec::patterns::style).
 pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
-    of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
+    findings_of(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! Working on seams: the pieces as they lie with their edges, what is sewn, and edits of a seam file.
+//! The desk: pieces as they lie in the arrangement, with their numbered edges and their seams, as pictures and edits of
+//! a seam file need them. Also the proposal of seams, and the confidences that a seam file keeps of it.
 
 use std::path::Path;
 
@@ -11,23 +12,24 @@ use pattern::propose::{self, Proposal};
 use pattern::seam_edit::Sizes;
 use pattern::style::{EdgeRef, Style, StylePiece};
 use pattern::{Piece, Role, arrange};
-use spec::patterns::{self, Nest, Unit};
+use spec::patterns::{Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
 /// Distance within which a notch lies at an edge, m.
 const NOTCH_M: f64 = 0.005;
-/// Confidence from which a proposed seam counts as sure.
+/// Confidence from which a proposed seam is sure.
 pub const SURE: f64 = 0.8;
 
-/// An edge of a piece where it lies in the arrangement.
+/// An edge of a piece, placed in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskEdge {
     /// Number in the picture, from 1 counter-clockwise.
     pub number: usize,
     /// Name in the seam file; `None` where it has none yet.
     pub name: Option<String>,
-    /// Points, counter-clockwise, mm: `x` to the wearer's right, `y` positive for fronts, the head at the origin.
+    /// Points, counter-clockwise, mm. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the
+    /// origin.
     pub line_mm: Vec<[f64; 2]>,
     /// Length of the sew line, mm.
     pub length_mm: f64,
@@ -38,34 +40,35 @@ pub struct DeskEdge {
 }
 
 impl DeskEdge {
-    /// Its middle, mm, and the unit vector from there into the piece: to the left, since edges run counter-clockwise.
+    /// Its midpoint, mm, and there the unit normal into the piece, which is to the left since edges run
+    /// counter-clockwise.
     #[must_use]
     pub fn middle(&self) -> [[f64; 2]; 2] {
-        let mut left_mm = self.length_mm / 2.0;
+        let mut rest_mm = self.length_mm / 2.0;
         for pair in self.line_mm.windows(2) {
             let [a, b] = [pair[0], pair[1]];
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            if length > 0.0 && length >= left_mm {
-                let t = left_mm / length;
+            if length > 0.0 && length >= rest_mm {
+                let t = rest_mm / length;
                 let along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
                 return [[a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], [-along[1], along[0]]];
             }
-            left_mm -= length;
+            rest_mm -= length;
         }
         [self.line_mm.last().copied().unwrap_or_default(), [0.0, 0.0]]
     }
 }
 
-/// A piece where it lies in the arrangement.
+/// A piece, placed in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskPiece {
     /// Identifier of the piece in the seam file.
     pub id: String,
-    /// What it is worn as.
+    /// Role in the garment.
     pub role: Role,
-    /// How far it was turned counter-clockwise, degrees.
+    /// Counter-clockwise rotation from its place in the pattern file, degrees.
     pub turned_deg: f64,
-    /// Edges, counter-clockwise; together they are the outline.
+    /// Edges, counter-clockwise, which make up the outline.
     pub edges: Vec<DeskEdge>,
 }
 
@@ -78,24 +81,24 @@ pub struct DeskSeam {
     pub a: Vec<(usize, usize)>,
     /// Edges of the other side.
     pub b: Vec<(usize, usize)>,
-    /// Whether both sides run counter-clockwise.
+    /// True where both sides are sewn in their counter-clockwise direction.
     pub same_direction: bool,
     /// Length of `a`, mm.
     pub a_mm: f64,
     /// Length of `b`, mm.
     pub b_mm: f64,
-    /// How sure a proposal is, 0 to 1; `None` where a person said so.
+    /// Confidence of the proposal, 0 to 1; `None` where a person has confirmed or made the seam.
     pub confidence: Option<f64>,
 }
 
-/// All that is needed to draw and edit the seams of a style.
+/// Pieces and seams of a style, as they are drawn and edited.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Desk {
-    /// Pieces as they lie.
+    /// Pieces, placed.
     pub pieces: Vec<DeskPiece>,
     /// Seams between edges of those pieces.
     pub seams: Vec<DeskSeam>,
-    /// Names of pieces that are drawn and that the seams leave out.
+    /// Names of drawn pieces that the seam file leaves out.
     pub left_out: Vec<String>,
 }
 
@@ -103,7 +106,7 @@ impl Desk {
     /// The pieces and seams of a style.
     #[must_use]
     pub fn of(style: &Style) -> Self {
-        let held = |edge: EdgeRef| {
+        let seam_of = |edge: EdgeRef| {
             let found = style.seams.iter().find(|seam| seam.a.contains(&edge) || seam.b.contains(&edge));
             found.map(|seam| seam.name.clone())
         };
@@ -115,8 +118,12 @@ impl Desk {
                 name: drawn.name.clone(),
                 line_mm: drawn.line.points().iter().map(|&p| <[f64; 2]>::from(placed.at(p).map(mm))).collect(),
                 length_mm: mm(drawn.line.length()),
-                seam: held(EdgeRef { piece, edge }),
-                notches_mm: drawn_notches.iter().filter(|(of, _)| *of == edge).map(|(_, along_mm)| *along_mm).collect(),
+                seam: seam_of(EdgeRef { piece, edge }),
+                notches_mm: drawn_notches
+                    .iter()
+                    .filter(|notch| notch.edge == edge)
+                    .map(|notch| notch.along_mm)
+                    .collect(),
             });
             DeskPiece {
                 id: drawn.id.clone(),
@@ -140,8 +147,16 @@ impl Desk {
     }
 }
 
-/// Notches of a piece: the edge that each lies at, and how far along, mm; those away from all edges are left out.
-fn notches(piece: &StylePiece) -> Vec<(usize, f64)> {
+/// A notch on an edge of a piece.
+struct EdgeNotch {
+    /// Index of the edge.
+    edge: usize,
+    /// Arc length from the start of the edge, mm.
+    along_mm: f64,
+}
+
+/// Notches of a piece, each on the nearest edge; those farther than [`NOTCH_M`] from all edges are left out.
+fn notches(piece: &StylePiece) -> Vec<EdgeNotch> {
     let nearest = |at: V2| {
         let mut best = (NOTCH_M, None);
         for (edge, drawn) in piece.edges.iter().enumerate() {
@@ -149,7 +164,8 @@ fn notches(piece: &StylePiece) -> Vec<(usize, f64)> {
                 let away_m = segment_distance(&pair[0], &pair[1], &at);
                 if away_m < best.0 {
                     let along = (pair[1] - pair[0]).normalize();
-                    best = (away_m, Some((edge, mm(arc_m + (at - pair[0]).dot(&along).max(0.0)))));
+                    let along_mm = mm(arc_m + (at - pair[0]).dot(&along).max(0.0));
+                    best = (away_m, Some(EdgeNotch { edge, along_mm }));
                 }
             }
         }
@@ -158,20 +174,20 @@ fn notches(piece: &StylePiece) -> Vec<(usize, f64)> {
     piece.notches.iter().filter_map(|notch| nearest(notch.at)).collect()
 }
 
-/// A proposal with the pieces as they lie.
+/// A proposal with its desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Proposed {
-    /// What is proposed.
+    /// The proposed seams.
     #[serde(flatten)]
     pub proposal: Proposal,
-    /// The pieces that take part, arranged, and the seams between them.
+    /// The pieces of the proposal, placed, and the seams between them.
     pub desk: Desk,
 }
 
-/// For what a proposal is asked.
+/// Options of a proposal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Asking<'a> {
-    /// Size that it is made on; by default the sample size.
+    /// Size that it is made on; `None` for the sample size.
     pub size: Option<&'a str>,
     /// Unit of the files, where they name none.
     pub unit: Option<Unit>,
@@ -181,14 +197,12 @@ pub struct Asking<'a> {
     pub answers: &'a [(usize, char)],
 }
 
-/// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together: on one size, by default the
-/// sample size, and held to the others.
+/// Proposes a seam file for the pieces of a pattern, on one size, and checks it on the others.
 ///
 /// # Errors
-/// When a file cannot be read, or has no such size; or an answer, by the number of its question and the letter of the choice,
-/// is to nothing that is asked.
+/// When a file cannot be read or has no such size, or an answer is to nothing that is asked.
 pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
-    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, how)?;
+    let ProposalOnPieces { proposal, pieces } = proposal(&SourceFile::read_pattern(path)?, how)?;
     if proposal.is_empty() {
         return Ok(Proposed { proposal, desk: Desk::default() });
     }
@@ -201,8 +215,16 @@ pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     Ok(Proposed { proposal, desk })
 }
 
-/// What is proposed for a pattern, and the pieces of the size that it is made on.
-pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Proposal, Vec<Piece>)> {
+/// A proposal, and the pieces of the size that it is made on.
+pub struct ProposalOnPieces {
+    /// The proposed seams.
+    pub proposal: Proposal,
+    /// Pieces of the size.
+    pub pieces: Vec<Piece>,
+}
+
+/// Proposes seams for a pattern that is in memory, as [`propose`] does.
+pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPieces> {
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
     let size = how.size.unwrap_or(nest.sample_size());
     let pieces = nest.pieces(size)?;
@@ -211,18 +233,13 @@ pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Proposal, Vec
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
     proposal.notes.push(nest.sewn_along());
     hold_for(&mut proposal, size, &pieces, nest.others(size));
-    Ok((proposal, pieces))
+    Ok(ProposalOnPieces { proposal, pieces })
 }
 
-/// Holds a proposal to the sizes that it was not made on.
-pub(crate) fn hold_for(
-    proposal: &mut Proposal,
-    made_on: &str,
-    pieces: &[Piece],
-    others: Vec<(String, Result<Vec<Piece>>)>,
-) {
+/// Checks a proposal on the sizes that it was not made on. A seam that does not hold there becomes a question.
+pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, pieces: &[Piece], others: Vec<SizePieces>) {
     let mut sound = Vec::new();
-    for (size, pieces) in others {
+    for SizePieces { size, pieces } in others {
         match pieces {
             Ok(pieces) => sound.push((size, pieces)),
             Err(error) => proposal.notes.push(format!("size {size} cannot be sewn: {error}")),
@@ -233,27 +250,19 @@ pub(crate) fn hold_for(
     }
 }
 
-/// The pieces and seams of a pattern with its seam file.
-///
-/// # Errors
-/// When a file cannot be read or does not fit the other.
-pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Desk> {
-    Ok(Desk::of(&patterns::style(pattern, seams, size, unit)?))
-}
-
-/// How sure the proposed seams of a seam file are that nobody has confirmed yet, by their places in it: what stands as
-/// `# confidence 0.83` beside their headers.
+/// Confidences of the seams of a seam file, by their order in it, from the remarks `# confidence 0.83` beside their
+/// headers; `None` for a seam that is confirmed or was not proposed.
 pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     let Ok(document) = text.parse::<DocumentMut>() else { return vec![] };
     let seams = document.get("seam").and_then(Item::as_array_of_tables);
-    let sure = |seam: &toml_edit::Table| {
+    let confidence_of = |seam: &toml_edit::Table| {
         let remark = seam.decor().suffix()?.as_str()?.split_once("confidence ")?.1;
         remark.split([',', ' ', '\n']).next()?.parse().ok()
     };
-    seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
+    seams.map_or(vec![], |seams| seams.iter().map(confidence_of).collect())
 }
 
-/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None`
+/// The text of a seam file without the confidences of those seams that `is_sure` accepts by name and confidence; `None`
 /// where there is no such seam.
 pub(crate) fn confirmed(text: &str, is_sure: impl Fn(&str, Option<f64>) -> bool) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;

@@ -1,17 +1,16 @@
-//! What is sewn: patterns with their seams, checked, proposed and edited.
+//! Work on the seams of patterns: checks, proposals and edits.
 
-mod again;
 pub mod check;
 pub mod desk;
 pub mod pattern_files;
+mod rework;
 pub mod specification;
 pub mod step;
 pub mod undecided;
 pub mod workpiece;
 
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
-pub use desk::proposal;
-pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, SURE, desk, propose};
+pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, ProposalOnPieces, Proposed, SURE, proposal, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
 pub use specification::{Specification, SpecifiedPoint, specification};

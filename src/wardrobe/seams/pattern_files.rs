@@ -1,8 +1,9 @@
-//! Pattern files with what lies beside them: a grade rule table, a table of piece information; looking into them,
-//! taking their features, writing them as other kinds of file.
+//! Pattern files with the tables beside them: grade rules and piece information. They are inspected, reduced to
+//! features, and converted to other formats.
 
 use std::path::Path;
 
+use crate::error::WardrobeError;
 pub use pattern::dxf::Standard;
 use pattern::dxf::{self, PatternFile, Unit};
 use pattern::features::Features;
@@ -12,9 +13,9 @@ use pattern::source::{self, Kind};
 use pattern::{Style, garmentcode, info};
 use spec::patterns::drawings;
 use store::files::SourceFile;
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// What is said about a pattern beside its file.
+/// Choices and tables that go with a pattern file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beside<'a> {
     /// Only pieces of this size.
@@ -23,14 +24,14 @@ pub struct Beside<'a> {
     pub unit: Option<Unit>,
     /// Grade rule table: the file is of the sample size, and all sizes are made.
     pub rules: Option<&'a Path>,
-    /// Unit of its numbers, whatever it says itself.
+    /// Unit of its numbers, in place of the one that it names.
     pub rule_unit: Option<Unit>,
     /// Path of the table of piece information, CSV or XLSX.
     pub info: Option<&'a Path>,
 }
 
 impl Beside<'_> {
-    /// A pattern in all its sizes: graded, and told what the table says; with what is to be said of the tables.
+    /// Grades a pattern and adds its piece information; returns it with remarks on the tables.
     fn complete(&self, mut pattern: PatternFile) -> Result<(PatternFile, Vec<String>)> {
         let mut notes = Vec::new();
         if let Some(path) = self.rules {
@@ -48,14 +49,14 @@ impl Beside<'_> {
         Ok((pattern, notes))
     }
 
-    /// The pattern of a file, of the size that is asked for, that may be handed on: no piece of it is refused, and its
-    /// unit is known; with what is to be said of the tables beside it.
+    /// The pattern of a file, in the size that is asked for, after a check that all its pieces can be sewn; with
+    /// remarks on the tables beside it.
     fn usable_pattern(&self, source: &SourceFile) -> Result<(PatternFile, Vec<String>)> {
         let read = source::read(&source.bytes, &source.name, self.unit).origin(Origin::Pattern)?;
         let (mut pattern, notes) = self.complete(read)?;
         let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
         for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
-            // A nest is no garment: every size for itself may be sewn.
+            // A nest is no garment: each of its sizes is checked by itself.
             pattern.to_sew(Some(&size)).origin(Origin::Pattern)?;
         }
         self.keep_size(&mut pattern);
@@ -70,8 +71,8 @@ impl Beside<'_> {
     }
 }
 
-/// What is in a pattern file of any kind, or in every one below a folder, by name. A file that cannot be read has its
-/// error in its report.
+/// Reports the contents of a pattern file of any kind, or of every one below a folder, by name. A file that cannot be
+/// read has its error in its report.
 ///
 /// # Errors
 /// When the path cannot be read, or a file beside it is wrong.
@@ -83,12 +84,12 @@ pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
 fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
     let is_alone = beside.size.is_none() && beside.rules.is_none() && beside.info.is_none();
     if is_alone && source::kind(bytes) == Kind::GarmentCode {
-        // The specification knows more of its unit than a pattern does.
+        // The specification has more on its unit than a pattern.
         let read = garmentcode::read(bytes, name);
         let unreadable = |error: &garmentcode::GarmentCodeError| FileReport::unreadable(name, error.to_string());
         return Ok(read.as_ref().map_or_else(unreadable, FileReport::from));
     }
-    // A file that cannot be read by itself is a finding; what lies beside it is the user's to put right.
+    // A file that cannot be read is a finding; a wrong table beside it is an error for the user to correct.
     let (mut pattern, notes) = match source::read(bytes, name, beside.unit) {
         Ok(read) => beside.complete(read)?,
         Err(error) => return Ok(FileReport::unreadable(name, error.to_string())),
@@ -98,7 +99,7 @@ fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
     Ok(FileReport::from(&pattern))
 }
 
-/// The features of a pattern's pieces, as JSON; and what is to be said of the tables beside it.
+/// The features of a pattern's pieces, as JSON; with remarks on the tables beside it.
 ///
 /// # Errors
 /// When a file cannot be read, or a piece of it is refused.
@@ -109,7 +110,8 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>
     Ok((serde_json::to_string_pretty(&features).origin(Origin::Pattern)?, notes))
 }
 
-/// A pattern as DXF by a standard, half pieces as halves: all its sizes as a nest; and what is to be said of the tables beside it.
+/// Writes a pattern as DXF by a standard, half pieces as halves and all its sizes as a nest; with remarks on the tables
+/// beside it.
 ///
 /// # Errors
 /// As [`features`].
@@ -121,22 +123,22 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> R
 /// A pattern as its sample size and a grade rule table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
-    /// The sample size.
+    /// The sample size as DXF.
     pub dxf: Vec<u8>,
     /// Text of the grade rule table.
     pub rules: String,
-    /// What has no rules of its own, and what is to be said of the tables beside the pattern.
+    /// Remarks on parts without rules, and on the tables beside the pattern.
     pub notes: Vec<String>,
 }
 
-/// The sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The DXF calls
-/// the table by its name.
+/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The
+/// DXF names the table.
 ///
 /// # Errors
 /// As [`features`]; and where a piece is not the same in every size.
 pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, table_name: &str) -> Result<Graded> {
     let all = Beside { size: None, ..*beside };
-    let (pattern, mut said) = all.usable_pattern(&SourceFile::read(path)?)?;
+    let (pattern, mut remarks) = all.usable_pattern(&SourceFile::read(path)?)?;
     let sample = beside.size.unwrap_or(pattern.sample_size());
     let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).origin(Origin::Pattern)?;
     let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key) && !grade::is_name_of_table(key);
@@ -144,11 +146,11 @@ pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, t
     let own = [sample, grade::named_in_pattern(table_name)];
     let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain(own).collect();
     let rules = grade::write(&table, table_name, standard);
-    said.extend(notes);
-    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: said })
+    remarks.extend(notes);
+    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: remarks })
 }
 
-/// A pattern and its seams as GarmentCode JSON; and what is to be said of the tables beside it.
+/// Writes a pattern and its seams as GarmentCode JSON; with remarks on the tables beside it.
 ///
 /// # Errors
 /// When a file cannot be read, or the seams do not fit the pattern.
@@ -157,9 +159,9 @@ pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside
     let mut notes = Vec::new();
     let style = match (seams, source::kind(&source.bytes)) {
         (Some(seams), _) => {
-            let (file, said) = beside.usable_pattern(&source)?;
-            notes = said;
-            // A file of one size is of that size, whatever it is called.
+            let (file, remarks) = beside.usable_pattern(&source)?;
+            notes = remarks;
+            // The size of a file of one size need not have the name that is asked for.
             let size = beside.size.filter(|_| file.sizes().len() > 1);
             let pieces = file.to_sew(size).origin(Origin::Pattern)?;
             let seams = SourceFile::read(seams)?;
@@ -167,8 +169,7 @@ pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside
         }
         (None, Kind::GarmentCode) => garmentcode::read(&source.bytes, &source.name).origin(Origin::Pattern)?.style(),
         (None, _) => {
-            let message = format!("{}: GarmentCode JSON holds seams: name a seam file (--seams FILE)", source.name);
-            return Err(StudyError::refused(Origin::Pattern, message));
+            return Err(WardrobeError::NoSeams { pattern: source.name }.into());
         }
     };
     let text = serde_json::to_string_pretty(&garmentcode::document(&style)).origin(Origin::Pattern)?;

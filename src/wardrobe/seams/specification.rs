@@ -1,9 +1,10 @@
-//! The points of measure of a pattern in all its sizes: what a specification sheet says.
+//! Specification sheets: the points of measure of a pattern in all its sizes.
 
 use std::path::Path;
 
 use serde::Serialize;
 
+use crate::error::WardrobeError;
 use crate::seams::desk::{Asking, proposal};
 use geom::units::mm;
 use pattern::Style;
@@ -11,7 +12,7 @@ use pattern::pom::Point;
 use pattern::progression::{Leap, leaps};
 use spec::patterns::{self, Nest};
 use store::files::SourceFile;
-use store::{Origin, Result, StudyError, Table, Value};
+use store::{Result, Table, Value};
 
 /// A point of measure of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,29 +23,29 @@ pub struct SpecifiedPoint {
     pub size: String,
     /// Its length, mm.
     pub length_mm: f64,
-    /// Length less that of the size before, mm; none of the first.
+    /// Length less that of the size before, mm; `None` for the first size.
     pub step_mm: Option<f64>,
-    /// How it is measured.
+    /// Definition of the point.
     pub definition: &'static str,
 }
 
 /// The points of measure of a pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Specification {
-    /// The pattern's name.
+    /// Name of the pattern.
     pub garment: String,
-    /// Its sizes, smallest first as the file has them.
+    /// Its sizes, from the smallest to the largest.
     pub sizes: Vec<String>,
     /// Every point of every size, by point.
     pub points: Vec<SpecifiedPoint>,
-    /// What a reader should know, as sentences.
+    /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
     /// The pieces of the first size with the points numbered, as SVG.
     #[serde(skip)]
     pub drawing: String,
 }
 
-/// Measures every size of a pattern at its points of measure. Without a seam file it is sewn as proposed.
+/// Measures every size of a pattern at its points of measure. Without a seam file the pattern is sewn as proposed.
 ///
 /// # Errors
 /// When a file cannot be read, a size does not fit the seams, or no piece has a role that points are found by.
@@ -56,7 +57,7 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
         Some(path) => Some(SourceFile::read(path)?),
         None if source.holds_seams() => None,
         None => {
-            let (proposal, _) = proposal(&source, how)?;
+            let proposal = proposal(&source, how)?.proposal;
             notes.push("sewn as proposed: no seam file was given".to_owned());
             notes.extend(proposal.notes.iter().cloned());
             Some(SourceFile { name: "the proposal".to_owned(), bytes: proposal.toml(&garment).into_bytes().into() })
@@ -74,7 +75,7 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
                 read.push(size.clone());
                 styles.push(style);
             }
-            // A size that cannot be sewn is left out aloud, unless it is all there is.
+            // A size that cannot be sewn is left out with a note, unless no size can be sewn.
             Err(error) if size == &sizes[sizes.len() - 1] && styles.is_empty() => return Err(error),
             Err(error) => notes.push(format!("size {size} is left out: {error}")),
         }
@@ -82,9 +83,7 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
     let mut found = Specification::of(garment, read, &styles);
     found.notes.splice(0..0, notes);
     if found.points.is_empty() {
-        let message =
-            format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
-        return Err(StudyError::refused(Origin::Pattern, message));
+        return Err(WardrobeError::NoPoint { pattern: pattern.to_owned() }.into());
     }
     Ok(found)
 }
@@ -96,7 +95,8 @@ fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
     for point in Point::ALL {
         let mut before: Option<f64> = None;
         for (size, points) in sizes.iter().zip(&measured) {
-            let length_mm = points.iter().find(|one| one.point == point).map(|one| mm(one.length_m));
+            let length_mm =
+                points.iter().find(|measured| measured.point == point).map(|measured| mm(measured.length_m));
             found.extend(length_mm.map(|length_mm| SpecifiedPoint {
                 point: point.as_str(),
                 size: size.clone(),
@@ -111,7 +111,7 @@ fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
 }
 
 impl Specification {
-    /// Of styles that are the sizes of one pattern.
+    /// Makes the specification of styles that are the sizes of one pattern.
     #[must_use]
     pub fn of(garment: String, sizes: Vec<String>, styles: &[Style]) -> Self {
         let points = points(&sizes, styles);
@@ -124,7 +124,7 @@ impl Specification {
         Self { garment, sizes, points, notes, drawing }
     }
 
-    /// The sheet: a row a point, a column a size, mm, and a column a step from the size before.
+    /// Returns the sheet: a row for each point, a column for each size, mm, and one for each step from the size before.
     #[must_use]
     pub fn table(&self) -> Table {
         let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };
@@ -133,14 +133,15 @@ impl Specification {
         columns.extend(self.sizes.iter().skip(1).map(|size| format!("{size}_step_mm")));
         columns.push("definition".to_owned());
         let row = |point: Point| -> Option<Vec<Value>> {
-            let of = |size: &String| self.points.iter().find(|one| one.point == point.as_str() && one.size == *size);
-            let all: Vec<Option<&SpecifiedPoint>> = self.sizes.iter().map(of).collect();
+            let is_at = |found: &SpecifiedPoint, size: &str| found.point == point.as_str() && found.size == size;
+            let found_in = |size: &String| self.points.iter().find(|found| is_at(found, size));
+            let all: Vec<Option<&SpecifiedPoint>> = self.sizes.iter().map(found_in).collect();
             all.iter().any(Option::is_some).then_some(())?;
-            // A step of nothing has no sign.
+            // Adding zero removes the sign of a zero step.
             let rounded = |mm: f64| Value::Real((mm * 10.0).round() / 10.0 + 0.0);
-            let step = |one: &Option<&SpecifiedPoint>| one.and_then(|one| one.step_mm).map_or(Value::Null, rounded);
+            let step = |found: &Option<&SpecifiedPoint>| found.and_then(|at| at.step_mm).map_or(Value::Null, rounded);
             let mut row = vec![Value::Text(point.as_str().to_owned())];
-            row.extend(all.iter().map(|one| one.map_or(Value::Null, |one| rounded(one.length_mm))));
+            row.extend(all.iter().map(|found| found.map_or(Value::Null, |at| rounded(at.length_mm))));
             row.extend(all.iter().skip(1).map(step));
             row.push(Value::Text(point.definition().to_owned()));
             Some(row)

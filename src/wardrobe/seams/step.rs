@@ -6,23 +6,24 @@ use store::files::SourceFile;
 /// One step of work on a seam file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SeamStep {
-    /// Add, remove or turn a seam; leave an edge open or a piece out; say what a piece is.
+    /// Edit a seam, an edge or a piece.
     Edit(Edit),
-    /// Take a proposed seam, by its name, for right.
+    /// Confirm the proposed seam of a name.
     Confirm(String),
-    /// Take all proposed seams that are sure for right.
+    /// Confirm all proposed seams that are sure.
     ConfirmSure,
-    /// Answer a question of a proposal: propose anew, and keep what was confirmed of what is proposed again.
+    /// Answer a question of a proposal. Seams are proposed anew, and those that were confirmed and are proposed again
+    /// stay so.
     Answer {
         /// The question, as it is asked.
         question: String,
-        /// The place of the choice.
+        /// Index of the choice.
         choice: usize,
     },
     /// Take a seam file that was written by hand.
     Written(SourceFile),
-    /// Strike a question of a proposal out, its answer being in the file.
+    /// Settle a question of a proposal, since the file is as it should be.
     Decide(String),
-    /// Propose all seams anew; the text is the name of the style.
+    /// Propose all seams anew, for the style of a name.
     Propose(String),
 }

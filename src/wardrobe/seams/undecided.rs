@@ -1,4 +1,4 @@
-//! What a person must decide about the seams of a size: one thing at a time, each with its likely answers.
+//! Open questions about the seams of a size, one at a time, each with its likely answers.
 
 use crate::seams::desk::{Desk, DeskEdge, DeskPiece, DeskSeam, SURE};
 use crate::seams::step::SeamStep;
@@ -7,23 +7,26 @@ use pattern::check::{Finding, FindingKind};
 use pattern::propose::Question;
 use pattern::seam_edit::Edit;
 
-/// An edge by its piece and its place on it.
+/// Index of a piece, and index of an edge on it.
 type EdgeAt = (usize, usize);
 
-/// Partners of an edge that are offered.
+/// Number of partners of an edge that are offered.
 const OFFERED: usize = 4;
-/// Pieces that are left out of which is asked at a time.
+/// Number of left out pieces that one question asks about.
 pub const LEFT_OUT: usize = 4;
-/// What a partner is as unlikely by as by a difference of the whole length: its distance over the size of all pieces, notches that do not
-/// match, and a side of two edges instead of one.
+/// Weight of the distance of a partner over the extent of all pieces. This and the next three weights add to the
+/// relative difference of length.
 const FAR: f64 = 0.25;
+/// Weight of notches that do not match.
 const UNNOTCHED: f64 = 0.15;
+/// Weight of a side of two edges instead of one.
 const OF_TWO: f64 = 0.05;
-/// What an edge is as unlikely by whose piece does not meet the other: the same piece, where it does not go round by itself as a sleeve
-/// does, and the other sleeve.
+/// Weight of a partner on a piece that is not sewn to the edge's piece: the same piece, unless it closes on itself as a
+/// sleeve does, or the other sleeve.
 const OWN: f64 = 0.3;
-/// Difference of lengths from which two edges are no partners, share of the longer, and of places of notches that match.
+/// Greatest difference of length between partners, share of the longer.
 const UNLIKE: f64 = 0.4;
+/// Greatest difference of the places of notches that match, share of the edge.
 const SAME_NOTCH: f64 = 0.03;
 
 /// An answer, and the step of work that it asks for.
@@ -33,11 +36,11 @@ pub struct Choice {
     pub label: String,
     /// Step of work that carries it out.
     pub step: SeamStep,
-    /// Edges that it speaks of.
+    /// Edges that it names.
     pub edges: Vec<EdgeAt>,
 }
 
-/// What a person must decide.
+/// An open question about seams.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Undecided {
     /// The question in words.
@@ -46,16 +49,16 @@ pub struct Undecided {
     pub edges: Vec<EdgeAt>,
     /// Likely answers; none where only an edit helps.
     pub choices: Vec<Choice>,
-    /// The answer that stands while nobody gives another.
+    /// Index of the answer that counts until another is given.
     pub stands: Option<usize>,
-    /// The seam that it is about.
+    /// Index of the seam that it is about.
     pub seam: Option<usize>,
-    /// Whether the answer that stands is sure.
+    /// True where the answer that counts is sure.
     pub is_sure: bool,
 }
 
 impl Undecided {
-    /// A question of a proposal.
+    /// The question of a proposal.
     pub(crate) fn asked(question: Question) -> Self {
         let written = question.to_string();
         let answer = |(choice, label): (usize, &String)| Choice {
@@ -78,7 +81,7 @@ impl Undecided {
         }
     }
 
-    /// A proposed seam that nobody has confirmed; `None` of any other.
+    /// The question whether a proposed seam is right; `None` for a seam that is confirmed or was not proposed.
     pub(crate) fn unsure(desk: &Desk, seam: usize) -> Option<Self> {
         let found = &desk.seams[seam];
         let sure = 100.0 * found.confidence?;
@@ -104,7 +107,7 @@ impl Undecided {
         })
     }
 
-    /// What may be done with a seam that is sewn.
+    /// The question what to do with a seam that is sewn.
     #[must_use]
     pub fn seam(desk: &Desk, seam: usize) -> Self {
         let DeskSeam { name, a, b, a_mm, b_mm, .. } = &desk.seams[seam];
@@ -128,7 +131,7 @@ impl Undecided {
         }
     }
 
-    /// What a check finds.
+    /// The question about a finding of a check.
     pub(crate) fn found(desk: &Desk, finding: &Finding) -> Self {
         let free = if finding.kind == FindingKind::FreeEdge { desk.edge_of(&finding.place) } else { None };
         match free {
@@ -140,14 +143,14 @@ impl Undecided {
         }
     }
 
-    /// What an edge that is in no seam may be sewn to.
+    /// The question what an edge that is in no seam is sewn to.
     #[must_use]
     pub fn free(desk: &Desk, edge: EdgeAt) -> Self {
         let (name, length_mm) = (desk.edge_name(edge), desk.edge(edge).length_mm);
         let sewn = |partner: Vec<EdgeAt>| {
-            let partner_mm: f64 = partner.iter().map(|one| desk.edge(*one).length_mm).sum();
+            let partner_mm: f64 = partner.iter().map(|edge| desk.edge(*edge).length_mm).sum();
             let ease_mm = length_mm - partner_mm;
-            let b = partner.iter().map(|one| desk.edge_name(*one)).collect::<Vec<_>>().join("+");
+            let b = partner.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join("+");
             Choice {
                 label: format!("sewn to {}, {partner_mm:.1} mm, ease {ease_mm:+.1}", names(desk, &partner)),
                 step: SeamStep::Edit(Edit::Add { a: name.clone(), b, name: None, is_eased: true }),
@@ -161,7 +164,7 @@ impl Undecided {
         Self { text, edges: vec![edge], choices, stands: None, seam: None, is_sure: false }
     }
 
-    /// What a piece is that nothing is sewn to.
+    /// The question about the role of a piece that nothing is sewn to.
     pub(crate) fn unsewn(desk: &Desk, piece: usize) -> Self {
         let asked = Self::piece(desk, piece);
         Self {
@@ -171,7 +174,7 @@ impl Undecided {
         }
     }
 
-    /// Which of the drawn pieces that are left out, from the first of some on, is worn too; `None` where there are none from there on.
+    /// The question which of the left out pieces, from index `first` on, is worn too; `None` where there are no more.
     #[must_use]
     pub fn left_out(desk: &Desk, first: usize) -> Option<Self> {
         let shown = desk.left_out.get(first..)?;
@@ -186,7 +189,7 @@ impl Undecided {
         (!shown.is_empty()).then_some(asked)
     }
 
-    /// What a piece may be worn as, and whether it is worn at all.
+    /// The question about the role of a piece, and whether it is worn at all.
     #[must_use]
     pub fn piece(desk: &Desk, piece: usize) -> Self {
         let drawn = &desk.pieces[piece];
@@ -213,26 +216,26 @@ impl Undecided {
 }
 
 impl Desk {
-    /// The edge at an index of a piece and of its edges.
+    /// Returns an edge by its indices.
     #[must_use]
     pub fn edge(&self, (piece, edge): EdgeAt) -> &DeskEdge {
         &self.pieces[piece].edges[edge]
     }
 
-    /// An edge as edits name it: `front.side_left`, or `front.3` where it has no name.
+    /// Name of an edge in edits: `front.side_left`, or `front.3` where it has no name.
     #[must_use]
     pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
         let drawn = &self.pieces[piece].edges[edge];
         format!("{}.{}", self.pieces[piece].id, drawn.name.clone().unwrap_or_else(|| drawn.number.to_string()))
     }
 
-    /// Whether nothing is sewn to a piece that is nothing in particular.
+    /// True if a piece has no particular role and nothing is sewn to it.
     pub(crate) fn is_unsewn(&self, piece: usize) -> bool {
         let DeskPiece { role, edges, .. } = &self.pieces[piece];
         *role == Role::Other && edges.iter().all(|edge| edge.seam.is_none())
     }
 
-    /// The edge of a name.
+    /// Returns the edge of a name.
     fn edge_of(&self, name: &str) -> Option<EdgeAt> {
         self.all_edges().find(|edge| self.edge_name(*edge) == name)
     }
@@ -242,12 +245,13 @@ impl Desk {
     }
 }
 
-/// A chain of edges in words: `front.side_left`, `front.armhole + back.armhole`.
+/// A chain of edges in words, such as `front.armhole + back.armhole`.
 fn names(desk: &Desk, chain: &[EdgeAt]) -> String {
     chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join(" + ")
 }
 
-/// Sides in no seam that an edge may be sewn to, the likeliest first: by length, by notches and by where they lie. A side is an edge or two.
+/// Sides that an edge may be sewn to, of one or two edges in no seam. The likeliest is the first, by length, by notches
+/// and by place.
 fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     let free: Vec<EdgeAt> = desk.all_edges().filter(|at| *at != edge && desk.edge(*at).seam.is_none()).collect();
     let extent_mm = extent_mm(desk);
@@ -258,25 +262,25 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
         let away: f64 = side.iter().map(|at| distance_mm(desk.edge(*at), desk.edge(edge))).sum();
         let away = away / side.len() as f64 / extent_mm;
         let notched = match side {
-            [one] if !notches_match(desk.edge(edge), desk.edge(*one)) => UNNOTCHED,
+            [sole] if !notches_match(desk.edge(edge), desk.edge(*sole)) => UNNOTCHED,
             _ => 0.0,
         };
         let two = if side.len() > 1 { OF_TWO } else { 0.0 };
         let own = if side.iter().all(|at| may_meet(desk, edge.0, at.0)) { 0.0 } else { OWN };
         (unlike <= UNLIKE).then_some(unlike + FAR * away + notched + two + own)
     };
-    let pairs = free.iter().flat_map(|one| {
+    let pairs = free.iter().flat_map(|first| {
         free.iter()
-            .filter(move |other| one.0 < other.0 || (one.0 == other.0 && one.1 + 1 == other.1))
-            .map(move |other| vec![*one, *other])
+            .filter(move |second| first.0 < second.0 || (first.0 == second.0 && first.1 + 1 == second.1))
+            .map(move |second| vec![*first, *second])
     });
-    let sides = free.iter().map(|one| vec![*one]).chain(pairs);
+    let sides = free.iter().map(|edge| vec![*edge]).chain(pairs);
     let mut found: Vec<(f64, Vec<EdgeAt>)> = sides.filter_map(|side| Some((unlikely(&side)?, side))).collect();
-    found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
 }
 
-/// Roles that pieces of a style may have: those of trousers, of what has a skirt, or of a top.
+/// Roles that pieces of a style may have: those of trousers, of a garment with a skirt, or of a top.
 fn roles(desk: &Desk) -> [Role; 8] {
     use Role::{
         Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight, LegLeft,
@@ -292,7 +296,8 @@ fn roles(desk: &Desk) -> [Role; 8] {
     [Front, Back, SleeveRight, SleeveLeft, SkirtFront, SkirtBack, Waistband, Other]
 }
 
-/// Whether two pieces may be sewn to each other: one piece to itself where it goes round a limb or the waist, sleeves not to the other arm's.
+/// True if two pieces may be sewn to each other. A piece is sewn to itself only where it closes around a limb or the
+/// waist, and the two sleeves are never sewn to each other.
 fn may_meet(desk: &Desk, one: usize, other: usize) -> bool {
     use Role::{LegLeft, LegRight, Other, SleeveLeft, SleeveRight, Waistband};
     let [role, partner] = [one, other].map(|piece| desk.pieces[piece].role);
@@ -302,7 +307,7 @@ fn may_meet(desk: &Desk, one: usize, other: usize) -> bool {
     !matches!((role, partner), (SleeveRight, SleeveLeft) | (SleeveLeft, SleeveRight))
 }
 
-/// Size of all pieces as they lie, mm.
+/// Diagonal of the bounding box of all pieces as they lie, mm.
 fn extent_mm(desk: &Desk) -> f64 {
     let points = || desk.pieces.iter().flat_map(|piece| &piece.edges).flat_map(|edge| &edge.line_mm);
     let size = |k: usize| {
@@ -312,13 +317,13 @@ fn extent_mm(desk: &Desk) -> f64 {
     size(0).hypot(size(1)).max(1.0)
 }
 
-/// Distance of the middles of two edges as they lie, mm.
+/// Distance of the midpoints of two edges as they lie, mm.
 fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
     let ([[a, b], _], [[c, d], _]) = (one.middle(), other.middle());
     (a - c).hypot(b - d)
 }
 
-/// Whether two edges have as many notches, at the same shares of their lengths either way round.
+/// True if two edges have the same number of notches, at the same shares of their lengths in either direction.
 fn notches_match(one: &DeskEdge, other: &DeskEdge) -> bool {
     let shares = |edge: &DeskEdge| {
         let mut shares: Vec<f64> = edge.notches_mm.iter().map(|mm| mm / edge.length_mm.max(1e-6)).collect();
@@ -361,7 +366,8 @@ mod tests {
         check(&all, "sleeve_left.cap", "armhole_left");
     }
 
-    /// Of all seams between two edges of a style whose seams are all opened: for how many the other edge is offered first, for how many at all.
+    /// Counts seams between two edges of a style whose seams are all opened: those whose other edge is offered first,
+    /// those where it is offered at all, and all.
     fn offered(style: &Style) -> [usize; 3] {
         let whole = Desk::of(style);
         let opened = Desk::of(&Style { seams: vec![], ..style.clone() });

@@ -1,27 +1,27 @@
-//! A size of a style while its seams are worked on: its pattern, and the seam file as text that edits change.
+//! A size of a style while its seams are edited: its pattern, and the text of its seam file.
 
 use std::path::{Path, PathBuf};
 
-use crate::seams::again::Reworked;
+use crate::error::WardrobeError;
 use crate::seams::desk::{Desk, SURE, confidences, confirmed, hold_for};
+use crate::seams::rework::Reworked;
 use crate::seams::step::SeamStep;
 use crate::seams::undecided::Undecided;
 use geom::units::mm;
-use pattern::Piece;
 use pattern::check::{self, Finding, FindingKind};
 use pattern::propose::{self, Answers, Question};
 use pattern::seam_edit::{Sizes, edited};
 use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 use pattern::style::Style;
-use spec::patterns::{self, Nest, Unit};
+use spec::patterns::{self, Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Problem, Result, StudyError};
 
-/// Begins a line of a proposed seam file that a person must answer.
+/// Begins a line of a proposed seam file with a question that a person must answer.
 const QUESTION: &str = "# ASK: ";
-/// Begins one that asks no more, since somebody has said that the file is as it should be.
+/// Begins a line with a question that is settled, since a person has said that the file is as it should be.
 const SETTLED: &str = "# SETTLED: ";
-/// Begins one that somebody has answered.
+/// Begins a line with a question that a person has answered.
 const ANSWERED: &str = "# ANSWERED: ";
 
 /// A pattern and the seams of one of its sizes.
@@ -31,7 +31,7 @@ pub struct Workpiece {
     pub pattern: SourceFile,
     /// Seam file; `None` where the pattern holds its seams, or has none yet.
     pub seams: Option<SourceFile>,
-    /// Name of the size that is worked on.
+    /// Name of the size.
     pub size: String,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
@@ -48,21 +48,21 @@ pub struct DeskLength {
     pub l2d_mm: f64,
 }
 
-/// A size as it lies on the desk.
+/// A size, laid out for work on its seams.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
     /// Pieces and seams; a seam that was proposed and not confirmed has its confidence.
     pub desk: Desk,
     /// Measurements of the seam file, in its order.
     pub lengths: Vec<DeskLength>,
-    /// What a person must decide: questions of a proposal, unsure seams, and what a check finds.
+    /// Open questions: those of a proposal, unsure seams, and findings of a check.
     pub undecided: Vec<Undecided>,
-    /// Greatest difference of length between the sides of a seam that needs no word, mm.
+    /// Greatest difference of length between the sides of a seam that is no finding, mm.
     pub tolerance_mm: f64,
 }
 
 impl Workpiece {
-    /// A pattern and its seam file; without a size the sample size.
+    /// Reads a pattern and its seam file; without a size the sample size.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -88,25 +88,25 @@ impl Workpiece {
                 seam.confidence = confidence;
             }
             let asked: Vec<Question> = marked(&text, QUESTION).collect();
-            // What is asked of a seam by its name is not asked again.
+            // A seam that the proposal has a question about, by its name, is not asked about again.
             let is_new = |seam: &usize| {
                 let name = &desk.seams[*seam].name;
-                !asked.iter().any(|one| one.text.split_once(": ").is_some_and(|(of, _)| of == name))
+                !asked.iter().any(|question| question.text.split_once(": ").is_some_and(|(about, _)| about == name))
             };
             undecided.extend((0..desk.seams.len()).filter(is_new).filter_map(|seam| Undecided::unsure(&desk, seam)));
             undecided.splice(0..0, asked.into_iter().map(Undecided::asked));
             let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
             tolerance_mm = entries.length_tolerance_mm;
             let found = self.findings(&style)?;
-            // A piece that the file does not name is left out on purpose; the garment tells so where it is seen.
+            // A piece that the file does not name is left out on purpose, and no question.
             let is_left_out = |finding: &&Finding| finding.kind == FindingKind::UnusedPiece;
             desk.left_out = found.iter().filter(is_left_out).map(|finding| finding.place.clone()).collect();
             let unsewn: Vec<usize> = (0..desk.pieces.len()).filter(|piece| desk.is_unsewn(*piece)).collect();
             undecided.extend(unsewn.iter().map(|piece| Undecided::unsewn(&desk, *piece)));
-            // What a piece is sewn to is asked once it is known what it is.
+            // The edges of a piece without a role are asked about once it has one.
             let is_of_unsewn = |finding: &&Finding| {
-                let of = |piece: &usize| finding.place.starts_with(&format!("{}.", desk.pieces[*piece].id));
-                finding.kind == FindingKind::FreeEdge && unsewn.iter().any(of)
+                let is_on = |piece: &usize| finding.place.starts_with(&format!("{}.", desk.pieces[*piece].id));
+                finding.kind == FindingKind::FreeEdge && unsewn.iter().any(is_on)
             };
             let is_open =
                 |finding: &&Finding| finding.kind.is_of_seams() && !is_left_out(finding) && !is_of_unsewn(finding);
@@ -117,15 +117,14 @@ impl Workpiece {
         Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), undecided, tolerance_mm })
     }
 
-    /// The seam file after a step.
+    /// Returns the seam file after a step.
     ///
     /// # Errors
     /// When the pattern holds its own seams, or the step cannot be done.
     pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
-        let refused = |message: String| StudyError::refused(Origin::Pattern, message);
+        let pattern = || self.pattern.name.clone();
         if self.pattern.holds_seams() {
-            let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
-            return Err(refused(message));
+            return Err(WardrobeError::HoldsSeams { pattern: pattern() }.into());
         }
         if let SeamStep::Propose(style) = step {
             return self.proposed(style);
@@ -135,22 +134,21 @@ impl Workpiece {
             Style::read(&pieces, &file.bytes, &file.name).origin(Origin::Pattern)?;
             return Ok(file.clone());
         }
-        let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
+        let missing = || WardrobeError::NoSeamFile { pattern: pattern() };
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
             SeamStep::Edit(edit) => {
                 self.with_sizes(|sizes| edited(&text, &file.name, sizes, edit).origin(Origin::Pattern))?
             }
             SeamStep::Confirm(seam) => confirmed(&text, |name, _| name == seam)
-                .ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?,
+                .ok_or_else(|| WardrobeError::NoSeam { file: file.name.clone(), seam: seam.clone() })?,
             SeamStep::ConfirmSure => confirmed(&text, |_, confidence| confidence.is_some_and(|sure| sure >= SURE))
-                .ok_or_else(|| refused(format!("{}: no proposed seam is {:.0} % sure", file.name, 100.0 * SURE)))?,
+                .ok_or_else(|| WardrobeError::NoneSure { file: file.name.clone(), percent: 100.0 * SURE })?,
             SeamStep::Answer { question, choice } => self.answered(&text, question, *choice)?,
             SeamStep::Decide(question) => {
                 let kept = settled(&text, question);
                 if kept == text {
-                    let accepted = "sew the edge, or name it in `open` of the seam file";
-                    return Err(refused(format!("{question}: the check finds it, nobody asks it; {accepted}")));
+                    return Err(WardrobeError::NotAsked { question: question.clone() }.into());
                 }
                 kept
             }
@@ -159,16 +157,15 @@ impl Workpiece {
         Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
     }
 
-    /// Does something with the pieces of all sizes that are sound.
+    /// Calls `act` with the pieces of all sizes that can be sewn.
     fn with_sizes<T>(&self, act: impl FnOnce(&Sizes<'_>) -> Result<T>) -> Result<T> {
         let nest = Nest::read(&self.pattern, self.unit)?;
         let (pieces, others) = (nest.pieces(&self.size)?, nest.others(&self.size));
-        let sound = |(size, pieces): (String, Result<Vec<Piece>>)| Some((size, pieces.ok()?));
-        let others: Vec<_> = others.into_iter().filter_map(sound).collect();
+        let others: Vec<_> = others.into_iter().filter_map(|other| Some((other.size, other.pieces.ok()?))).collect();
         act(&Sizes { name: &self.size, pieces: &pieces, others: &others })
     }
 
-    /// A seam file proposed for the pieces, which holds for all sizes of the pattern.
+    /// Proposes a seam file for the pieces, which is checked on all sizes of the pattern.
     ///
     /// # Errors
     /// When the pattern cannot be read, or no piece of it is recognised.
@@ -176,20 +173,23 @@ impl Workpiece {
         self.proposed_for(style, Nest::read(&self.pattern, self.unit)?.others(&self.size))
     }
 
-    /// [`Workpiece::proposed`], held to other sizes.
-    pub(crate) fn proposed_for(&self, style: &str, others: Vec<(String, Result<Vec<Piece>>)>) -> Result<SourceFile> {
-        self.proposed_told(style, others, &Answers::new())
+    /// Proposes a seam file as [`Workpiece::proposed`] does, checked on given sizes.
+    pub(crate) fn proposed_for(&self, style: &str, others: Vec<SizePieces>) -> Result<SourceFile> {
+        self.proposed_with_answers(style, others, &Answers::new())
     }
 
-    /// The text of a proposal once a question is answered. What was confirmed stays so where it is proposed again.
+    /// The text of a proposal after the answer to a question. Seams that were confirmed and are proposed again stay so.
     fn answered(&self, text: &str, question: &str, choice: usize) -> Result<String> {
         let asked: Vec<Question> = marked(text, QUESTION).chain(marked(text, ANSWERED)).collect();
         let known = asked.iter().find(|asked| asked.text == question);
         if known.is_none_or(|known| choice >= known.choices.len()) {
             let accepted: Vec<String> = asked.iter().map(Question::to_string).collect();
-            let message =
-                format!("{question}: answer {}: accepted: {}", Question::letter(choice), accepted.join("; or "));
-            return Err(StudyError::refused(Origin::Pattern, message));
+            return Err(WardrobeError::Answer {
+                question: question.to_owned(),
+                letter: Question::letter(choice),
+                accepted: accepted.join("; or "),
+            }
+            .into());
         }
         let given = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
         let before: Answers = given.collect();
@@ -200,31 +200,25 @@ impl Workpiece {
         let old = entries(text)?;
         let proposed = |answers| {
             let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
-            let proposed = self.proposed_told(&old.name, others, answers)?;
+            let proposed = self.proposed_with_answers(&old.name, others, answers)?;
             Ok::<_, StudyError>(String::from_utf8_lossy(&proposed.bytes).into_owned())
         };
         let rework = Reworked { proposed: &proposed(&before)?, own: text, file };
         let again = self.with_sizes(|sizes| rework.done_again(proposed(&answers)?, sizes))?;
         let new = entries(&again)?;
-        let sure = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
-        let kept: Vec<&str> =
-            sure.filter(|(seam, _)| new.seam.contains(seam)).map(|(seam, _)| seam.name.as_str()).collect();
+        let confirmed_before = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
+        let proposed_again = confirmed_before.filter(|(seam, _)| new.seam.contains(seam));
+        let kept: Vec<&str> = proposed_again.map(|(seam, _)| seam.name.as_str()).collect();
         let again = confirmed(&again, |name, _| kept.contains(&name)).unwrap_or(again);
         let before: Vec<String> = marked(text, SETTLED).map(|question| question.to_string()).collect();
         Ok(before.iter().fold(again, |again, question| settled(&again, question)))
     }
 
-    fn proposed_told(
-        &self,
-        style: &str,
-        others: Vec<(String, Result<Vec<Piece>>)>,
-        answers: &Answers,
-    ) -> Result<SourceFile> {
+    fn proposed_with_answers(&self, style: &str, others: Vec<SizePieces>, answers: &Answers) -> Result<SourceFile> {
         let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
         let mut proposal = propose::propose_told(&pieces, answers);
         if proposal.is_empty() {
-            let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
-            return Err(StudyError::refused(Origin::Pattern, message));
+            return Err(WardrobeError::NotRecognised { pattern: self.pattern.name.clone() }.into());
         }
         hold_for(&mut proposal, &self.size, &pieces, others);
         let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
@@ -233,13 +227,13 @@ impl Workpiece {
         Ok(SourceFile { name, bytes: text.into_bytes().into() })
     }
 
-    /// Edges that the seam file means to be open, as `PIECE.EDGE`.
+    /// Edges that the seam file leaves open, as `PIECE.EDGE`.
     pub fn open_edges(&self) -> Vec<String> {
         let entries = self.seams.as_ref().and_then(|file| SeamFile::parse(&file.bytes, &file.name).ok());
         entries.map_or_else(Vec::new, |entries| entries.open)
     }
 
-    /// What a check finds of the size as it is sewn; nothing of a pattern that holds its own seams.
+    /// Findings of a check of the size as it is sewn; none of a pattern that holds its own seams.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -255,7 +249,7 @@ impl Workpiece {
     }
 }
 
-/// The text of a seam file with a question of it settled.
+/// The text of a seam file in which a question is settled.
 fn settled(text: &str, question: &str) -> String {
     let line = |line: &str| match line.strip_prefix(QUESTION) {
         Some(asked) if asked.trim_end() == question => format!("{SETTLED}{asked}"),
@@ -264,15 +258,15 @@ fn settled(text: &str, question: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
 
-/// Questions on lines of a seam file that begin with a mark.
+/// Questions on the lines of a seam file that begin with a mark.
 fn marked<'a>(text: &'a str, mark: &'a str) -> impl Iterator<Item = Question> + 'a {
     text.lines().filter_map(move |line| line.strip_prefix(mark)).map(|line| Question::parse(line.trim_end()))
 }
 
-/// A seam file after a step of work, checked against the pattern; comments stay.
+/// Returns a seam file after a step of work, checked against the pattern. Comments of the file stay.
 ///
 /// # Errors
-/// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
+/// When a file cannot be read, the edit names a part that is not there, or its result does not fit the pattern.
 pub fn edit_seams(
     pattern: &Path,
     seams: &Path,
@@ -283,7 +277,7 @@ pub fn edit_seams(
     Workpiece::open(pattern, Some(seams), size, unit)?.after(step)
 }
 
-/// Where the seam file of a style lies in the folder of a study, if it still says there what it said when it was stored.
+/// Path of the seam file of a style in the folder of a study, if its contents are still those that are stored.
 #[must_use]
 pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathBuf> {
     let text = std::fs::read_to_string(study).ok()?;
@@ -294,10 +288,10 @@ pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathB
     std::fs::read(&path).is_ok_and(|bytes| *bytes == *stored.bytes).then_some(path)
 }
 
-/// Writes a seam file over one that still says what it said `before`.
+/// Replaces a seam file whose contents are still those of `before`.
 ///
 /// # Errors
-/// When it says something else meanwhile, or cannot be read or written.
+/// When its contents have changed, or it cannot be read or written.
 pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Result<()> {
     let found = std::fs::read(path).map_err(StudyError::io(path))?;
     if *found != *before.bytes {
@@ -376,7 +370,7 @@ mod tests {
         let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
         piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
         let undecided = piece.laid_out().expect("it fits").undecided;
-        let free = undecided.iter().find(|one| one.text.contains("back.side_right")).expect("it is said").clone();
+        let free = undecided.iter().find(|asked| asked.text.contains("back.side_right")).expect("it is said").clone();
         assert!(piece.after(&SeamStep::Decide(free.text.clone())).is_err(), "the check finds it, nobody asks it");
         // Its likeliest answer sews it again.
         piece.seams = Some(piece.after(&free.choices[0].step).expect("they fit"));

@@ -1,19 +1,19 @@
-//! Where a measurement stands among adults of the same sex, and which are so rare that they may be mistakes.
+//! Percentiles of measurements among adults of the same sex, and doubts about rare ones.
 
 use body::{self, Dimension, Measurements, Sex};
 
-/// Percentiles below the first and above the second of these are doubted.
+/// Least and greatest percentile that is not doubted.
 const ORDINARY: (f64, f64) = (1.0, 99.0);
 
-/// The percentile of a value, in the unit of its key, among adults of a sex [Gordon 2014], 0 to 100; `None` for what is no
-/// measurement of a subject.
+/// Percentile of a value, in the unit of its key, among adults of a sex [Gordon 2014], 0 to 100; `None` for a key that
+/// is no measurement of a subject.
 #[must_use]
 pub fn percentile(sex: Sex, key: &str, value: f64) -> Option<f64> {
     let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.key() == key)?;
     Some(body::percentile(sex, dimension, value / dimension.per_si(), None, None))
 }
 
-/// Whether a percentile is so rare that the value may be a mistake.
+/// True if a percentile is so rare that the value may be a mistake.
 #[must_use]
 pub fn is_doubtful(percentile: f64) -> bool {
     !(ORDINARY.0..=ORDINARY.1).contains(&percentile)
@@ -31,7 +31,7 @@ pub fn percentile_text(percentile: f64) -> String {
     }
 }
 
-/// The measurements of a subject that are possible but rare, in words.
+/// Doubts about measurements of a subject that are possible but rare, in words.
 #[must_use]
 pub fn doubts(subject: &Measurements) -> Vec<String> {
     body::plausibility(subject).iter().map(ToString::to_string).collect()

@@ -1,4 +1,4 @@
-//! What somebody has made of a proposal, done again on another one.
+//! Edits of a proposed seam file, found by comparison and applied to another proposal.
 
 use toml_edit::DocumentMut;
 
@@ -10,19 +10,19 @@ use store::{InOrigin, Origin, Result};
 /// Tables of a seam file that no proposal has.
 const OWN_TABLES: [&str; 3] = ["measurement", "reinforce", "fit"];
 
-/// Two texts of a seam file: as it was proposed, and what somebody has made of it.
+/// Two texts of a seam file: as it was proposed, and as a person has edited it.
 #[derive(Clone, Copy)]
 pub struct Reworked<'a> {
     /// Text of the seam file as it was proposed.
     pub proposed: &'a str,
-    /// What became of it.
+    /// Text after the edits.
     pub own: &'a str,
     /// Name of the file for messages.
     pub file: &'a str,
 }
 
 impl Reworked<'_> {
-    /// Another proposal with all that was done to this one. A seam that cannot be sewn any more is asked about.
+    /// Applies all edits of this proposal to another one. A seam that cannot be sewn any more becomes a question.
     ///
     /// # Errors
     /// When a text is no seam file.
@@ -39,12 +39,12 @@ impl Reworked<'_> {
         edits.into_iter().fold(text, |text, edit| match edited(&text, self.file, sizes, &edit) {
             Ok(after) => after,
             Err(error) if matches!(edit, Edit::Add { .. }) => asked(&text, &error),
-            // What is opened, left out or worn otherwise is so already, or is not proposed any more.
+            // Any other edit fails where it is done already, or where its seam or piece is not proposed any more.
             Err(_) => text,
         })
     }
 
-    /// A text with the tables that a person has written.
+    /// Copies the tables that a person has written into a text.
     fn with_own_tables(&self, text: String) -> Result<String> {
         let parse = |text: &str| text.parse::<DocumentMut>().origin(Origin::Pattern);
         let own = parse(self.own)?;
@@ -59,13 +59,13 @@ impl Reworked<'_> {
     }
 }
 
-/// A text that asks about a seam that does not fit any more.
+/// Adds a question about a seam that does not fit any more to a text.
 fn asked(text: &str, error: &StyleError) -> String {
     let told = error.to_string().replace(['\n', '\r'], " ");
     format!("# ASK: a seam that was sewn by hand does not fit any more: {told}\n{text}")
 }
 
-/// What was done to pieces: left out, taken in, worn otherwise.
+/// Edits of pieces: left out, taken in, or given another role.
 fn edits_of_pieces(proposed: &SeamFile, own: &SeamFile) -> Vec<Edit> {
     let is_new = |id: &&String| !proposed.piece.contains_key(*id);
     let left_out = proposed.piece.keys().filter(|id| !own.piece.contains_key(*id));
@@ -84,9 +84,9 @@ fn edits_of_pieces(proposed: &SeamFile, own: &SeamFile) -> Vec<Edit> {
     edits
 }
 
-/// What was done to seams and open edges; `known` is the file that they are done to.
+/// Edits of seams and open edges, in the names of the file `known` that they are applied to.
 fn edits_of_seams(proposed: &SeamFile, own: &SeamFile, known: &SeamFile) -> Vec<Edit> {
-    let is_same = |one: &SeamEntry, other: &SeamEntry| one.a == other.a && one.b == other.b;
+    let is_same = |seam: &SeamEntry, other: &SeamEntry| seam.a == other.a && seam.b == other.b;
     let among = |seams: &[SeamEntry], seam: &SeamEntry| seams.iter().find(|other| is_same(seam, other)).cloned();
     let ends = |seam: &SeamEntry| Some((seam.a.first()?.clone(), seam.b.first()?.clone()));
     let removed = proposed.seam.iter().filter(|seam| among(&own.seam, seam).is_none());
@@ -112,7 +112,7 @@ fn edits_of_seams(proposed: &SeamFile, own: &SeamFile, known: &SeamFile) -> Vec<
     edits
 }
 
-/// An edge of a file as another one knows it: by its name, or by its corners where it has none there.
+/// Name of an edge of a file in another file; its corners where it has no name there.
 fn called(own: &SeamFile, other: &SeamFile, edge: &str) -> String {
     let Some((piece, name)) = edge.split_once('.') else { return edge.to_owned() };
     let in_file = |file: &SeamFile| file.piece.get(piece).and_then(|entry| entry.edges.get(name)).copied();

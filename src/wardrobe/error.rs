@@ -1,0 +1,130 @@
+//! Refusals of patterns, seam files and tables of bodies.
+
+use std::path::PathBuf;
+
+use store::{Origin, StudyError};
+
+/// Reason why a pattern, a seam file or a folder of bodies is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WardrobeError {
+    /// No garment or no body that can be used.
+    #[error("nothing to dress: {reasons}")]
+    NothingToDress {
+        /// Files that were refused, each with its reason.
+        reasons: String,
+    },
+    /// A folder without bodies.
+    #[error("{}: found no body; accepted: files ending in {accepted}", folder.display())]
+    NoBody {
+        /// The folder.
+        folder: PathBuf,
+        /// Endings that are accepted.
+        accepted: String,
+    },
+    /// A table of the reference bodies that cannot be used.
+    #[error("{}: {problem}; accepted: CSV tables manifest.csv and measurements.csv with a column id", path.display())]
+    Table {
+        /// The table.
+        path: PathBuf,
+        /// Its problem.
+        problem: TableProblem,
+    },
+    /// A pattern without points of measure.
+    #[error("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display())]
+    NoPoint {
+        /// The pattern.
+        pattern: PathBuf,
+    },
+    /// A pattern that is to become GarmentCode JSON, without seams.
+    #[error("{pattern}: GarmentCode JSON holds seams: name a seam file (--seams FILE)")]
+    NoSeams {
+        /// Name of the pattern.
+        pattern: String,
+    },
+    /// An edit of a pattern that holds its own seams.
+    #[error("{pattern}: holds its own seams; they are edited where it was drawn")]
+    HoldsSeams {
+        /// Name of the pattern.
+        pattern: String,
+    },
+    /// An edit of a pattern without a seam file.
+    #[error("{pattern}: has no seam file yet; propose one")]
+    NoSeamFile {
+        /// Name of the pattern.
+        pattern: String,
+    },
+    /// A seam that is not in the seam file.
+    #[error("{file}: there is no seam `{seam}`")]
+    NoSeam {
+        /// Name of the seam file.
+        file: String,
+        /// Name of the seam.
+        seam: String,
+    },
+    /// A seam file without a proposed seam that is sure.
+    #[error("{file}: no proposed seam is {percent:.0} % sure")]
+    NoneSure {
+        /// Name of the seam file.
+        file: String,
+        /// Confidence from which a seam is sure, %.
+        percent: f64,
+    },
+    /// A finding of a check, which no answer settles.
+    #[error("{question}: the check finds it, nobody asks it; sew the edge, or name it in `open` of the seam file")]
+    NotAsked {
+        /// The finding.
+        question: String,
+    },
+    /// An answer to nothing that is asked.
+    #[error("{question}: answer {letter}: accepted: {accepted}")]
+    Answer {
+        /// The question.
+        question: String,
+        /// Letter of the choice.
+        letter: char,
+        /// Questions with their choices.
+        accepted: String,
+    },
+    /// A pattern for which no seams can be proposed.
+    #[error("{pattern}: no piece was recognised; give its seam file")]
+    NotRecognised {
+        /// Name of the pattern.
+        pattern: String,
+    },
+}
+
+/// Problem of a table of the reference bodies.
+#[derive(Debug, thiserror::Error)]
+pub enum TableProblem {
+    /// It cannot be read.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// A line is not UTF-8.
+    #[error("line {0} is no UTF-8")]
+    Encoding(usize),
+    /// It has no column of identifiers.
+    #[error("it has no column id")]
+    NoId,
+    /// A line has more cells than the table has columns.
+    #[error("line {line} has {cells} cells for {columns} columns")]
+    Cells {
+        /// The line, from 1.
+        line: usize,
+        /// Its cells.
+        cells: usize,
+        /// Columns of the table.
+        columns: usize,
+    },
+}
+
+impl From<WardrobeError> for StudyError {
+    fn from(error: WardrobeError) -> Self {
+        let origin = match error {
+            WardrobeError::NothingToDress { .. } => Origin::Audit,
+            WardrobeError::NoBody { .. } | WardrobeError::Table { .. } => Origin::Body,
+            _ => Origin::Pattern,
+        };
+        Self::refused(origin, error)
+    }
+}
