@@ -1,6 +1,6 @@
-//! A population as a few representative bodies (the thesis's proposal, 7.1): people drawn from a published survey, grouped
-//! by what clothes depend on, and of each group the one in its middle. A new subject is then answered for by the nearest
-//! representative, whose results are there already.
+//! A population as a few representative bodies (the thesis's proposal, 7.1). People are drawn from a published survey
+//! and grouped by the dimensions that clothes depend on, and the middle person of each group represents it. For a new
+//! subject the nearest representative answers, whose results are there already.
 
 use std::fmt::Write;
 
@@ -22,15 +22,15 @@ pub(crate) const DIMENSIONS: [Dimension; 7] = [
     Dimension::NeckGirth,
     Dimension::AcrossShoulder,
 ];
-/// Scores beyond which nobody is drawn: one of 16,000.
+/// Greatest magnitude of a score: one person of 16,000 is beyond it.
 const EXTREME: f64 = 4.0;
-/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
-/// comparisons as people times representatives, again and again.
+/// Greatest number of representatives for which people are grouped. Beyond it everybody who is drawn represents
+/// himself, since grouping takes as many comparisons as people times representatives, in every round.
 const GROUPED: usize = 500;
-/// Most rounds of grouping.
+/// Greatest number of rounds of grouping.
 const ROUNDS: usize = 200;
 
-/// Somebody who stands for a group of a population.
+/// A person who represents a group of a population.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Representative {
     /// Measurements, to the millimetre and the tenth of a kilogram.
@@ -39,18 +39,18 @@ pub struct Representative {
     pub share: f64,
 }
 
-/// What people are drawn and how they are grouped.
+/// Numbers of people and representatives of a population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PopulationOptions {
-    /// Representatives of each sex.
+    /// Number of representatives of each sex.
     pub bodies: usize,
-    /// People drawn of each sex.
+    /// Number of people drawn of each sex.
     pub people: usize,
     /// Seed of the draw.
     pub seed: u64,
 }
 
-/// The representative of a study that is most like somebody.
+/// The representative of a study that is nearest to a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// Name in the study.
@@ -63,13 +63,13 @@ pub struct Nearest {
     pub jobs: Vec<JobId>,
 }
 
-/// People of a sex, as frequent as in the survey.
+/// Draws people of a sex, as frequent as in the survey.
 #[must_use]
 pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
     (0..count).map(|_| draw(sex, random)).collect()
 }
 
-/// The representatives of a sex, the most frequent first.
+/// Returns the representatives of a sex, the most frequent first.
 #[must_use]
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
@@ -92,7 +92,7 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
     found
 }
 
-/// `[[subject]]` tables of representatives.
+/// Writes `[[subject]]` tables of representatives.
 #[must_use]
 pub fn subjects_text(representatives: &[Representative]) -> String {
     let mut text = String::new();
@@ -111,7 +111,7 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
     text
 }
 
-/// The subject of a study most like somebody, among those of the same sex.
+/// Returns the subject of a study that is nearest to a person, among those of the same sex.
 ///
 /// # Errors
 /// When a value is wrong, there is no such study, or it has nobody of that sex.
@@ -170,7 +170,7 @@ fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64,
     Some((mean.sqrt(), (dimension, values.0, values.1)))
 }
 
-/// Somebody within the range of the survey.
+/// Draws a person within the range of the survey.
 fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     loop {
         let scores = DIMENSIONS.map(|dimension| (dimension, random.normal()));
@@ -185,7 +185,7 @@ fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     }
 }
 
-/// To what a tape reads.
+/// Rounds measurements to the resolution of a tape and of scales.
 fn rounded(person: &Measurements) -> Measurements {
     let mut rounded = person.clone();
     for (dimension, value) in person.known() {
@@ -207,8 +207,8 @@ fn off(a: &Point, b: &Point) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 
-/// Groups points around as many middles (k-means [Lloyd 1982], begun as [Arthur and Vassilvitskii 2007] say); of each
-/// group the point nearest its mean, and how many it has.
+/// Groups points by k-means [Lloyd 1982], begun as in [Arthur and Vassilvitskii 2007]. Returns of each group the point
+/// nearest its mean, and the number of its points.
 fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
     let mut middles = seeds(points, count, random);
     let mut of = vec![usize::MAX; points.len()];
@@ -240,7 +240,7 @@ fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize
     found
 }
 
-/// First middles: each point the likelier the farther it is from those before.
+/// First middles: each point is chosen the likelier, the farther it is from those before.
 fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
     let mut middles: Vec<Point> = points.first().copied().into_iter().collect();
     let mut far: Vec<f64> = points.iter().map(|point| middles.first().map_or(0.0, |first| off(point, first))).collect();

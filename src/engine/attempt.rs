@@ -31,21 +31,21 @@ use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::{self, Question};
 
-/// Least shortfall that is told as a problem, mm.
+/// Least shortfall of a girth that counts as a problem, mm.
 const SHORTFALL_MM: f64 = 5.0;
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
-/// What is to be tried on.
+/// A trial: one or more garments on one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// A mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
+    /// File of the body: a mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
     pub body: PathBuf,
     /// Unit of the mesh, where it cannot be told from its height.
     pub body_unit: Option<LengthUnit>,
     /// Sex of the body, where known.
     pub sex: Option<Sex>,
-    /// What is worn, the inner first.
+    /// Garments that are worn, the inner first.
     pub layers: Vec<AttemptLayer>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
@@ -57,20 +57,21 @@ pub struct Attempt {
     pub simulator: Simulator,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
-    /// Simulations by FEM-GS: the first as placed, each other from a start that differs a little.
+    /// Number of simulations by FEM-GS. The first starts as the pieces are placed, each other one a little beside
+    /// that.
     pub repeat: u32,
-    /// Pose in which the body is dressed; as it stands where there is none.
+    /// Pose in which the body is dressed. Without one it is dressed as it stands.
     pub pose: Option<Pose>,
-    /// Pose into which FEM-GS carries the drape of a single garment from there.
+    /// Pose into which FEM-GS then carries the drape of a single garment.
     pub reach: Option<Pose>,
 }
 
-/// A garment to be tried on.
+/// A garment of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttemptLayer {
-    /// DXF file, a folder of them, or a GarmentCode specification.
+    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification.
     pub pattern: PathBuf,
-    /// Its seam file; without one a DXF pattern is sewn as proposed.
+    /// Seam file of the pattern. Without one a DXF pattern is sewn as proposed.
     pub seams: Option<PathBuf>,
     /// Size, where the pattern has several.
     pub size: Option<String>,
@@ -91,7 +92,7 @@ pub struct TriedChi {
     pub l2d_mm: f64,
     pub l3d_mm: f64,
     pub chi: f64,
-    /// Greatest less least chi over the repeated simulations.
+    /// Range (greatest less least) of chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread: Option<f64>,
 }
@@ -106,7 +107,7 @@ pub struct TriedEase {
     pub ease_mm: f64,
 }
 
-/// What the garment of a trial lacks at one level, with the columns of `v_gap`.
+/// Girths of garment and body of a trial at one level, with the columns of `v_gap`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedGap {
@@ -117,7 +118,7 @@ pub struct TriedGap {
     pub shortfall_mm: f64,
 }
 
-/// How far a try is from its pattern, over all measurements: `v_metrics`.
+/// Summary of chi over all measurements of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedErrors {
@@ -128,7 +129,7 @@ pub struct TriedErrors {
     pub max_abs_error: f64,
 }
 
-/// The draped cloth of a try: `v_metrics`.
+/// State of the draped cloth of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedCloth {
@@ -140,11 +141,11 @@ pub struct TriedCloth {
     pub penetration_max_mm: f64,
     pub seam_gap_max_mm: f64,
     pub self_crossings: usize,
-    /// FEM: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
 }
 
-/// What came of a trial, with the columns of `v_metrics`.
+/// Result of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct Tried {
@@ -158,30 +159,30 @@ pub struct Tried {
     #[serde(flatten)]
     pub cloth: TriedCloth,
     pub wall_ms: u64,
-    /// Greatest spread of a chi over the repeated simulations.
+    /// Greatest range of a chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread_max: Option<f64>,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
     /// Hybrid-GS: girths of garment and body; empty for the other simulator.
     pub gap: Vec<TriedGap>,
-    /// What changes in the pose that is reached.
+    /// Changes in the pose that is reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reached>,
-    /// What is wrong with the drape; empty where it is good.
+    /// Faults of the drape; empty where it is good.
     pub problems: Vec<String>,
-    /// What had to be guessed about the inputs.
+    /// Guesses that were made about the inputs.
     pub notes: Vec<String>,
-    /// Picture and meshes by file name.
+    /// Pictures and meshes by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Dresses a body in a garment, or in several over each other; `progress` hears the phase and the share done. Returns what came of each,
-/// the inner first; the files are with the last.
+/// Dresses a body in one garment, or in several over each other. `progress` is told the phase and the share that is
+/// done. Returns the result of each garment, the inner first; the files come with the last.
 ///
 /// # Errors
-/// When an input cannot be used: the message says what would be. A drape that is not good is no error.
+/// When an input cannot be used: the message says which would be accepted. A drape with faults is no error.
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
     check(asked)?;
@@ -230,7 +231,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     Ok(all)
 }
 
-/// What cannot be asked for.
+/// Refuses options that do not go together.
 fn check(asked: &Attempt) -> Result<()> {
     if asked.repeat > 1 && asked.simulator != Simulator::Fem {
         return Err(StudyError::refused(
@@ -250,7 +251,7 @@ fn check(asked: &Attempt) -> Result<()> {
     Ok(())
 }
 
-/// A garment as it is asked for, and what had to be guessed about it.
+/// Reads a garment as it is asked for, with notes on the guesses that were made about it.
 fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
     let mut notes = Vec::new();
     let fabric = fabric(&layer.fabric)?;
@@ -260,7 +261,7 @@ fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
 }
 
 impl Tried {
-    /// What a simulation has measured; without the problems of its drape, notes and files.
+    /// Result of a simulation, without the faults of its drape, notes and files.
     fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
@@ -339,7 +340,7 @@ impl TriedGap {
     }
 }
 
-/// Enters how far each chi of repeated simulations lies apart, and which of them did not come to rest.
+/// Enters the range of each chi over repeated simulations, and a problem for each that did not come to rest.
 fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     let others: Vec<_> = drapes.iter().map(|drape| measure::measure(garment, &drape.positions)).collect();
     let last = tried.chi.last().map(|row| row.stage);
@@ -354,7 +355,7 @@ fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     }
 }
 
-/// Passes progress on.
+/// Monitor that passes progress on to a function.
 struct Told<'a>(&'a mut dyn FnMut(&str, f64));
 
 impl Monitor for Told<'_> {
@@ -363,7 +364,7 @@ impl Monitor for Told<'_> {
     }
 }
 
-/// A fabric of the library by its name, or of a TOML file.
+/// Returns the fabric of a name in the library, or that of a TOML file.
 ///
 /// # Errors
 /// When there is none of that name, or the file is wrong.
@@ -378,7 +379,7 @@ pub fn fabric(name: &str) -> Result<Fabric> {
     library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
 }
 
-/// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
+/// Returns the style of a layer: with its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Result<Style> {
     let size = layer.size.as_deref();
     if layer.seams.is_some() || SourceFile::read_pattern(&layer.pattern)?.holds_seams() {
@@ -408,7 +409,7 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     Ok(style)
 }
 
-/// What is wrong with a drape, and where; the numbers alone do not say.
+/// Faults of a drape with the piece in which each is worst, since the numbers alone do not tell the place.
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
     let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
@@ -423,7 +424,8 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     faults.into_iter().map(told).collect()
 }
 
-/// Four views of every stage as one picture each, and body and garments as meshes; the last stage is called `stem`.
+/// Four views of every stage as one picture each, and body and garments as meshes. Files of the last stage are called
+/// `stem`.
 fn files(
     stem: &str,
     simulator: Simulator,
@@ -461,7 +463,7 @@ fn files(
     Ok(files)
 }
 
-/// How a layer looks: the inner as its simulator's drapes do, each other in a colour of its own.
+/// Material of a layer: of the inner one as in the drapes of its simulator, of each other one in a colour of its own.
 fn material(simulator: Simulator, number: usize) -> Material {
     match (number, simulator) {
         (0, Simulator::Fem) => Material::fem(),

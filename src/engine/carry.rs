@@ -1,4 +1,4 @@
-//! A garment that a body takes along from one pose into another.
+//! A dressed body moved from one pose into another, with the garment carried along.
 
 use body::{Body, Pose};
 use pattern::Garment;
@@ -7,10 +7,11 @@ use spec::Parameters;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Carries a drape from one pose of a body into another: the body in all poses on the way, and the drape in the last.
+/// Carries a drape from one pose of a body into another. Returns the body in all poses on the way, and the drape in
+/// the last.
 ///
 /// # Errors
-/// When the body cannot stand in one of them, or what the simulator refuses.
+/// When the body cannot stand in one of the poses, or the simulator refuses.
 pub(crate) fn carry(
     upright: &Body,
     [from, to]: [Pose; 2],

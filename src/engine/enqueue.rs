@@ -1,4 +1,4 @@
-//! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
+//! Keeps the queue in line with a study: a job for every cell whose inputs are new, with the reason for each.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -14,10 +14,10 @@ use store::queue::{self, Event};
 use store::{JobId, Origin, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
-/// Why a job runs, or why it need not.
+/// Reason for which a job runs, or need not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// Nothing like it was ever queued.
+    /// No job of this cell was queued before.
     New,
     /// An input changed since the latest earlier job of the same cell.
     Changed {
@@ -35,7 +35,7 @@ pub enum Why {
 }
 
 impl Why {
-    /// Whether the job is still to be run.
+    /// True if the job is still to be run.
     #[must_use]
     pub fn will_run(&self) -> bool {
         !matches!(self, Self::UpToDate(_))
@@ -57,21 +57,21 @@ impl std::fmt::Display for Why {
     }
 }
 
-/// A job of the queue for a specification.
+/// A job of the queue with its specification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     /// Number of the job in the queue.
     pub id: JobId,
-    /// What it does.
+    /// Specification of the job.
     pub spec: JobSpec,
-    /// Why it runs, or need not.
+    /// Reason for which it runs, or need not run.
     pub why: Why,
-    /// Whether it was its cell's job before, too.
+    /// True if it was the current job of its cell before.
     pub was_current: bool,
 }
 
-/// Stores a study and queues what is to be run of its jobs; failed and cancelled ones are queued again. What the study
-/// no longer has is no longer current.
+/// Stores a study and queues those of its jobs that are to be run. Failed and cancelled ones are queued again. Cells
+/// that the study no longer has lose their current job.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let all = spec::jobs(study);
     each_size_has_its_key(&all)?;
@@ -90,7 +90,7 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
     Ok(planned)
 }
 
-/// Checks that no size would be given the result of another.
+/// Checks that no two sizes have the same inputs, so that none is given the result of another.
 fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
     let mut size_of: BTreeMap<String, &JobSpec> = BTreeMap::new();
     for spec in specs {
@@ -109,7 +109,7 @@ fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
     Ok(())
 }
 
-/// Lets jobs that are to be run wait for those their garments come after, of the same run.
+/// Makes jobs that are to be run wait for the jobs of the same run that their garments come after.
 fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
         return Ok(());
@@ -134,12 +134,12 @@ fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     Ok(())
 }
 
-/// Where a study file lies.
+/// Canonical path of a study file.
 fn home_of(study: &Study) -> PathBuf {
     study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
 }
 
-/// The study file that the results of a study are kept for.
+/// Path of the study file that the results of a study are kept for.
 fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
     let path = connection.query_row("SELECT path FROM study WHERE name = ?", [name], |row| row.get::<_, String>(0));
     Ok(path.optional()?.map(PathBuf::from))
@@ -198,7 +198,7 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
     Ok(study_id)
 }
 
-/// Stores what ease each garment of a study is to have.
+/// Stores the target ease of each garment of a study.
 fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
     transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
     let mut statement = transaction.prepare_cached(
@@ -216,7 +216,7 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     Ok(())
 }
 
-/// Takes jobs and eases of cells that a study no longer has out of it; their results stay in the database.
+/// Takes jobs and eases of cells that a study no longer has out of the study. Their results stay in the database.
 fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
     let cells: BTreeSet<Cell> = specs.iter().map(Cell::of).collect();
     let current: Vec<(JobId, Cell)> = transaction
@@ -243,7 +243,7 @@ fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Re
     Ok(())
 }
 
-/// Garment, size, subject, simulator and repeat of a job.
+/// Cell of a study's grid: garment, size, subject, simulator and repeat.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Cell(String, String, String, Simulator, u32);
 
@@ -308,7 +308,7 @@ fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>
     Ok(())
 }
 
-/// What a job may take, as its study says now.
+/// Stores the limits of a job as its study has them now.
 fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
     let Limits { time_s, memory_mb } = spec.schedule.limits;
     let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
@@ -317,7 +317,7 @@ fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Resul
     Ok(())
 }
 
-/// Takes a job out of its cell; what has not begun need not run any more, and nobody waits for it.
+/// Takes a job out of its cell and cancels it if it has not ended; no other job waits for it any more.
 fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
     transaction.prepare_cached("DELETE FROM job_need WHERE needs = ?")?.execute([id.0])?;
     transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
@@ -363,7 +363,8 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
     Ok(id)
 }
 
-/// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+/// Returns the reason for which a job was not found in the cache: the inputs that differ from the latest earlier job
+/// of its cell.
 ///
 /// # Errors
 /// When there is no such job.

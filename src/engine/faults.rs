@@ -1,20 +1,20 @@
-//! What can be wrong with a drape, in words.
+//! Faults of a drape.
 
-/// Deepest penetration of a drape that is good, mm.
+/// Greatest penetration into the body that is no fault, mm.
 const PENETRATION_MM: f64 = 0.5;
 
-/// What can be wrong with a drape.
+/// Kind of a fault of a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// It had not come to rest.
+    /// The drape did not come to rest.
     Moves,
-    /// It lies inside the body.
+    /// The cloth lies inside the body.
     Inside,
-    /// The cloth goes through itself.
+    /// The cloth intersects itself.
     Crosses,
 }
 
-/// What is wrong with a drape, in words.
+/// Returns the faults of a drape, each in words and with its kind.
 pub fn drape_faults(converged: bool, residual: f64, penetration_mm: f64, self_crossings: i64) -> Vec<(String, Fault)> {
     let mut faults = Vec::new();
     if !converged {

@@ -1,4 +1,4 @@
-//! One garment on one body: draped, and measured.
+//! One garment on one body: draped and measured.
 
 use crate::ease;
 use crate::levels::WornOn;
@@ -15,7 +15,7 @@ use sim::{self, Distortion, Drape, Fabric, Monitor};
 use spec::Parameters;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Difference of two lengths that are one, m.
+/// Greatest difference of two lengths that count as equal, m.
 const SAME_LENGTH_M: f64 = 1e-6;
 
 /// A garment and the body that is to wear it.
@@ -40,7 +40,7 @@ impl Fitting<'_> {
     /// Drapes the garment.
     ///
     /// # Errors
-    /// What the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
+    /// When the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
     pub fn simulate(&self, monitor: &mut dyn Monitor) -> Result<Drape> {
         let Self { body, field, meshes, fabric, parameters, .. } = self;
         let drape = match self.simulator {
@@ -50,10 +50,10 @@ impl Fitting<'_> {
         drape.map_err(StudyError::sim)
     }
 
-    /// What a drape measures; no artefact is named as used.
+    /// Measures a drape. The products that it was made of are left to the caller to name.
     ///
     /// # Errors
-    /// When the garment has no measurement, or other lengths than its pattern.
+    /// When the garment has no measurement, or its mesh has other lengths than the pattern.
     pub fn outcome(&self, drape: &Drape) -> Result<Outcome> {
         let garment = self.meshes.finest()?;
         is_of(garment, self.style)?;
@@ -109,7 +109,8 @@ impl Fitting<'_> {
 }
 
 impl Fitting<'_> {
-    /// Points of measure flat and on a drape, where a length is stretched as the path that it is taken along.
+    /// Points of measure, flat and on a drape. A draped length is the flat one times the stretch of the path along
+    /// which it is taken.
     fn points(&self, garment: &Garment, drape: &Drape) -> Vec<MeasuredPoint> {
         let points = self.style.points_of_measure();
         let paths: Vec<&[PathPart]> = points.iter().map(|one| one.path.as_slice()).collect();
@@ -121,7 +122,7 @@ impl Fitting<'_> {
         points.iter().zip(self.stretches(garment, drape, &paths)).map(measured).collect()
     }
 
-    /// How long paths of the style are on a drape, over how long they are flat; `None` of what lies on no cloth.
+    /// Ratio of the draped to the flat length of paths of the style; `None` of a path that lies on no cloth.
     fn stretches(&self, garment: &Garment, drape: &Drape, paths: &[&[PathPart]]) -> Vec<Option<f64>> {
         let draped = |runs: &Vec<MaterialLine>| -> f64 {
             runs.iter().map(|run| run.length_m(&garment.rest, &drape.positions)).sum()
@@ -133,8 +134,8 @@ impl Fitting<'_> {
         paths.iter().zip(self.style.laid(garment, paths)).map(stretch).collect()
     }
 
-    /// Ease of a drape at every level that the style covers, m: as on the flat pattern, each length stretched as the path that it is
-    /// taken along.
+    /// Ease of a drape at every level that the style covers, m. The flat length at a level is multiplied by the
+    /// stretch of the path along which it is taken.
     ///
     /// # Errors
     /// When there is no mesh.
@@ -151,7 +152,7 @@ impl Fitting<'_> {
     }
 }
 
-/// Checks that a mesh measures what its pattern does: each stage may come from the cache, under a key that could be wrong.
+/// Checks that a mesh has the lengths of its pattern: it may come from the cache, under a key that is wrong.
 pub(crate) fn is_of(garment: &Garment, style: &Style) -> Result<()> {
     let fault = |what: String| {
         let text =
@@ -175,7 +176,7 @@ pub(crate) fn is_of(garment: &Garment, style: &Style) -> Result<()> {
     Ok(())
 }
 
-/// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
+/// Distortion of a garment by FEM-GS, and a warning where it is beyond the limit.
 fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
     let distortion = Distortion::of(garment, &drape.positions).origin(Origin::Sim)?;
     let limit = params.distortion_limit;
@@ -184,7 +185,7 @@ fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Res
     Ok((distortion.stretch, told))
 }
 
-/// What is to be said of a garment that would slide off.
+/// Warning for a garment that would slide off.
 fn braced(force_n: f64) -> String {
     format!(
         "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \
@@ -192,7 +193,7 @@ fn braced(force_n: f64) -> String {
     )
 }
 
-/// Reason of a drape that ended before it was at rest, where it could get no further.
+/// Warning for a drape that ended before it was at rest, because no step could lower its residual.
 fn stuck(drape: &Drape) -> Option<String> {
     drape.is_stuck.then(|| {
         format!(

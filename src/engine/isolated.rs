@@ -1,5 +1,5 @@
-//! Jobs with limits, each in a process of its own: the system keeps it to its memory, and it is ended when its time is
-//! over, whatever it is doing. Other jobs of the run do not notice.
+//! Jobs with limits, each in a process of its own. The system enforces the memory limit, and the process is killed
+//! when its time is over. Other jobs of the run do not notice.
 
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;
@@ -17,19 +17,19 @@ use sim::{Monitor, Progress};
 use spec::{JobSpec, Limits};
 use store::{Origin, Result, StudyError};
 
-/// Time between two looks at a process.
+/// Time between two checks of a process.
 const LOOK: Duration = Duration::from_millis(50);
-/// What is said where memory is not given.
+/// Messages of an allocation that failed.
 const NO_MEMORY: [&str; 3] = ["memory allocation of", "out of memory", "Cannot allocate memory"];
 
-/// The pipeline of a database; jobs with limits run apart.
+/// Executor that runs jobs with limits in processes of their own, and all others in this one.
 pub(crate) struct Isolated {
     database: PathBuf,
     pipeline: std::sync::Arc<Pipeline>,
 }
 
 impl Isolated {
-    /// Over the pipeline of a database.
+    /// Creates the executor of a database and its pipeline.
     pub fn new(database: &Path, pipeline: std::sync::Arc<Pipeline>) -> Self {
         Self { database: database.to_owned(), pipeline }
     }
@@ -52,7 +52,7 @@ impl Executor for Isolated {
     }
 }
 
-/// Starts this program on a job file. In a group of its own: what a terminal sends is for the run.
+/// Starts this program on a job file, in a process group of its own: signals of the terminal are for the run.
 fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
     let mut command = Command::new(&program);
@@ -61,8 +61,8 @@ fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     command.spawn().map_err(StudyError::io(program))
 }
 
-/// Follows a process to its end, and makes that end when its time is over or the run does not want it any more; how it
-/// ended, and what it said on standard error.
+/// Waits for a process to end, and kills it when its time is over or the run is cancelled. Returns its exit status,
+/// and its standard error.
 fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result<(ExitStatus, String)> {
     let (out, mut errors) = (child.stdout.take(), child.stderr.take());
     let latest: Mutex<Option<Progress>> = Mutex::new(None);
@@ -108,14 +108,14 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
     })
 }
 
-/// Why a process left no result.
+/// Error of a process that left no result.
 fn ended(status: ExitStatus, said: &str, limits: &Limits) -> StudyError {
     let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
     let other = || StudyError::refused(Origin::Job, format!("its process ended with {status}: {last}"));
     out_of_memory(said, limits).unwrap_or_else(other)
 }
 
-/// The error of a job with a memory limit that says in some words that it got no more.
+/// Error of a job with a memory limit whose message tells of a failed allocation.
 fn out_of_memory(said: &str, limits: &Limits) -> Option<StudyError> {
     let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
     Some(StudyError::refused(Origin::Limit, format!("needed more than its memory limit of {megabytes} MB")))

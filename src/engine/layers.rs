@@ -1,4 +1,4 @@
-//! Layers of an outfit: draped together, and each measured on what lies under it.
+//! Layers of an outfit: draped together, and each measured on the layers beneath it.
 
 use std::sync::Arc;
 
@@ -66,7 +66,7 @@ impl<'a> Wardrobe<'a> {
     /// Drapes all layers.
     ///
     /// # Errors
-    /// What the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
+    /// When the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
     pub fn dress(&self, monitor: &mut dyn Monitor) -> Result<Vec<Drape>> {
         match (self.garbs, self.simulator) {
             ([garb], _) => Ok(vec![self.fitting(self.on, garb).simulate(monitor)?]),
@@ -80,7 +80,7 @@ impl<'a> Wardrobe<'a> {
         }
     }
 
-    /// What the drape of a layer measures on what lies under it.
+    /// Measures the drape of a layer on what lies under it.
     ///
     /// # Errors
     /// When the garment has no measurement, or what lies under it bounds no solid.
@@ -96,13 +96,13 @@ impl<'a> Wardrobe<'a> {
 }
 
 impl Garb {
-    /// The garment of a layer, with its meshes.
+    /// Reads the garment of a layer, which has these meshes.
     pub fn of(spec: &JobSpec, meshes: Arc<Meshes>) -> Result<Self> {
         Ok(Self { style: style(spec)?, meshes, fabric: spec.fabric.clone() })
     }
 }
 
-/// Under what all layers of an outfit are kept.
+/// Inputs under which the drapes of an outfit are kept in the cache.
 pub(crate) fn inputs(outfit: &Outfit) -> Inputs {
     let mut inputs = Inputs::default();
     inputs.set("outfit.id", outfit.id());

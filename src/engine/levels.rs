@@ -1,4 +1,4 @@
-//! How a drape sits on its body: cross sections, balance, folds and pressure, measured and written.
+//! Assessment of a drape on its body: cross sections, balance, folds and pressure, measured and written.
 
 use rusqlite::{Transaction, params};
 use serde::{Deserialize, Serialize};
@@ -25,7 +25,7 @@ pub struct Level {
     pub level: String,
     /// Height above the floor, m.
     pub height_m: f64,
-    /// What a tape reads of trunk or limb, m.
+    /// Tape girth of trunk or limb, m.
     pub body_girth_m: f64,
     /// Length of the cloth's outlines, m.
     pub cloth_length_m: f64,
@@ -52,31 +52,31 @@ impl Level {
     }
 }
 
-/// What presses on a region of the body.
+/// Pressure on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pressing {
     /// Name of the region, such as `lower_legs`.
     pub region: String,
-    /// Area that is pressed, m2.
+    /// Area under pressure, m2.
     pub area_m2: f64,
     /// Mean over that area, kPa.
     pub mean_kpa: f64,
-    /// What 1 % of it exceeds, kPa.
+    /// Pressure that 1 % of the area exceeds, kPa.
     pub most_kpa: f64,
 }
 
-/// How a drape sits on its body.
+/// Assessment of a drape on its body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WornOn {
     /// Cross sections at the levels that the garment covers.
     pub levels: Vec<Level>,
-    /// Balance of hem, waist edge and side seams.
+    /// Balance: heights of hem and waist edge, lean of the side seams.
     pub hang: Hang,
     /// Folds, the longest first.
     pub folds: Vec<Fold>,
-    /// Pressure by region; of FEM-GS, which alone brings cloth and body into balance.
+    /// Pressure by region, of FEM-GS only: it alone brings cloth and body into equilibrium.
     pub pressing: Vec<Pressing>,
-    /// How far openings were drawn; of a drape that was carried into another pose.
+    /// Displacement of openings, of a drape that was carried into another pose.
     #[serde(default)]
     pub drawn: Vec<Drawn>,
 }
@@ -120,7 +120,7 @@ impl WornOn {
     }
 }
 
-/// The balance of a drape.
+/// Balance of a drape.
 pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let lines = style.hang_lines();
     let paths: Vec<&[PathPart]> =
@@ -132,7 +132,7 @@ pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     worn::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
 }
 
-/// Writes how a drape sits.
+/// Writes the assessment of a drape.
 pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> Result<()> {
     let mut section = transaction.prepare_cached("INSERT INTO section VALUES (?, ?, ?, ?, ?, ?, ?)")?;
     let mut gap = transaction.prepare_cached("INSERT INTO section_gap VALUES (?, ?, ?, ?)")?;
@@ -178,7 +178,7 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> 
     Ok(())
 }
 
-/// The numbers of a balance with their units: heights above the floor, differences, angles.
+/// Quantities of a balance with their units: heights above the floor, differences of heights, angles.
 pub fn quantities(hang: &Hang) -> Vec<(String, f64, &'static str)> {
     let mut found = Vec::new();
     for (edge, sides) in [("hem", hang.hem), ("waist", hang.waist)] {

@@ -1,4 +1,5 @@
-//! The pipeline in earnest: body, distance field, garment meshes, simulation and measuring, each stage through the cache.
+//! The pipeline of a job: body, distance field, garment meshes, simulation and measuring, each stage through the
+//! cache.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,13 +22,13 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Stages whose products are kept in a database.
+    /// Creates stages whose products are kept in a database.
     #[must_use]
     pub fn new(database: &Path) -> Self {
         Self::over(Cache::new(database.to_owned()))
     }
 
-    /// Stages over a cache.
+    /// Creates stages over a cache.
     pub fn over(cache: Cache) -> Self {
         Self { cache }
     }
@@ -47,7 +48,7 @@ impl Pipeline {
         self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
     }
 
-    /// The drape of a garment that is worn alone.
+    /// Drape of a garment that is worn alone.
     fn drape(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<(Arc<Drape>, Used)> {
         let hash = spec.inputs.stage_hash(StageKind::Drape);
         self.cache.get(StageKind::Drape, &hash, || match &spec.dressed {
@@ -68,7 +69,7 @@ impl Pipeline {
         })
     }
 
-    /// A garment that is put on as `before` says, and carried into the pose of `spec`.
+    /// Drape of a garment that is put on as `before` says and carried into the pose of `spec`.
     fn carried(&self, spec: &JobSpec, before: &JobSpec, monitor: &mut dyn Monitor) -> Result<Drape> {
         let (drape, _) = self.drape(before, monitor)?;
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
@@ -78,7 +79,8 @@ impl Pipeline {
             .map(|(_, drape)| drape)
     }
 
-    /// A layer of an outfit. The first of its layers drapes them all, for the others too.
+    /// Outcome of a layer of an outfit. The first layer that is asked for drapes them all, and the others find the
+    /// drapes in the cache.
     fn layer(&self, spec: &JobSpec, outfit: &Outfit, monitor: &mut dyn Monitor) -> Result<Outcome> {
         let (model, used_body) = self.model(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
@@ -96,10 +98,11 @@ impl Pipeline {
         Ok(Outcome { used, ..wardrobe.outcome(outfit.layer, &all.0)? })
     }
 
-    /// The body of a subject, for its ease: a scan through the cache; one that is measured is built sooner than it is read.
+    /// Body of a subject, for its ease. A scan comes through the cache; a body of measurements is built faster than it
+    /// is read.
     ///
     /// # Errors
-    /// Those of the body.
+    /// When the body cannot be built.
     pub(crate) fn worn_body(&self, subject: &Subject) -> Result<Arc<Model>> {
         let Subject { id, person, .. } = subject;
         let make = || Ok(Model { body: person.body()? });

@@ -1,4 +1,4 @@
-//! What a movement does to a garment: it is carried from the pose that it was draped in to another, and measured in both.
+//! Effect of a movement on a garment: the drape is carried from its own pose into another, and measured in both.
 
 use serde::Serialize;
 
@@ -14,10 +14,10 @@ use sim::{Drape, Fabric, Monitor};
 use spec::Parameters;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Share of a piece that its greatest tension leaves out: single vertices say little.
+/// Share of the vertices of a piece that its greatest tension leaves out, since single vertices say little.
 const LEFT_OUT: f64 = 0.01;
 
-/// How far an opening was drawn into the garment.
+/// Displacement of an opening into the garment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns say it: a mean and a greatest value along the opening")]
 pub struct ReachedOpening {
@@ -26,7 +26,7 @@ pub struct ReachedOpening {
     pub drawn_most_mm: f64,
 }
 
-/// A quantity before and after the movement, at a piece of the garment or a region of the body.
+/// A quantity before and after the movement, of a piece of the garment or of a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns say it: a place, and the quantity there in both poses")]
 pub struct ReachedAt {
@@ -38,7 +38,7 @@ pub struct ReachedAt {
 /// A garment in the pose that was reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// That pose.
+    /// Name of that pose.
     pub pose: String,
     /// Hem, cuffs, neckline and other closed free edges.
     pub opening: Vec<ReachedOpening>,
@@ -52,11 +52,11 @@ pub struct Reached {
     pub penetration_max_mm: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// What is wrong with the drape; empty where it is good.
+    /// Faults of the drape; empty where it is good.
     pub problems: Vec<String>,
 }
 
-/// What changes as a body moves from one pose into another with a garment on; the body and the drape there.
+/// Carries a drape into another pose of its body, and measures both.
 ///
 /// # Errors
 /// As [`carry`].
@@ -92,7 +92,7 @@ pub(crate) fn reached(
     Ok((reached, last.clone(), after))
 }
 
-/// What a drape does to cloth and body, by place.
+/// Loads of a drape on cloth and body, by place.
 struct Loads {
     tension_n_m: Vec<(String, f64)>,
     pressure_kpa: Vec<(String, f64)>,
@@ -114,7 +114,7 @@ fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> 
     })
 }
 
-/// The same quantity before and after, by place; what is at neither place counts as 0 there.
+/// Pairs a quantity before and after by place. At a place that one of them lacks it counts as 0.
 fn paired(before: Vec<(String, f64)>, after: &[(String, f64)]) -> Vec<ReachedAt> {
     let at = |values: &[(String, f64)], place: &str| {
         values.iter().find(|(of, _)| of == place).map_or(0.0, |(_, value)| *value)

@@ -1,7 +1,7 @@
-//! A study on a Slurm cluster: its jobs as arrays of tasks, their results merged as they come.
+//! A study on a Slurm cluster: its jobs as job arrays, whose results are merged as they come.
 //!
-//! Everything that must outlive this program lies in one folder that all nodes see: job files, result files, and the
-//! numbers of the arrays that were submitted. Started again, a run takes up what is there.
+//! All state that must outlive this program lies in one folder that all nodes see: job files, result files, and the
+//! numbers of the arrays that were submitted. A run that is started again continues from there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,19 +14,19 @@ use crate::job_files::result_of;
 use spec::{Selection, Study};
 use store::{JobId, Origin, Result, Store, StudyError};
 
-/// Tasks of one array: Slurm's own limit is 1001 where nobody raised it.
+/// Tasks of one array. Slurm's default limit is 1001.
 const ARRAY: usize = 1000;
 /// Times a task is submitted before it is given up.
 const TRIES: u32 = 3;
 /// File with the numbers of the arrays that were submitted.
 const SUBMITTED: &str = "submitted";
 
-/// How long a cluster may keep silent before a run gives up waiting: its controller is restarted in less.
+/// Time for which a cluster may keep silent before a run gives up: a controller restarts in less.
 const SILENCE: Duration = Duration::from_secs(600);
-/// What Slurm says of jobs that ended long ago.
+/// Slurm's message on jobs that ended long ago.
 const FORGOTTEN: &str = "Invalid job id";
 
-/// States of a task that Slurm still works on.
+/// States of a task that has not ended.
 const ACTIVE: [&str; 9] = [
     "PENDING",
     "RUNNING",
@@ -39,12 +39,12 @@ const ACTIVE: [&str; 9] = [
     "STAGE_OUT",
 ];
 
-/// How a study is handed to Slurm.
+/// Options of a study on Slurm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlurmOptions {
     /// Folder that all nodes see.
     pub folder: PathBuf,
-    /// Tasks at once; as many as Slurm likes where nothing is said.
+    /// Greatest number of tasks at once; without one Slurm decides.
     pub tasks: Option<usize>,
     /// More options of `sbatch`: `--time=10`, `--mem=2G`, `--partition=short`.
     pub sbatch: Vec<String>,
@@ -60,33 +60,33 @@ pub struct SlurmRun {
     open: BTreeMap<JobId, (PathBuf, u32)>,
     /// Arrays that were submitted.
     arrays: Vec<String>,
-    /// Since when Slurm has not said what it does with them.
+    /// Time since which Slurm does not answer about the arrays.
     silent_since: Option<Instant>,
 }
 
-/// What Slurm does with the arrays.
+/// State of the arrays at Slurm.
 #[derive(Debug, PartialEq, Eq)]
 enum Activity {
-    /// It works on one of them.
+    /// Slurm works on at least one of them.
     Active,
-    /// It works on none.
+    /// All have ended.
     Ended,
-    /// It does not say, and why.
+    /// Slurm does not answer, with the reason.
     Unknown(String),
 }
 
 impl Activity {
-    /// Of states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
+    /// Reads states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
     fn of(states: &str) -> Self {
         let is_active = |line: &str| line.split_whitespace().next().is_some_and(|state| ACTIVE.contains(&state));
         if states.lines().any(is_active) { Self::Active } else { Self::Ended }
     }
 }
 
-/// Hands the jobs of a study to Slurm; [`SlurmRun::step`] does the rest.
+/// Hands the jobs of a study to Slurm, by files. [`SlurmRun::step`] submits them.
 ///
 /// # Errors
-/// Those of [`handout::hand_out`].
+/// As [`handout::hand_out`].
 pub fn start_slurm(
     store: &mut Store,
     study: &Study,
@@ -111,8 +111,8 @@ pub fn start_slurm(
 }
 
 impl SlurmRun {
-    /// Takes results back, and submits what has none and is with nobody; whether all jobs have ended. To be called every
-    /// second or so.
+    /// Merges results, and submits jobs that have none and that Slurm does not work on. Returns true once all jobs
+    /// have ended. To be called about once a second.
     ///
     /// # Errors
     /// When Slurm cannot be asked, or a job was given up.
@@ -132,7 +132,7 @@ impl SlurmRun {
         Ok(false)
     }
 
-    /// Goes on waiting while Slurm does not say what it does, for some time.
+    /// Goes on waiting while Slurm does not answer, up to [`SILENCE`].
     fn wait_for_an_answer(&mut self, why: &str) -> Result<()> {
         let since = self.silent_since.get_or_insert_with(Instant::now);
         if since.elapsed() < SILENCE {
@@ -148,7 +148,7 @@ impl SlurmRun {
         ))
     }
 
-    /// Takes the arrays out of Slurm.
+    /// Cancels the arrays at Slurm.
     ///
     /// # Errors
     /// When Slurm cannot be asked.
@@ -159,7 +159,7 @@ impl SlurmRun {
         self.forget()
     }
 
-    /// The numbers of the arrays that were submitted.
+    /// Numbers of the arrays that were submitted.
     #[must_use]
     pub fn arrays(&self) -> &[String] {
         &self.arrays
@@ -182,8 +182,8 @@ impl SlurmRun {
         Ok(())
     }
 
-    /// What Slurm does with the arrays: asked of the queue, else of the accounts, else of each array. A queue that does not answer says
-    /// nothing of them: to submit them again would run them twice.
+    /// State of the arrays: asked of the queue, else of the accounting, else of each array. A queue that does not
+    /// answer tells nothing of them, and to submit them again would run them twice.
     fn activity(&self) -> Activity {
         if self.arrays.is_empty() {
             return Activity::Ended;
@@ -254,7 +254,7 @@ impl SlurmRun {
     }
 }
 
-/// What Slurm says of the last task of an array: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
+/// State of the last task of an array as Slurm tells it: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
 fn last_words(array: &str) -> String {
     let text = slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None);
     let text = text.unwrap_or_default();
@@ -293,7 +293,7 @@ fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Re
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// A path as one word of a shell.
+/// A path quoted as one word of a shell.
 fn quoted(path: &Path) -> String {
     format!("'{}'", path.to_string_lossy().replace('\'', "'\\''"))
 }

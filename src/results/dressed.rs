@@ -1,4 +1,4 @@
-//! How the jobs of a study ended: without a fault, with which, or why not at all.
+//! Results of the jobs of a study: a good drape, one with faults, or none.
 
 use rusqlite::Row;
 use serde::Serialize;
@@ -8,28 +8,29 @@ use fit::Simulator;
 use pattern::size_order;
 use store::{Result, Status, Store};
 
-/// How one job of a study ended.
+/// Result of one job of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Size of it.
+    /// Name of the size.
     pub size: String,
-    /// Who wears it.
+    /// Name of the subject.
     pub subject: String,
     /// `fem` or `hybrid`.
     pub simulator: String,
     /// State of its job.
     pub status: Status,
-    /// What is wrong with its drape; empty where it is good.
+    /// Faults of its drape; empty where it is good.
     pub faults: Vec<String>,
-    /// Why there is no drape.
+    /// Reason for which there is no drape.
     pub refused: Option<String>,
     /// Error indicator, where there is a drape.
     pub ei: Option<f64>,
     /// Vertices of its mesh.
     pub vertices: Option<i64>,
-    /// How deep it lies inside the body, mm. By Hybrid-GS that is no fault: what is too small lies inside by design.
+    /// Deepest penetration into the body, mm. By Hybrid-GS that is no fault: a garment that is too small lies inside
+    /// by design.
     pub inside_mm: Option<f64>,
     /// Greatest length by which a girth of the body exceeds that of the garment, mm.
     pub shortfall_mm: Option<f64>,
@@ -37,28 +38,29 @@ pub struct Dressed {
     pub wall_ms: Option<i64>,
 }
 
-/// How the jobs of one simulator ended.
+/// Results of the jobs of one simulator, counted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tally {
     /// `fem` or `hybrid`.
     pub simulator: String,
-    /// All jobs that ended.
+    /// Number of jobs that ended.
     pub ended: usize,
-    /// Drapes without a fault.
+    /// Number of drapes without a fault.
     pub good: usize,
-    /// Drapes with one.
+    /// Number of drapes with a fault.
     pub faulty: usize,
-    /// Jobs without a drape.
+    /// Number of jobs without a drape.
     pub refused: usize,
     /// Mean EI of all drapes.
     pub mean_ei: Option<f64>,
     /// Median time of a job, s.
     pub median_s: Option<f64>,
-    /// Time of the slowest, s.
+    /// Time of the slowest job, s.
     pub slowest_s: Option<f64>,
 }
 
-/// How the current jobs of a study ended, garments and subjects by name, sizes from the smallest.
+/// Returns the results of the current jobs of a study, by garment and subject in order of their names, sizes from the
+/// smallest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -104,7 +106,7 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
     })
 }
 
-/// Sums up by simulator.
+/// Counts results by simulator.
 #[must_use]
 pub fn tally(all: &[Dressed]) -> Vec<Tally> {
     let mut simulators: Vec<&str> = all.iter().map(|one| one.simulator.as_str()).collect();

@@ -1,4 +1,4 @@
-//! The laboratory: mechanics beside what is known of them.
+//! The laboratory: experiments on cloth with known answers.
 
 use sim::laboratory::bench::{Experiment, Finding};
 use store::{InOrigin, Origin, Result};

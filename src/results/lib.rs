@@ -1,4 +1,4 @@
-//! Results, and what is asked of them: pictures, sections, fit cards, records, audits, recommendations, reports.
+//! Queries on results: pictures, sections, fit cards, records, audits, recommendations, reports.
 
 pub mod audit;
 pub mod doctor;

@@ -1,4 +1,4 @@
-//! Where a changed pattern is tried on: draped by FEM-GS, read off, and how all that is read answers to the handles.
+//! The drape of a changed pattern by FEM-GS: its readings, and their sensitivity to the handles.
 
 use std::collections::BTreeMap;
 
@@ -20,16 +20,17 @@ use spec::JobSpec;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result};
 
-/// By how much a handle is moved to see how a drape answers, m: the mesh is taken along, and no longer made anew.
+/// Movement of a handle by which the response of a drape is found, m. It is so small that the mesh can follow without
+/// being made anew.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
 
-/// Seeds of the starts by which scatter is told.
+/// Seeds of the starts from which scatter is estimated.
 const STARTS: [u64; 4] = [0, 1, 2, 3];
 /// Least scatter that is believed of a few starts, mm and degrees, and kPa.
 const LEAST_SCATTER: f64 = 1.0;
 const LEAST_SCATTER_KPA: f64 = 0.02;
 
-/// A body that tries on.
+/// A body with its distance field, on which styles are draped.
 pub struct FittingRoom<'a> {
     spec: &'a JobSpec,
     body: &'a Body,
@@ -37,7 +38,7 @@ pub struct FittingRoom<'a> {
 }
 
 impl<'a> FittingRoom<'a> {
-    /// Of a job's body and cloth.
+    /// Prepares the body of a job.
     ///
     /// # Errors
     /// When the body bounds no solid.
@@ -46,10 +47,10 @@ impl<'a> FittingRoom<'a> {
         Ok(Self { spec, body, field })
     }
 
-    /// Drapes a style as its study does: what it measures, and the ease of the drape at every level, m.
+    /// Drapes a style as its study does. Returns its outcome, and the ease of the drape at every level.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
         let Draped { meshes, drape, outcome } = self.draped(style)?;
         Ok((outcome, self.fitting(style, &meshes).eases_on(&drape)?))
@@ -66,7 +67,7 @@ impl<'a> FittingRoom<'a> {
     /// Drapes a style as its study does, and reads the drape.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
         let Draped { meshes, drape, outcome } = self.draped(style)?;
         let garment = meshes.finest()?;
@@ -83,11 +84,11 @@ impl<'a> FittingRoom<'a> {
         Ok((redraped, place.readings(garment, &drape.positions)?))
     }
 
-    /// How far readings differ between coarse drapes from starts that differ a little, root mean square, in their units: a drape comes to rest
-    /// in one of many ways that are nearly alike.
+    /// Scatter of readings between coarse drapes from starts that differ a little: standard deviations, in the units
+    /// of the readings. A drape comes to rest in one of many ways that are nearly alike.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn scatter(&self, style: &Style) -> Result<Readings> {
         let meshes = self.coarse(style)?;
         let garment = meshes.finest()?;
@@ -109,7 +110,7 @@ impl<'a> FittingRoom<'a> {
         Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(of).collect()))
     }
 
-    /// Meshes of a style up to the one before the last.
+    /// Meshes of a style up to the last but one.
     fn coarse(&self, style: &Style) -> Result<Meshes> {
         let mut meshes = Meshes::of(style, self.spec.edge_length_m)?;
         if meshes.0.len() > 1 {
@@ -118,11 +119,11 @@ impl<'a> FittingRoom<'a> {
         Ok(meshes)
     }
 
-    /// What each handle changes of all that is read off a drape, per metre. It is of a coarser drape than that of the
-    /// study, as it would slide if nothing held it, since that is how a new drape finds its place.
+    /// Sensitivity of all readings of a drape to each handle, per metre. The drape is coarser than that of the study.
+    /// It is taken as sliding without friction, since a new drape finds its place in that way.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn answers(&self, style: &Style, handles: &[Handle]) -> Result<Answers> {
         let meshes = self.coarse(style)?;
         let drape = self.fitting(style, &meshes).simulate(&mut Silent)?;
@@ -168,22 +169,22 @@ impl<'a> FittingRoom<'a> {
     }
 }
 
-/// A style, draped.
+/// A style that was draped.
 struct Draped {
     meshes: Meshes,
     drape: Drape,
     outcome: Outcome,
 }
 
-/// How a drape answers.
+/// Linear response of a drape to the handles.
 pub struct Answers {
-    /// What each handle changes of each reading, in its unit per metre.
+    /// Sensitivity of the readings to each handle, in their units per metre.
     pub of_handles: Vec<Sensitivity>,
-    /// Whether every displacement of the drape costs energy.
+    /// True if the drape is a stable equilibrium: every displacement costs energy.
     pub is_stable: bool,
 }
 
-/// A mesh that lies between and beyond two that a handle has changed by as much either way.
+/// Mesh at an amount of a handle, extrapolated from two meshes that differ by as much either way.
 fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     let share = by_m / (2.0 * TAKEN_ALONG_M);
     let rest: Vec<V2> =
@@ -191,7 +192,7 @@ fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     garment.with_rest(rest)
 }
 
-/// What changes between readings, per unit of what is between them.
+/// Differences of readings per unit of `between`.
 fn changes(after: &Readings, before: &Readings, between: f64) -> BTreeMap<String, f64> {
     let change =
         |(name, after): (&String, &Reading)| Some((name.clone(), (after.value - before.get(name)?.value) / between));

@@ -1,4 +1,4 @@
-//! What is read off a drape: how it hangs, the air under it, what it presses, and where its seams lie.
+//! Readings of a drape: balance, gaps, pressure, and positions of its seams.
 
 use std::collections::BTreeMap;
 
@@ -15,28 +15,29 @@ use sim::Fabric;
 use sim::sewn::Sewn;
 use store::{InOrigin, Origin, Result};
 
-/// Directions either way from front, back, right or left that count to it: a quarter in all.
+/// Number of directions either way of front, back, right or left that count to it: a quarter of all in total.
 const QUARTER: usize = DIRECTIONS / 8;
 
 /// A quantity of a drape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// In its unit.
+    /// Value in its unit.
     pub value: f64,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
 }
 
-/// Quantities of a drape by name.
+/// Readings of a drape by name.
 pub type Readings = BTreeMap<String, Reading>;
 
-/// A style on a body, with a mesh of it.
+/// A style on a body: lines of the style on a mesh, of which readings are taken.
 pub struct Place<'a> {
     body: &'a Body,
     surface: Surface,
     garment: &'a Garment,
     fabric: &'a Fabric,
-    /// Lines of its edges, of the shoulder from the neck outwards and of the inseam from the fork down, on the mesh.
+    /// Lines on the mesh: of the shoulder from the neck outwards, of the inseam from the fork down, and of the centre
+    /// front and back from the neck down.
     shoulder: Vec<MaterialLine>,
     inseam: Vec<MaterialLine>,
     necks: [Vec<MaterialLine>; 2],
@@ -60,8 +61,8 @@ impl<'a> Place<'a> {
         Ok(Self { body, surface, garment, fabric, shoulder, inseam, necks, style })
     }
 
-    /// What is read where the vertices are at `positions`; `drawn` is the mesh as it is cut now, where that is a little other than the
-    /// one of the place.
+    /// Reads a drape with vertices at `positions`. `drawn` is the mesh as it is cut, which may differ a little from
+    /// that on which the lines lie.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
@@ -102,7 +103,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Mean of the gaps that there are.
+/// Mean of the gaps that are known.
 fn mean<'g>(gaps_m: impl Iterator<Item = &'g Option<f64>>) -> Option<f64> {
     let known: Vec<f64> = gaps_m.flatten().copied().collect();
     (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)

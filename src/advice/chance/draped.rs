@@ -1,4 +1,4 @@
-//! The same draws draped: body, cloth and start drawn, and what the drapes say.
+//! Draws of one size, draped: body, cloth and start are drawn, and the drapes are measured.
 
 use std::collections::BTreeMap;
 
@@ -21,27 +21,28 @@ use spec::versions::FIELD_SPACING_M;
 use spec::{JobSpec, bodies};
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Where pieces begin before the body: from as near as they usually do to as far as the thesis had them [T 4.4.2], of the body's depth.
+/// Range of the distance at which pieces start from the body, in body depths: from the usual one to that of the thesis
+/// [T 4.4.2].
 const OFFSET_MU: [f64; 2] = [2.1, 4.1];
 
 /// Some draws of one size, draped by FEM-GS.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedChance {
-    /// How many were draped.
+    /// Number of draws that were draped.
     pub draws: usize,
-    /// How many of them came to rest.
+    /// Number of drapes that came to rest.
     pub at_rest: usize,
-    /// That every level is as meant, by the lengths that the garment has on the drape.
+    /// Probability that every level is within its target, by the lengths of the garment on the drape.
     pub fits: Share,
     /// Lower end, middle and upper end of the 80 % interval of the ease on the drape, mm, by level.
     pub ease_mm: BTreeMap<String, [f64; 3]>,
-    /// Of the hem's height in front less that behind, mm.
+    /// Hem's height in front less that behind, mm: its 80 % interval, likewise.
     pub hem_front_over_back_mm: Option<[f64; 3]>,
-    /// Of the greatest pressure, kPa.
+    /// Greatest pressure, kPa, likewise.
     pub most_kpa: Option<[f64; 3]>,
-    /// Of the cantilever's bending length along the grain line, mm.
+    /// Cantilever's bending length along the grain line, mm, likewise.
     pub bending_length_mm: [f64; 3],
-    /// Draws that could not be draped, and why.
+    /// Draws that could not be draped, with the reason.
     pub refused: Vec<String>,
 }
 
@@ -55,7 +56,7 @@ struct Drawn {
 /// Drapes draws of a size.
 ///
 /// # Errors
-/// What the pattern refuses; a draw that cannot be draped is told.
+/// When the pattern cannot be read or meshed. A draw that cannot be draped is no error.
 pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Result<DrapedChance> {
     let style = stages::style(job)?;
     let meshes = Meshes::of(&style, job.edge_length_m)?;
@@ -112,7 +113,8 @@ fn one(
     Ok(Drawn { eases_m, bending_m: fabric.bending_lengths_m()[0], outcome })
 }
 
-/// A cloth of a class: as stiff as one of the known cloths of its weight. What is one cloth stays as it is.
+/// Draws a cloth of a class, as stiff as one of the known cloths of its weight. A fabric that is one measured cloth
+/// stays as it is.
 fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     let percentile = 100.0 * draw.share();
     let is_class = fabric.known().is_some_and(|known| known.kind == Kind::Class);
@@ -123,8 +125,8 @@ fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     Fabric { bending_warp_nm, bending_weft_nm, ..fabric.clone() }
 }
 
-/// Ease at a level by the length that the garment has there on the drape, m: its flat length, stretched as the point of
-/// measure nearest to the level is. It is not a number where the garment has no such level on this body.
+/// Ease at a level by the garment's length on the drape, m: its flat length, stretched as the point of measure nearest
+/// to the level is. Not a number where the garment has no such level on this body.
 fn worn_ease_m(outcome: &Outcome, level: &str) -> f64 {
     let points: &[&str] = match level {
         "chest" | "bust" | "underbust" => &["half_chest"],

@@ -1,4 +1,5 @@
-//! Whether what is told comes true: people are planted whose bodies are known, measured with errors, and judged from the readings.
+//! Calibration of the probabilities: people of known bodies are measured with errors and judged by the readings, and
+//! the truth is counted.
 
 use std::thread;
 
@@ -21,7 +22,7 @@ use store::{Origin, Result, StudyError};
 pub struct PlantedLevel {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// People who have it.
+    /// Number of people who have it.
     pub people: usize,
     /// Share of them whose true ease lies in the 80 % interval that was told.
     pub held: Share,
@@ -29,40 +30,40 @@ pub struct PlantedLevel {
     pub width_mm: f64,
 }
 
-/// Cases whose probability was told within a range.
+/// Reliability of probabilities within a range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reliability {
-    /// Least and greatest probability that was told.
+    /// Least and greatest probability of the range.
     pub told: [f64; 2],
     /// Number of cases, each a size on a person.
     pub cases: usize,
-    /// Mean of what was told.
+    /// Mean probability.
     pub mean: f64,
-    /// Share that came true.
+    /// Share of cases that came true.
     pub came_true: Share,
 }
 
-/// What became of planted people.
+/// Calibration over simulated people of known bodies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedTally {
-    /// People, half of them women.
+    /// Number of people, half of them women.
     pub people: usize,
-    /// What was read of each.
+    /// Dimensions that were read of each.
     pub read: Vec<&'static str>,
-    /// Over all levels that have a target.
+    /// Share of true eases within the 80 % interval, over all levels that have a target.
     pub held: Share,
     /// The same by level, over the people who have it.
     pub levels: Vec<PlantedLevel>,
-    /// That a size fits, over all sizes.
+    /// Reliability of the probability that a size fits, over all sizes.
     pub fits: Vec<Reliability>,
-    /// That a size is the one to wear, over all sizes.
+    /// Reliability of the probability that a size is the one to wear, over all sizes.
     pub wear: Vec<Reliability>,
 }
 
-/// Bounds of the ranges of told probabilities.
+/// Bounds of the ranges of probabilities.
 const RANGES: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
 
-/// What was told of one person, and what is so.
+/// Probabilities and intervals for one person, with the truth.
 #[derive(Default)]
 struct Case {
     /// Level, whether it has a target, the 80 % interval told, and the true ease; mm.
@@ -72,8 +73,8 @@ struct Case {
     wear: Vec<(f64, bool)>,
 }
 
-/// Plants people of both sexes as the survey has them, reads of each what is read of the subject that is asked for, with errors of
-/// `error_factor`, and counts how often the truth lies where [`chance`](crate::chance::chance()) says.
+/// Draws people of both sexes from the survey, and reads of each the dimensions that are known of the subject, with
+/// errors of `error_factor`. Counts how often the truth lies where [`chance`](crate::chance::chance()) says.
 ///
 /// # Errors
 /// As [`chance`](crate::chance::chance()).
@@ -104,7 +105,7 @@ struct Plot<'a> {
 }
 
 impl Plot<'_> {
-    /// Plants a person, measures them with errors, and compares what is told with the truth.
+    /// Draws a person, measures them with errors, and compares the probabilities with the truth.
     fn case(&self, number: usize) -> Result<Case> {
         let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
         let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };
@@ -141,7 +142,8 @@ impl Plot<'_> {
         Ok(case)
     }
 
-    /// Somebody's body, and the sizes on whoever was read there.
+    /// Body of a person, and the bench of the readings of it; `None` where the body cannot be built or the readings
+    /// are of nobody.
     fn planted(&self, sex: Sex, draw: &mut Draw) -> Option<(Body, Bench)> {
         let person = Likely::anybody(sex).person(&std::array::from_fn(|_| draw.normal()));
         let body = bodies::build_body(&person).ok()?;
@@ -187,7 +189,7 @@ fn tally(cases: &[Case], read: &[Dimension]) -> PlantedTally {
     }
 }
 
-/// Told probabilities in ranges, beside how often they came true.
+/// Probabilities in ranges, with the shares that came true.
 fn reliability<'a>(told: impl Iterator<Item = &'a (f64, bool)>) -> Vec<Reliability> {
     let told: Vec<&(f64, bool)> = told.collect();
     let last = RANGES.len() - 2;

@@ -1,4 +1,4 @@
-//! Some of those whom a size fits, dressed by FEM-GS: whether the drape agrees that it fits.
+//! Check of a grading by FEM-GS: some of the people whom a size fits are dressed.
 
 use crate::alteration;
 use crate::grading::DrapedAgain;
@@ -11,15 +11,15 @@ use pattern::Style;
 use spec::JobSpec;
 use store::Result;
 
-/// How far outside its band an ease on a drape counts as within, m: nothing, when it is written.
+/// Departure of an ease on a drape from its band that counts as none, m: it is written as 0.
 const SLACK_M: f64 = 0.5e-3;
-/// Deepest that cloth may lie inside the body, m.
+/// Greatest penetration of the cloth into the body that counts as none, m.
 const INSIDE_M: f64 = 1e-3;
 
-/// Drapes a share of those whom a size fits, evenly among them, each in the size to wear.
+/// Drapes a share of the people whom a size fits, evenly among them, each in the size to wear.
 ///
 /// # Errors
-/// What body or simulator refuse.
+/// When a body cannot be built, or the simulator refuses.
 pub fn agree(
     spec: &JobSpec,
     styles: &[Style],
@@ -44,7 +44,7 @@ pub fn agree(
     Ok(DrapedAgain { people: count, agree: count - against.len(), against })
 }
 
-/// What a drape says against a fit.
+/// Objections of a drape to a fit.
 fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<String> {
     let mut against = Vec::new();
     if !outcome.converged {

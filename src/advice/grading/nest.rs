@@ -1,4 +1,5 @@
-//! The sizes as files: a DXF file each, and the base size of the nest with its rules, read again and held against what was drawn.
+//! The sizes as files: a DXF file each, and the base size of the nest with its rules, read again and compared with the
+//! sizes as drawn.
 
 use crate::grading::knobs::Knobs;
 use crate::grading::{Asked, refused};
@@ -14,7 +15,7 @@ use spec::patterns;
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// How far a size that the rules make may lie from the size as drawn, m.
+/// Greatest distance of a size that the rules make from the size as drawn, m.
 const APART_M: f64 = 0.1e-3;
 
 /// The sizes as they are written.
@@ -23,7 +24,7 @@ pub struct Nest {
     pub styles: Vec<Style>,
     /// Greatest distance between a size as drawn and as the rules make it, m.
     pub apart_m: f64,
-    /// Files by name.
+    /// Files by name: patterns, rules and seam file.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
@@ -81,7 +82,7 @@ pub fn drawn(
     Ok(Nest { styles, apart_m, files })
 }
 
-/// What the written sample size and rules make, and the greatest distance of it from the nest, m.
+/// Sizes that the written sample size and rules make, and their greatest distance from the nest, m.
 fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result<(PatternFile, f64)> {
     let sample = dxf::read(written, &format!("{name}.dxf"), None).origin(Origin::Grade)?;
     let table = grade::read(rules, &format!("{name}.rul")).origin(Origin::Grade)?;

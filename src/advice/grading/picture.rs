@@ -1,4 +1,4 @@
-//! People by two girths with the boxes of the sizes: the pattern's own beside the new ones.
+//! Scatter plot of people by two girths with the boxes of the sizes: the pattern's own beside the new ones.
 
 use std::fmt::Write;
 
@@ -12,23 +12,23 @@ use results::size_map::{COLOURS, axis, escaped};
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 460.0;
 const MARGIN: f64 = 60.0;
-/// Most people that are drawn.
+/// Greatest number of people that are drawn.
 const MOST: usize = 800;
 
 /// A set of sizes as it is drawn.
 pub struct Drawn<'a> {
-    /// What it is called.
+    /// Title of its panel.
     pub title: &'static str,
     /// Pattern of each size, in order.
     pub styles: &'a [Style],
     /// Name of each size, in the same order.
     pub names: &'a [String],
-    /// Whom they fit.
+    /// Tally of the people whom they fit.
     pub tally: &'a Tally,
 }
 
-/// A picture of people held out by the first girth that has a band and the last: in the colour of the size that fits, grey where none
-/// does. A box is what a size fits at both levels.
+/// Draws people held out by the first and the last girth that has a band, in the colour of the size that fits, grey
+/// where none does. A box is the range of girths that a size fits at both levels.
 pub fn svg(figures: &[Figure], bands: &[Band], sets: &[Drawn<'_>], garment: &str) -> String {
     let girths: Vec<&Band> = bands.iter().filter(|band| crate::grading::tally::order(&band.level) < GIRTHS).collect();
     let across = girths.first().copied().or(bands.first());
@@ -68,10 +68,10 @@ pub fn svg(figures: &[Figure], bands: &[Band], sets: &[Drawn<'_>], garment: &str
     svg
 }
 
-/// How many levels are girths of the trunk.
+/// Number of levels that are girths of the trunk.
 const GIRTHS: usize = 5;
 
-/// Least and greatest girth of a body that a style fits at two levels, of somebody of that stature, mm.
+/// Least and greatest girth of a body that a style fits at two levels, for somebody of that stature, mm.
 fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f64; 2]; 2]> {
     let levels = bands.map(|band| band.level.clone());
     let eases = somebody.eases(style, &levels);
@@ -83,7 +83,7 @@ fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f6
     Some([fitted(0)?, fitted(1)?])
 }
 
-/// Where a panel stands, and its axes.
+/// Position of a panel, and its axes.
 struct Panel {
     left: f64,
     x: (f64, f64),
@@ -123,14 +123,14 @@ impl Panel {
         let _ = writeln!(svg, "<text x=\"{left}\" y=\"{}\">{}, mm</text>", MARGIN - 8.0, named(up));
     }
 
-    /// Somebody in the colour of a size.
+    /// Draws a person in the colour of a size.
     fn dot(&self, svg: &mut String, at: [f64; 2], size: Option<usize>) {
         let (x, y) = (self.across(at[0]), self.up(at[1]));
         let colour = size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>");
     }
 
-    /// The girths that a size fits.
+    /// Draws the range of girths that a size fits.
     fn size(&self, svg: &mut String, [across, up]: [[f64; 2]; 2], size: usize) {
         let right = self.left + PANEL;
         let [from, to] = across.map(|x| self.across(x).clamp(self.left, right));
@@ -145,7 +145,7 @@ impl Panel {
         );
     }
 
-    /// What the colours mean.
+    /// Draws the legend of the colours, with shares.
     fn legend(&self, svg: &mut String, names: &[String], tally: &Tally, people: usize) {
         let share = |of: Option<usize>| {
             let wears = |person: &usize| tally.is_fitted(*person).then(|| tally.wears(*person)) == of;

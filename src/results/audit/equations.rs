@@ -1,18 +1,18 @@
-//! Equations of the text that cannot be what they are said to be, tried on numbers.
+//! Equations of the text that cannot be right, evaluated on numbers.
 
 use nalgebra::{Unit, Vector3};
 
 use crate::audit::Finding;
 
-/// Equality up to rounding.
+/// Greatest difference that is rounding.
 const EXACT: f64 = 1e-9;
 
-/// Tries the printed equations (4.8), (4.9) and (4.20).
+/// Evaluates the printed equations (4.8), (4.9) and (4.20).
 pub(super) fn check() -> (usize, Vec<Finding>) {
     (3, [rotation(), axis(), average()].into_iter().flatten().collect())
 }
 
-/// (4.8) turns a vector about an axis: the turned vector must be as long as the vector.
+/// (4.8) turns a vector about an axis, and so must keep its length.
 fn rotation() -> Option<Finding> {
     let axis = Vector3::z_axis();
     let v = Vector3::new(1.0, 0.0, 1.0);
@@ -30,7 +30,7 @@ fn rotation() -> Option<Finding> {
     })
 }
 
-/// (4.9) is the axis of that rotation: it must have length 1.
+/// (4.9) is the axis of that rotation, and so must have length 1.
 fn axis() -> Option<Finding> {
     let (from, to): (Vector3<f64>, _) = (Vector3::x(), Unit::new_normalize(Vector3::new(1.0, 1.0, 0.0)).into_inner());
     let cross = from.cross(&to);
@@ -45,7 +45,7 @@ fn axis() -> Option<Finding> {
     })
 }
 
-/// (4.20) is a mean of n numbers: of equal numbers it must be that number.
+/// (4.20) is a mean of n numbers, and so must be 1 of ones.
 fn average() -> Option<Finding> {
     let n = 6_u32;
     let printed = (0..=n).map(|_| 1.0).sum::<f64>() / f64::from(n);

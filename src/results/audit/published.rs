@@ -3,7 +3,7 @@
 use crate::audit::tables::Tables;
 use crate::audit::{Audit, Finding, claims, equations, metrics, ratios, references, structure};
 
-/// One kind of check: how many numbers it recomputed, and what it found.
+/// One kind of check: returns the number of numbers that it recomputed, and its findings.
 type Check = fn(&Tables) -> (usize, Vec<Finding>);
 
 /// Every kind of check, in the order of its findings.

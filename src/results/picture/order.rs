@@ -1,4 +1,4 @@
-//! Pictures to order: several results and views on one sheet, close-ups, turntables, in any cloth.
+//! Pictures with options: several results and views on one sheet, close-ups, turntables, in any cloth.
 
 use image::RgbaImage;
 
@@ -10,15 +10,15 @@ use store::{InOrigin, JobId, Origin, Result, Store, StudyError, read};
 
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;
-/// A close-up: angle, enlargement and height of its middle, as in [`Zoom`].
+/// Angle, enlargement and height of a close-up, as in [`Zoom`].
 const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
 
-/// How close a picture is.
+/// Enlargement of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Zoom {
     /// Enlargement of the garment, percent; at 100 it fills the picture.
     pub zoom_pct: u32,
-    /// How far the picture's middle lies above the garment's, percent of half its height.
+    /// Height of the picture's middle above the garment's, percent of half its height.
     pub rise_pct: i32,
 }
 
@@ -43,20 +43,20 @@ impl Shot {
     }
 }
 
-/// What a picture shows.
+/// Options of a picture.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// Its shots, each a picture of its own.
+    /// Shots, each a picture of its own.
     pub shots: Vec<Shot>,
-    /// How far the garment has come, each a picture of its own: before and after.
+    /// Stages of the simulation, each a picture of its own: before and after.
     pub stages: Vec<Stage>,
-    /// What colours the cloth.
+    /// Map that colours the cloth.
     pub map: Map,
-    /// What the garment is cut from, on a plain map.
+    /// Cloths of the garment, on a plain map.
     pub cloths: Vec<Cloth>,
-    /// Colour of the skin; a dress form without.
+    /// Colour of the skin; without one the body is a dress form.
     pub skin: Option<Rgb>,
-    /// How close; body and garment as a whole without.
+    /// Enlargement; without one body and garment are shown as a whole.
     pub zoom: Option<Zoom>,
     /// Pixels across and down of each shot.
     pub size: (u32, u32),
@@ -67,7 +67,7 @@ impl Order {
         f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1))
     }
 
-    /// The camera of a shot: `whole` and `garments` are what to enclose.
+    /// Camera of a shot. `whole` encloses bodies and garments, `garments` the garments only.
     fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
         let close = |Zoom { zoom_pct, rise_pct }: Zoom| {
             let mut frame = garments;
@@ -94,7 +94,7 @@ impl Order {
         Ok(picture)
     }
 
-    /// What all pictures enclose: bodies and garments, and the garments alone.
+    /// Frames of all pictures: around bodies and garments, and around the garments only.
     fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
         let cloth = || dressed.iter().map(|worn| &worn.cloth);
         let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
@@ -102,11 +102,11 @@ impl Order {
     }
 }
 
-/// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
+/// Draws results as a PNG file: one shot of one result by itself, several of them on a sheet, all at one scale.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
-/// a file that is no image.
+/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage, or where a cloth names
+/// no piece. Others for a file that is no image.
 pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
     let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
     let worn: Vec<(JobId, Stage)> = worn.collect();
@@ -136,7 +136,7 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
     picture.origin(Origin::Render)
 }
 
-/// A result as a stage of its simulation left it.
+/// Reads a result, with the garment at a stage of its simulation.
 fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     let worn = picture::dressed(store, id)?;
     let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
@@ -145,7 +145,8 @@ fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
 }
 
-/// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.
+/// Draws a result turned once about the vertical, as an animated PNG file of this number of pictures that repeats for
+/// ever.
 ///
 /// # Errors
 /// As [`pictures`].

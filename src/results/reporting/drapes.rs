@@ -1,4 +1,4 @@
-//! Drapes to turn in the page of a fit report.
+//! Drapes in the page of a fit report, to be turned by the reader.
 
 use crate::draped_fit::GarmentWorn;
 use crate::picture::{self, Map};
@@ -13,10 +13,10 @@ use report::viewer::{Drape, Drapes};
 use store::{JobId, JobRow, Result, StageKind, Store, sql};
 use wardrobe::catalogue;
 
-/// The maps that a reader may choose.
+/// Maps that a reader may choose.
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
 
-/// All drapes of a study, each in the size to wear or not.
+/// All drapes of a study, with a mark on those in the size to wear.
 pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Result<Drapes> {
     let mut all = Drapes::default();
     for job in jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1) {
@@ -73,7 +73,7 @@ fn lines(store: &Store, id: JobId, garment: &Garment, positions: &[V3]) -> Resul
     Ok(found)
 }
 
-/// A point's length flat and worn.
+/// Words for a point's length, flat and worn.
 fn words(store: &Store, id: JobId, one: &PointOfMeasure) -> Result<Option<String>> {
     let point = quoted(one.point.as_str());
     let sql = format!(
@@ -83,7 +83,7 @@ fn words(store: &Store, id: JobId, one: &PointOfMeasure) -> Result<Option<String
     Ok(sql::query(store, &sql)?.rows.first().map(|row| row[0].to_string()))
 }
 
-/// The points along a path that goes over several pieces; an edge that runs the other way is turned.
+/// Points along a path over several pieces. A run that goes the other way is reversed.
 fn along(runs: &[MaterialLine], positions: &[V3]) -> Vec<V3> {
     let mut line: Vec<V3> = Vec::new();
     for run in runs {

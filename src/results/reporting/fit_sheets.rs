@@ -1,4 +1,4 @@
-//! Fit sheets: how a garment sits on a subject in its sizes, for the fit report.
+//! Fit sheets: the fit of a garment on a subject in its sizes, for the fit report.
 
 use crate::draped_fit::{GarmentWorn, SizeWorn};
 use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
@@ -46,7 +46,7 @@ fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
     })
 }
 
-/// How a drape hangs and presses, in words.
+/// Words on hem and pressure of a drape.
 fn told(size: &SizeWorn) -> String {
     let hem = size.hem_words().map(|words| format!("Hem {words}."));
     let most = size.pressure.first().map(|most| {
@@ -56,7 +56,7 @@ fn told(size: &SizeWorn) -> String {
     hem.into_iter().chain(most).collect::<Vec<_>>().join(" ")
 }
 
-/// The points of measure that any drape has, and how each is measured.
+/// Points of measure that any drape has, with their definitions.
 pub(super) fn definitions(worn: &[GarmentWorn]) -> Vec<Fact> {
     let has = |point: &Point| {
         let mut points = worn.iter().flat_map(|one| &one.sizes).flat_map(|size| &size.points);
@@ -70,7 +70,7 @@ fn plain(text: impl Into<String>) -> FitCell {
     FitCell { text: text.into(), ..FitCell::default() }
 }
 
-/// A whole number with a true minus, never before 0.
+/// A whole number with a true minus sign, never before 0.
 fn whole(value: f64) -> String {
     format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
 }
@@ -80,7 +80,7 @@ fn signed(value: f64) -> String {
     if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
 }
 
-/// Ease at every level beside what is meant.
+/// Ease at every level beside its target.
 fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     let row = |level: &str| {
         let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
