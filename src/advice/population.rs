@@ -57,10 +57,21 @@ pub struct Nearest {
     pub subject: String,
     /// Root mean square difference of the dimensions known of both, standard deviations.
     pub distance: f64,
-    /// The greatest difference: which dimension, theirs and the representative's, m or kg.
-    pub widest: (Dimension, f64, f64),
+    /// Dimension with the greatest difference.
+    pub widest: Difference,
     /// Its jobs that have a result.
     pub jobs: Vec<JobId>,
+}
+
+/// A dimension of two people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Dimension in which they differ.
+    pub dimension: Dimension,
+    /// Value of the person who is asked about, m or kg.
+    pub asked: f64,
+    /// Value of the representative, m or kg.
+    pub found: f64,
 }
 
 /// Draws people of a sex, as frequent as in the survey.
@@ -75,8 +86,8 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
     if options.bodies > GROUPED {
         let share = 1.0 / options.bodies as f64;
-        let one = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
-        return (0..options.bodies).map(one).collect();
+        let drawn = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
+        return (0..options.bodies).map(drawn).collect();
     }
     let people = people(sex, options.people, &mut random);
     let points: Vec<Point> = people.iter().map(point).collect();
@@ -96,13 +107,13 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
 #[must_use]
 pub fn subjects_text(representatives: &[Representative]) -> String {
     let mut text = String::new();
-    for (number, one) in representatives.iter().enumerate() {
-        let sex = sex_name(&one.measurements);
+    for (number, Representative { measurements, share }) in representatives.iter().enumerate() {
+        let sex = sex_name(measurements);
         // Writing into a text does not fail, here and below.
-        let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", one.share * 100.0);
+        let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", share * 100.0);
         let _ = writeln!(text, "id = \"{}{:03}\"\nsex = \"{sex}\"", &sex[..1], number + 1);
         for field in MEASUREMENTS.iter() {
-            if let Some(value) = field.get(&one.measurements) {
+            if let Some(value) = field.get(measurements) {
                 let _ = writeln!(text, "{} = {value}", field.key);
             }
         }
@@ -149,7 +160,7 @@ pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
 }
 
 /// Difference of two people of one sex over the dimensions known of both, and the greatest of them.
-fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64, f64))> {
+fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, Difference)> {
     if a.sex != b.sex {
         return None;
     }
@@ -158,16 +169,15 @@ fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64,
     let mut widest: Option<(f64, Dimension)> = None;
     for (dimension, score) in body::scores(a) {
         let Some((_, other)) = theirs.iter().find(|(known, _)| *known == dimension) else { continue };
-        let off = (score - other).abs();
-        squares.push(off * off);
-        if widest.is_none_or(|(most, _)| off > most) {
-            widest = Some((off, dimension));
+        let difference = (score - other).abs();
+        squares.push(difference * difference);
+        if widest.is_none_or(|(most, _)| difference > most) {
+            widest = Some((difference, dimension));
         }
     }
     let (_, dimension) = widest?;
-    let values = (a.get(dimension)?, b.get(dimension)?);
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-    Some((mean.sqrt(), (dimension, values.0, values.1)))
+    Some((mean.sqrt(), Difference { dimension, asked: a.get(dimension)?, found: b.get(dimension)? }))
 }
 
 /// Draws a person within the range of the survey.
@@ -211,16 +221,16 @@ fn off(a: &Point, b: &Point) -> f64 {
 /// nearest its mean, and the number of its points.
 fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
     let mut middles = seeds(points, count, random);
-    let mut of = vec![usize::MAX; points.len()];
+    let mut group_of = vec![usize::MAX; points.len()];
     for _ in 0..ROUNDS {
         let next: Vec<usize> = points.iter().map(|point| nearest_middle(point, &middles)).collect();
-        if next == of {
+        if next == group_of {
             break;
         }
-        of = next;
+        group_of = next;
         for (number, middle) in middles.iter_mut().enumerate() {
             let mut sum = Point::default();
-            let members = of.iter().zip(points).filter(|(group, _)| **group == number);
+            let members = group_of.iter().zip(points).filter(|(group, _)| **group == number);
             let mut size = 0.0;
             for (_, point) in members {
                 sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x);
@@ -233,7 +243,7 @@ fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize
     }
     let mut found = Vec::with_capacity(middles.len());
     for (number, middle) in middles.iter().enumerate() {
-        let members: Vec<usize> = (0..points.len()).filter(|&k| of[k] == number).collect();
+        let members: Vec<usize> = (0..points.len()).filter(|&k| group_of[k] == number).collect();
         let best = members.iter().copied().min_by(|&a, &b| off(&points[a], middle).total_cmp(&off(&points[b], middle)));
         found.extend(best.map(|best| (best, members.len())));
     }
@@ -287,10 +297,10 @@ mod tests {
         let found = representatives(Sex::Female, &FEW);
         assert_eq!(found, representatives(Sex::Female, &FEW), "the same seed, the same people");
         assert_eq!(found.len(), FEW.bodies);
-        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        assert!((found.iter().map(|group| group.share).sum::<f64>() - 1.0).abs() < 1e-9);
         assert!(found[0].share < 0.25 && found[FEW.bodies - 1].share > 0.01, "{found:?}");
         // Nobody is far from all of them: within the spread of one group.
-        let middles: Vec<Point> = found.iter().map(|one| point(&one.measurements)).collect();
+        let middles: Vec<Point> = found.iter().map(|middle| point(&middle.measurements)).collect();
         let mut random = Draw::new(9);
         let far: Vec<f64> = (0..500)
             .map(|_| point(&draw(Sex::Female, &mut random)))
@@ -305,9 +315,9 @@ mod tests {
         let many = PopulationOptions { bodies: GROUPED + 1, people: 100, seed: 1 };
         let found = representatives(Sex::Male, &many);
         assert_eq!(found.len(), GROUPED + 1);
-        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
-        let mean =
-            found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>() / found.len() as f64;
+        assert!((found.iter().map(|person| person.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        let statures = found.iter().filter_map(|person| person.measurements.get(Dimension::Stature));
+        let mean = statures.sum::<f64>() / found.len() as f64;
         assert!((mean - 1.756).abs() < 0.01, "{mean}");
     }
 
@@ -316,17 +326,18 @@ mod tests {
         let text = subjects_text(&representatives(Sex::Male, &FEW));
         let table: toml::Table = text.parse().expect("TOML");
         assert_eq!(table["subject"].as_array().map(Vec::len), Some(FEW.bodies));
-        for one in representatives(Sex::Male, &FEW) {
-            body::build(&one.measurements).expect("a person that can be");
+        for person in representatives(Sex::Male, &FEW) {
+            body::build(&person.measurements).expect("a person that can be");
         }
     }
 
     #[test]
     fn the_nearest_is_of_the_same_sex_and_alike() {
-        let of = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
-        assert_eq!(distance(&of(Sex::Male, 1.0), &of(Sex::Female, 1.0)), None);
-        let (same, _) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.0)).expect("alike");
-        let (far, widest) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.2)).expect("alike");
-        assert!(same == 0.0 && far > 1.0 && widest == (Dimension::ChestGirth, 1.0, 1.2), "{far} {widest:?}");
+        let person = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
+        assert_eq!(distance(&person(Sex::Male, 1.0), &person(Sex::Female, 1.0)), None);
+        let (same, _) = distance(&person(Sex::Male, 1.0), &person(Sex::Male, 1.0)).expect("alike");
+        let (far, widest) = distance(&person(Sex::Male, 1.0), &person(Sex::Male, 1.2)).expect("alike");
+        let chest = Difference { dimension: Dimension::ChestGirth, asked: 1.0, found: 1.2 };
+        assert!(same == 0.0 && far > 1.0 && widest == chest, "{far} {widest:?}");
     }
 }

@@ -6,7 +6,7 @@ use super::args::Section;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
 use fit::Simulator;
-use results::{CrossSection, CutAt, CutCloth, GarmentWorn, draped_fit, section};
+use results::{CrossSection, CutAt, CutCloth, GarmentWorn, assessment, cross_section};
 use store::{JobId, Store, Table, Value};
 
 /// Prints cross sections, or draws one.
@@ -19,7 +19,7 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
         (None, Some(height_mm)) => CutAt::HeightMm(height_mm),
         (None, None) => CutAt::Levels,
     };
-    let worn = draped_fit::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    let worn = assessment::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
     let mut cut: Vec<(&GarmentWorn, Vec<JobId>)> = Vec::new();
     for one in &worn {
         let jobs = jobs(&store, &study, one, arguments)?;
@@ -37,7 +37,7 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
     }
     let mut found = Vec::new();
     for (one, jobs) in &cut {
-        found.push((*one, section::sections(&store, jobs, &at)?));
+        found.push((*one, cross_section::sections(&store, jobs, &at)?));
     }
     if context.json {
         output::json(&found.into_iter().flat_map(|(_, sections)| sections).collect::<Vec<_>>())?;
@@ -56,7 +56,7 @@ fn jobs(store: &Store, study: &str, one: &GarmentWorn, arguments: &Section) -> R
     let simulator = arguments.sim.map(Simulator::from).or(one.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
     let is_wanted = |size: &str| arguments.size.is_empty() || arguments.size.iter().any(|wanted| wanted == size);
-    let sizes = draped_fit::drapes(store, study, &one.card, simulator)?;
+    let sizes = assessment::drapes(store, study, &one.card, simulator)?;
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
@@ -65,7 +65,7 @@ fn draw(context: &Context, store: &Store, cut: &[(&GarmentWorn, Vec<JobId>)], at
     let mut drawn = Vec::new();
     for (one, jobs) in cut {
         let wear = one.card.to_wear().map(|size| size.size.as_str());
-        drawn.extend(section::drawn(store, jobs, at, wear)?);
+        drawn.extend(cross_section::drawn(store, jobs, at, wear)?);
     }
     let [(_, chart)] = drawn.as_slice() else {
         let asked = format!("{} sections are asked for; a drawing is of one", drawn.len());

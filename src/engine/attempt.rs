@@ -6,11 +6,13 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::faults::{Fault, drape_faults};
-use crate::layers::{Garb, Wardrobe};
+use crate::error::EngineError;
+use crate::faults::{Fault, FaultKind, drape_faults};
+use crate::fitting::Wearer;
+use crate::layers::Ensemble;
 use crate::outcome::{Measured, Outcome};
-use crate::reach::{Reached, reached};
-use crate::stages::Meshes;
+use crate::reach::{Moved, Reached, moved};
+use crate::stages::{Garb, Meshes};
 use body::{Body, Pose};
 use fit::measure::{self, Metrics};
 use fit::{Ease, Simulator};
@@ -192,12 +194,13 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     let body = asked.pose.map_or_else(|| Ok(upright.clone()), |pose| pose_body(&upright, pose))?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
     let parameters = Parameters::default();
-    let wardrobe = Wardrobe { on: (&body, &field), garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
+    let wearer = Wearer { body: &body, field: &field };
+    let ensemble = Ensemble { wearer, garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
     let mut told = Told(progress);
-    let drapes = wardrobe.dress(&mut told)?;
+    let drapes = ensemble.dress(&mut told)?;
     let mut all = Vec::new();
     for (number, (garb, notes)) in garbs.iter().zip(notes).enumerate() {
-        let outcome = wardrobe.outcome(number, &drapes)?;
+        let outcome = ensemble.outcome(number, &drapes)?;
         let notes = guessed.iter().cloned().chain(notes).chain(outcome.warnings.iter().cloned()).collect();
         let mut tried = Tried::new(asked, garb, outcome);
         tried.problems.splice(0..0, problems(&body, garb.meshes.finest()?, &drapes[number]));
@@ -210,20 +213,21 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
         let again = |seed: u32| {
             let mut parameters = Parameters::default();
             parameters.set("fem.seed", seed.into()).origin(Origin::Sim)?;
-            Wardrobe { parameters: &parameters, ..wardrobe }.dress(&mut told)
+            Ensemble { parameters: &parameters, ..ensemble }.dress(&mut told)
         };
         let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
         spread(tried, garb.meshes.finest()?, &drapes.concat());
     }
     if let Some(last) = all.last_mut() {
-        last.files = files("drape", asked.simulator, &body, (&garbs, &drapes))?;
+        last.files = files("drape", asked.simulator, &Dressed { body: &body, garbs: &garbs, drapes: &drapes })?;
     }
     if let (Some(to), [garb], [tried]) = (asked.reach, &garbs[..], &mut all[..]) {
         let from = asked.pose.unwrap_or_default();
-        let (change, posed, drape) = reached(&upright, [from, to], (garb, &drapes[0]), &mut told)?;
-        tried.problems.extend(change.problems.iter().cloned());
-        tried.files.extend(files("reach", asked.simulator, &posed, (&garbs, &[drape]))?);
-        tried.reach = Some(change);
+        let Moved { reached, body, drape } = moved(&upright, [from, to], garb, &drapes[0], &mut told)?;
+        tried.problems.extend(reached.problems.iter().cloned());
+        let dressed = Dressed { body: &body, garbs: &garbs, drapes: &[drape] };
+        tried.files.extend(files("reach", asked.simulator, &dressed)?);
+        tried.reach = Some(reached);
     }
     for tried in &mut all {
         tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
@@ -233,20 +237,15 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
 
 /// Refuses options that do not go together.
 fn check(asked: &Attempt) -> Result<()> {
-    if asked.repeat > 1 && asked.simulator != Simulator::Fem {
-        return Err(StudyError::refused(
-            Origin::Sim,
-            "--repeat is for --sim fem: only that starts from a place that can be varied",
-        ));
+    let (is_fem, is_outfit) = (asked.simulator == Simulator::Fem, asked.layers.len() > 1);
+    if asked.repeat > 1 && !is_fem {
+        return Err(EngineError::RepeatWithoutFem.into());
     }
-    if asked.reach.is_some() && (asked.simulator != Simulator::Fem || asked.layers.len() > 1) {
-        return Err(StudyError::refused(
-            Origin::Sim,
-            "--reach is for one garment and --sim fem: friction carries it along",
-        ));
+    if asked.reach.is_some() && (!is_fem || is_outfit) {
+        return Err(EngineError::ReachWithoutFem.into());
     }
-    if asked.layers.len() > 1 && asked.repeat > 1 {
-        return Err(StudyError::refused(Origin::Sim, "--repeat is for one garment; accepted of an outfit: one drape"));
+    if is_outfit && asked.repeat > 1 {
+        return Err(EngineError::RepeatOfOutfit.into());
     }
     Ok(())
 }
@@ -389,15 +388,8 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     let (unit, allowance_m) = (asked.unit, asked.allowance_m);
     let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
     let (proposal, pieces) = seams::proposal(&pattern, &how)?;
-    let proposal = proposal.to_drape().map_err(|unwearable| {
-        StudyError::refused(
-            Origin::Pattern,
-            format!(
-                "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
-                layer.pattern.display()
-            ),
-        )
-    })?;
+    let unwearable = |reason| EngineError::Unwearable { pattern: layer.pattern.clone(), reason };
+    let proposal = proposal.to_drape().map_err(unwearable)?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().map(Question::to_string).chain(proposal.notes.iter().cloned()));
     let name = layer.pattern.file_stem().unwrap_or_default().to_string_lossy();
@@ -413,25 +405,28 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
     let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
-    let told = |(says, fault): (String, Fault)| {
-        let spot: Option<Spot> = match fault {
-            Fault::Moves => None,
-            Fault::Inside => quality::deepest_spot(body, garment, &drape.positions),
-            Fault::Crosses => quality::crossed_spot(garment, &drape.positions),
+    let with_spot = |fault: Fault| {
+        let spot: Option<Spot> = match fault.kind {
+            FaultKind::Moves => None,
+            FaultKind::Inside => quality::deepest_spot(body, garment, &drape.positions),
+            FaultKind::Crosses => quality::crossed_spot(garment, &drape.positions),
         };
-        says + &spot.map_or_else(String::new, |spot| format!(", in {spot}"))
+        fault.words + &spot.map_or_else(String::new, |spot| format!(", in {spot}"))
     };
-    faults.into_iter().map(told).collect()
+    faults.into_iter().map(with_spot).collect()
+}
+
+/// A body with the drapes of its garments.
+struct Dressed<'a> {
+    body: &'a Body,
+    garbs: &'a [Garb],
+    drapes: &'a [Drape],
 }
 
 /// Four views of every stage as one picture each, and body and garments as meshes. Files of the last stage are called
 /// `stem`.
-fn files(
-    stem: &str,
-    simulator: Simulator,
-    body: &Body,
-    (garbs, drapes): (&[Garb], &[Drape]),
-) -> Result<Vec<(String, Vec<u8>)>> {
+fn files(stem: &str, simulator: Simulator, dressed: &Dressed<'_>) -> Result<Vec<(String, Vec<u8>)>> {
+    let Dressed { body, garbs, drapes } = *dressed;
     let garments = garbs.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
     let mesh = |garment: &Garment, positions: &[V3]| TriMesh {
         positions: positions.to_vec(),

@@ -4,14 +4,13 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::enqueue::{self, Planned};
-use crate::run;
+use crate::{enqueue, run};
 use fit::Simulator;
 use fit::target::Intended;
+use spec::Selection;
 use spec::export::{Files, place};
 use spec::new_study::{Outline, Worn, drafted_size};
 use spec::patterns::{self, Model};
-use spec::{Selection, Study};
 use store::files::{self, SourceFile};
 use store::{Result, SizeKey, Store, StudyError};
 use wardrobe::{SizeRow, catalogue};
@@ -91,19 +90,8 @@ pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     files::write_files(&folder, &files)?;
     let path = folder.join("study.toml");
     let study = run::load_study(store, &path)?;
-    queue(store, &study, &Selection::default())?;
+    enqueue::queue(store, &study, &Selection::default())?;
     Ok(path)
-}
-
-/// Queues the jobs of a study without working on them.
-///
-/// # Errors
-/// When the database is open read-only.
-pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-    let transaction = store::write(store.writer()?)?;
-    let planned = enqueue::enqueue(&transaction, study, selection)?;
-    transaction.commit()?;
-    Ok(planned)
 }
 
 /// The files of a new study: its patterns, their seam files, `study.toml`.
@@ -242,7 +230,8 @@ mod tests {
         catalogue::import(&mut store, wardrobe::Part::Style, &[quickstart], wardrobe::Strictness::AllOrNone)
             .expect("good styles");
         let sizes = wearables(&catalogue::sizes(&store).expect("readable"));
-        assert!(!sizes.iter().any(|one| one.style == "tshirt" && matches!(one.source, PatternSource::Drafted(_))));
+        let is_drafted = |size: &Wearable| matches!(size.source, PatternSource::Drafted(_));
+        assert!(!sizes.iter().any(|size| size.style == "tshirt" && is_drafted(size)));
         let sizes = sizes.into_iter().filter(|wearable| wearable.style == "tshirt").collect();
         let new = NewStudy { sizes, ..new_study(folder.path()) };
         let path = create_study(&mut store, &new).expect("whole");

@@ -33,16 +33,16 @@ pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
 pub fn stand(body: &Body) -> Stand {
     let mean = |pair: [V3; 2]| 0.5 * (pair[0] + pair[1]);
     let levels = &body.levels;
-    let at = |joint: Joint| body.skeleton.at(joint);
-    let upper_arm_m = (at(Joint::ElbowRight) - body.landmarks.shoulder[0]).norm();
-    let lower_arm_m = (at(Joint::WristRight) - at(Joint::ElbowRight)).norm();
+    let joint = |joint: Joint| body.skeleton.at(joint);
+    let upper_arm_m = (joint(Joint::ElbowRight) - body.landmarks.shoulder[0]).norm();
+    let lower_arm_m = (joint(Joint::WristRight) - joint(Joint::ElbowRight)).norm();
     Stand {
         side_neck_m: mean(body.landmarks.side_neck).z,
         underbust_m: levels.underbust_m,
         waist_m: levels.waist_m,
         hip_m: levels.hip_m,
         crotch_m: levels.crotch_m,
-        knee_m: 0.5 * (at(Joint::KneeRight).z + at(Joint::KneeLeft).z),
+        knee_m: 0.5 * (joint(Joint::KneeRight).z + joint(Joint::KneeLeft).z),
         forearm_along_m: upper_arm_m + FOREARM_BELOW_ELBOW_M,
         wrist_along_m: upper_arm_m + lower_arm_m,
     }
@@ -58,15 +58,16 @@ pub fn on(style: &Style, body: &Body) -> Vec<Ease> {
 /// Returns [`on`] for several bodies. The roles of the pieces are found only once.
 pub fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
     let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
-    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, levels)| of(&levels, body)).collect()
+    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, lengths)| ease(&lengths, body)).collect()
 }
 
-fn of(levels: &[Length], body: &Body) -> Vec<Ease> {
-    let of_body = |level: &str| {
-        let height_m = levels.iter().find(|one| one.level == level).and_then(|one| one.height_m);
+/// Ease of a garment with these lengths on a body.
+fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
+    let body_m = |level: &str| {
+        let height_m = lengths.iter().find(|length| length.level == level).and_then(|length| length.height_m);
         height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
     };
-    fit::ease(levels.iter().map(|one| (one.level.as_str(), one.length_m)), of_body, &Cuts::default())
+    fit::ease(lengths.iter().map(|length| (length.level.as_str(), length.length_m)), body_m, &Cuts::default())
 }
 
 /// Length of a garment at a level.
@@ -89,8 +90,8 @@ pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
 }
 
 fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
-    let stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
-    let of_file = || {
+    let is_stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
+    let stated = || {
         style.fit_levels.iter().map(|(level, path)| Length {
             level: level.clone(),
             length_m: style.path_length_m(path),
@@ -104,8 +105,8 @@ fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
         height_m: worn.height_m,
         path: worn.path,
     };
-    let on = |worn: Vec<WornLength>| {
-        of_file().chain(worn.into_iter().filter(|worn| !stated(worn.level)).map(found)).collect()
+    let all = |worn: Vec<WornLength>| {
+        stated().chain(worn.into_iter().filter(|worn| !is_stated(worn.level)).map(found)).collect()
     };
-    style.worn_lengths_on(stands).into_iter().map(on).collect()
+    style.worn_lengths_on(stands).into_iter().map(all).collect()
 }

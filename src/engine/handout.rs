@@ -11,11 +11,12 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use crate::enqueue::{self, Planned};
+use crate::error::EngineError;
 use crate::job_files::{FORMAT, JOB, JobFile, Product, ResultFile, read_json, result_of, results_in, write_json};
 use crate::outcome::{self, Executor, Provenance};
 use crate::own_process::{self, Clock, Teller};
 use crate::pipeline::Pipeline;
-use spec::{Selection, Study};
+use spec::{JobSpec, Selection, Study};
 use store::cache::Cache;
 use store::owner::Owner;
 use store::queue::{self, Event};
@@ -58,9 +59,7 @@ pub struct Ran {
 /// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
 pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
     selection.check(study)?;
-    let transaction = store::write(store.writer()?)?;
-    let planned = enqueue::enqueue(&transaction, study, selection)?;
-    transaction.commit()?;
+    let planned = enqueue::queue(store, study, selection)?;
     std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
     let provenance = Provenance::of(study.path.parent().unwrap_or(Path::new(".")));
     let mut handed = Vec::with_capacity(planned.len());
@@ -123,7 +122,7 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     let mut teller = Teller { clock, is_heard: database.is_some(), last: None };
     let pipeline = Pipeline::over(Cache::new(database.map_or(scratch, Path::to_owned)));
     let outcome = match pipeline.execute(&spec, &mut teller) {
-        Err(StudyError::Interrupted) => Err(teller.clock.error()),
+        Err(StudyError::Interrupted) => Err(teller.clock.error().into()),
         outcome => outcome,
     };
     let outcome = outcome.map_err(|error| error.to_string());
@@ -158,9 +157,8 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
 fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, Origin::Result)?;
     let spec = &result.spec;
-    let refuse = |message: String| StudyError::refused(Origin::Merge, format!("{}: {message}", path.display()));
     if spec.inputs.hash() != result.input_hash {
-        return Err(refuse("its inputs are not those it was made from".into()));
+        return Err(EngineError::OtherInputs { file: path.to_owned() }.into());
     }
     let sql = "SELECT job_id, status FROM job JOIN study USING (study_id) WHERE study.name = ? AND garment = ?
         AND size = ? AND subject = ? AND simulator = ? AND repeat = ? AND input_hash = ?";
@@ -178,11 +176,9 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
         .query_row(cell, |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)))
         .optional()?;
     let (id, status) = found.ok_or_else(|| {
-        let (study, garment, size, subject) = (&result.study, &spec.garment, &spec.size, &spec.subject);
-        refuse(format!(
-            "this database has no such job: {garment} {size} on {subject} of study {study}; was it made by another version \
-            of the program?"
-        ))
+        let JobSpec { garment, size, subject, .. } = spec;
+        let [study, garment, size, subject] = [&result.study, garment, size, subject].map(String::clone);
+        EngineError::UnknownJob { file: path.to_owned(), study, garment, size, subject }
     })?;
     match status {
         Status::Done | Status::NotConverged => merged.known.push(id),

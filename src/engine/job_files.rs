@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::EngineError;
 use crate::outcome::{Outcome, Provenance};
 use spec::JobSpec;
 use store::{InOrigin, Origin, Result, StudyError};
@@ -76,20 +77,20 @@ pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Reads a job file or a result file, which `origin` names.
-pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, origin: Origin) -> Result<T> {
+/// Reads a job file or a result file, as `kind` names it.
+pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, kind: Origin) -> Result<T> {
     #[derive(Deserialize)]
     struct Head {
         format: u32,
     }
     let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-    let refuse = |found: String| StudyError::refused(origin, format!("{}: {found}", path.display()));
-    let head: Head =
-        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {origin} file: {error}")))?;
-    if head.format != FORMAT {
-        return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
+    let file = || path.to_owned();
+    let other_file = |reason| EngineError::OtherFile { kind, file: file(), reason };
+    let Head { format } = serde_json::from_slice(&bytes).map_err(other_file)?;
+    if format != FORMAT {
+        return Err(EngineError::Format { kind, file: file(), found: format, accepted: FORMAT }.into());
     }
-    serde_json::from_slice(&bytes).map_err(|error| refuse(error.to_string()))
+    Ok(serde_json::from_slice(&bytes).map_err(|reason| EngineError::Content { kind, file: file(), reason })?)
 }
 
 /// Writes a file atomically: whenever the program ends, it is there as a whole or not at all.

@@ -2,7 +2,7 @@
 
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
-use crate::levels::{self, WornOn};
+use crate::assessment::{self, Assessment};
 use spec::JobSpec;
 use store::{JobId, Result, Status, StudyError};
 
@@ -77,7 +77,7 @@ pub struct Outcome {
     pub points: Vec<MeasuredPoint>,
     /// Assessment of the drape on its body.
     #[serde(default)]
-    pub worn: WornOn,
+    pub worn: Assessment,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
     /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
@@ -193,7 +193,7 @@ fn write_result(
     write_measured(transaction, id, outcome)?;
     write_closures(transaction, id, &outcome.closures)?;
     write_points(transaction, id, &outcome.points)?;
-    levels::write(transaction, id, &outcome.worn)?;
+    assessment::write(transaction, id, &outcome.worn)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
@@ -227,14 +227,13 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
         "INSERT INTO chi (job_id, stage, measurement_no, measurement, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     )?;
-    for m in &outcome.measured {
-        let kind = match m.kind {
+    for Measured { stage, name, kind, is_free_edge, is_controlled, chi } in &outcome.measured {
+        let kind = match kind {
             MeasurementKind::ClosedGirth => "closed_girth",
             MeasurementKind::OpenLength => "open_length",
         };
-        let (l2d_mm, l3d_mm) = (mm(m.chi.l2d_m), mm(m.chi.l3d_m));
-        let stage = m.stage.as_str();
-        let row = params![id.0, stage, m.chi.no, m.name, kind, m.is_free_edge, m.is_controlled, l2d_mm, l3d_mm];
+        let (l2d_mm, l3d_mm) = (mm(chi.l2d_m), mm(chi.l3d_m));
+        let row = params![id.0, stage.as_str(), chi.no, name, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm];
         statement.execute(row)?;
     }
     let metrics = &outcome.metrics;

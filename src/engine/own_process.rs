@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 use rustix::process::{Resource, Rlimit, Signal, set_parent_process_death_signal, setrlimit};
 use serde::{Deserialize, Serialize};
 
+use crate::error::EngineError;
 use sim::{Monitor, Progress, Step};
 use spec::Limits;
-use store::{Origin, Result, StudyError};
+use store::Result;
 
-/// Time between two lines of progress.
+/// Least time between two lines of progress.
 const LINES: Duration = Duration::from_millis(200);
 /// Names of the simulators' phases.
 const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
@@ -31,11 +32,8 @@ impl Clock {
     }
 
     /// Error of a job whose time limit has passed.
-    pub fn error(&self) -> StudyError {
-        StudyError::refused(
-            Origin::Limit,
-            format!("took longer than its time limit of {} s", self.limit_s.unwrap_or_default()),
-        )
+    pub fn error(&self) -> EngineError {
+        EngineError::OutOfTime { limit_s: self.limit_s.unwrap_or_default() }
     }
 }
 
@@ -46,8 +44,8 @@ impl Clock {
 pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     let Some(megabytes) = limits.memory_mb else { return Ok(()) };
     let most = Some(u64::from(megabytes) * 1_000_000);
-    setrlimit(Resource::Data, Rlimit { current: most, maximum: most })
-        .map_err(|error| StudyError::refused(Origin::Limit, format!("memory_limit_mb = {megabytes}: {error}")))
+    let set = setrlimit(Resource::Data, Rlimit { current: most, maximum: most });
+    Ok(set.map_err(|reason| EngineError::MemoryLimit { megabytes, reason })?)
 }
 
 /// Makes this process end with the one that started it.

@@ -141,9 +141,7 @@ fn launch(
     aside: impl FnOnce() + Send + 'static,
 ) -> Result<Run> {
     options.selection.check(study)?;
-    let transaction = store::write(store.writer()?)?;
-    let planned = Arc::new(enqueue::enqueue(&transaction, study, &options.selection)?);
-    transaction.commit()?;
+    let planned = Arc::new(enqueue::queue(store, study, &options.selection)?);
 
     let stop = Arc::new(AtomicBool::new(false));
     let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
@@ -184,7 +182,10 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
         let models = subjects.iter().map(|subject| pipeline.worn_body(subject)).collect::<Result<Vec<_>>>()?;
         let mut found = Vec::new();
         for worn in &worn {
-            let own = || subjects.iter().zip(&models).filter(|(one, _)| worn.subjects.contains(one.id.as_str()));
+            let own = || {
+                let all = subjects.iter().zip(&models);
+                all.filter(|(subject, _)| worn.subjects.contains(subject.id.as_str()))
+            };
             let bodies: Vec<&Body> = own().map(|(_, model)| &model.body).collect();
             let eases = ease::on_all(&worn.style, &bodies);
             found.extend(own().zip(eases).map(|((subject, _), eases)| (worn, subject, eases)));

@@ -9,10 +9,11 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::enqueue::Planned;
+use crate::error::EngineError;
 use crate::handout::{self, HandedOut, Merged};
 use crate::job_files::result_of;
 use spec::{Selection, Study};
-use store::{JobId, Origin, Result, Store, StudyError};
+use store::{JobId, Result, Store, StudyError};
 
 /// Tasks of one array. Slurm's default limit is 1001.
 const ARRAY: usize = 1000;
@@ -56,12 +57,20 @@ pub struct SlurmRun {
     pub planned: Vec<Planned>,
     options: SlurmOptions,
     name: String,
-    /// Job files without a result, and how often each was submitted.
-    open: BTreeMap<JobId, (PathBuf, u32)>,
+    /// Jobs without a result.
+    open: BTreeMap<JobId, OpenJob>,
     /// Arrays that were submitted.
     arrays: Vec<String>,
     /// Time since which Slurm does not answer about the arrays.
     silent_since: Option<Instant>,
+}
+
+/// A job without a result.
+struct OpenJob {
+    /// Its job file.
+    file: PathBuf,
+    /// Number of times it was submitted.
+    tries: u32,
 }
 
 /// State of the arrays at Slurm.
@@ -97,7 +106,7 @@ pub fn start_slurm(
     let handed = handout::hand_out(store, study, selection, &folder)?;
     let mut open = BTreeMap::new();
     for HandedOut { job, file } in &handed {
-        open.extend(file.iter().map(|file| (job.id, (file.clone(), 0))));
+        open.extend(file.iter().map(|file| (job.id, OpenJob { file: file.clone(), tries: 0 })));
     }
     let arrays = std::fs::read_to_string(folder.join(SUBMITTED)).unwrap_or_default();
     Ok(SlurmRun {
@@ -138,14 +147,7 @@ impl SlurmRun {
         if since.elapsed() < SILENCE {
             return Ok(());
         }
-        let arrays = self.arrays.join(", ");
-        Err(StudyError::refused(
-            Origin::Slurm,
-            format!(
-                "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
-             start again to go on waiting, nothing is submitted twice"
-            ),
-        ))
+        Err(EngineError::SlurmSilent { why: why.to_owned(), arrays: self.arrays.join(", ") }.into())
     }
 
     /// Cancels the arrays at Slurm.
@@ -167,7 +169,7 @@ impl SlurmRun {
 
     fn merge(&mut self, store: &mut Store) -> Result<()> {
         let there: Vec<PathBuf> =
-            self.open.values().map(|(file, _)| result_of(file)).filter(|file| file.exists()).collect();
+            self.open.values().map(|job| result_of(&job.file)).filter(|file| file.exists()).collect();
         if there.is_empty() {
             return Ok(());
         }
@@ -210,15 +212,14 @@ impl SlurmRun {
     }
 
     fn submit(&mut self) -> Result<()> {
-        if let Some((file, _)) = self.open.values().find(|(_, tries)| *tries >= TRIES) {
+        if let Some(OpenJob { file, .. }) = self.open.values().find(|job| job.tries >= TRIES) {
             let why = self.arrays.last().map(|array| last_words(array)).unwrap_or_default();
-            let message = format!("{} was submitted {TRIES} times and has no result; {why}", file.display());
-            return Err(StudyError::refused(Origin::Slurm, message));
+            return Err(EngineError::SlurmGaveUp { file: file.clone(), tries: TRIES, why }.into());
         }
         self.arrays.clear();
         let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
         let folder = &self.options.folder;
-        let open: Vec<&PathBuf> = self.open.values().map(|(file, _)| file).collect();
+        let open: Vec<&PathBuf> = self.open.values().map(|job| &job.file).collect();
         for (number, files) in open.chunks(ARRAY).enumerate() {
             let list = folder.join(format!("tasks-{number}"));
             let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
@@ -243,7 +244,7 @@ impl SlurmRun {
         }
         let file = folder.join(SUBMITTED);
         std::fs::write(&file, self.arrays.join("\n")).map_err(StudyError::io(&file))?;
-        self.open.values_mut().for_each(|(_, tries)| *tries += 1);
+        self.open.values_mut().for_each(|job| job.tries += 1);
         Ok(())
     }
 
@@ -274,7 +275,7 @@ fn states_of(array: &str) -> Option<String> {
 
 /// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
-    let fail = |message: String| StudyError::refused(Origin::Slurm, format!("{program}: {message}"));
+    let fail = |message: String| EngineError::SlurmProgram { program, message };
     let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };
     let mut child = Command::new(program)
         .args(arguments)
@@ -288,7 +289,7 @@ fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Re
     }
     let output = child.wait_with_output().map_err(|error| fail(error.to_string()))?;
     if !output.status.success() {
-        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
+        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_owned()).into());
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }

@@ -1,9 +1,13 @@
 //! Products of the stages before the drape: a body, the style of a size, its meshes.
 
+use std::sync::Arc;
+
+use crate::error::EngineError;
 use body::Body;
 use pattern::{Garment, Style};
+use sim::Fabric;
 use spec::{Inputs, JobSpec, Person, patterns, subject_inputs, versions};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Inputs of a subject's body, the same as among the inputs of any job on it.
 pub fn body_inputs(name: &str, person: &Person) -> Inputs {
@@ -42,11 +46,32 @@ impl Meshes {
     /// # Errors
     /// When there is no mesh.
     pub fn finest(&self) -> Result<&Garment> {
-        self.0.last().ok_or_else(|| StudyError::refused(Origin::Mesh, "no mesh"))
+        Ok(self.0.last().ok_or(EngineError::NoMesh)?)
     }
 }
 
 store::json_artefact!(Model, Meshes);
+
+/// A garment that is ready to be worn.
+#[derive(Clone)]
+pub struct Garb {
+    /// Style of its size.
+    pub style: Style,
+    /// Meshes of its pieces, coarse to fine.
+    pub meshes: Arc<Meshes>,
+    /// Fabric of its pieces.
+    pub fabric: Fabric,
+}
+
+impl Garb {
+    /// Reads the style of a job's garment, which has these meshes.
+    ///
+    /// # Errors
+    /// When the pattern cannot be read or sewn.
+    pub fn of(spec: &JobSpec, meshes: Arc<Meshes>) -> Result<Self> {
+        Ok(Self { style: style(spec)?, meshes, fabric: spec.fabric.clone() })
+    }
+}
 
 /// Reads the style of a job's size.
 ///

@@ -15,13 +15,14 @@ use std::time::{Duration, Instant};
 use rusqlite::{Connection, named_params};
 
 use crate::enqueue::Planned;
+use crate::error::EngineError;
 use crate::outcome::{self, Executor, Outcome, Provenance};
 use geom::V3;
 use geom::units::mm;
 use sim::{Monitor, Progress};
 use spec::JobSpec;
 use store::owner::{Owner, Watch};
-use store::{Access, JobId, JobProgress, Live as LiveView, Origin, Result, StudyError, evidence, now_ms, queue};
+use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, evidence, now_ms, queue};
 
 /// Time between two rounds of the pump, and between two claims of a worker that waits for jobs of others.
 const TICK: Duration = Duration::from_millis(200);
@@ -142,7 +143,7 @@ impl Run<'_> {
         let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
-            .unwrap_or_else(|panic| Err(StudyError::refused(Origin::Panic, panic_text(&*panic))));
+            .unwrap_or_else(|panic| Err(EngineError::Panic(panic_text(&*panic)).into()));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
                 // Where it cannot be written, the end of this process puts the job back.
@@ -161,8 +162,7 @@ impl Run<'_> {
         let (spec, owner) = (self.specs[&id], self.owner.as_str());
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
             Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
-                let message = format!("the result cannot be stored: {error}");
-                let failure = Err(StudyError::refused(Origin::Store, message));
+                let failure = Err(EngineError::Unstorable(error).into());
                 outcome::finish(connection, id, spec, owner, &failure, &self.provenance).map(drop)
             }
             written => written.map(drop),

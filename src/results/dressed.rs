@@ -74,7 +74,7 @@ pub fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
     let mut statement = store.reader.prepare_cached(sql)?;
     let mut rows = statement.query_map([study], dressed_row)?.collect::<rusqlite::Result<Vec<Dressed>>>()?;
     for garment in rows.chunk_by_mut(|a, b| a.garment == b.garment) {
-        size_order::sort(garment, |one| &one.size);
+        size_order::sort(garment, |job| &job.size);
     }
     Ok(rows)
 }
@@ -96,7 +96,7 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
         subject: row.get(2)?,
         simulator,
         status: Status::from_name(&status).unwrap_or(Status::Failed),
-        faults: faults.into_iter().map(|(fault, _)| fault).collect(),
+        faults: faults.into_iter().map(|fault| fault.words).collect(),
         refused: row.get(5)?,
         ei,
         vertices: row.get(8)?,
@@ -109,17 +109,17 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
 /// Counts results by simulator.
 #[must_use]
 pub fn tally(all: &[Dressed]) -> Vec<Tally> {
-    let mut simulators: Vec<&str> = all.iter().map(|one| one.simulator.as_str()).collect();
+    let mut simulators: Vec<&str> = all.iter().map(|job| job.simulator.as_str()).collect();
     simulators.sort_unstable();
     simulators.dedup();
     simulators.into_iter().map(|simulator| of_simulator(simulator, all)).collect()
 }
 
 fn of_simulator(simulator: &str, all: &[Dressed]) -> Tally {
-    let ended: Vec<&Dressed> = all.iter().filter(|one| one.simulator == simulator && one.status.is_final()).collect();
-    let eis: Vec<f64> = ended.iter().filter_map(|one| one.ei).collect();
-    let faulty = ended.iter().filter(|one| !one.faults.is_empty()).count();
-    let mut times: Vec<i64> = ended.iter().filter_map(|one| one.wall_ms).collect();
+    let ended: Vec<&Dressed> = all.iter().filter(|job| job.simulator == simulator && job.status.is_final()).collect();
+    let eis: Vec<f64> = ended.iter().filter_map(|job| job.ei).collect();
+    let faulty = ended.iter().filter(|job| !job.faults.is_empty()).count();
+    let mut times: Vec<i64> = ended.iter().filter_map(|job| job.wall_ms).collect();
     times.sort_unstable();
     let seconds = |ms: &i64| *ms as f64 / 1e3;
     Tally {
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_tally_counts_what_ended_and_how() {
-        let one = |faults: &[&str], ei: Option<f64>, status, wall_ms| Dressed {
+        let job = |faults: &[&str], ei: Option<f64>, status, wall_ms| Dressed {
             garment: "g".into(),
             size: "one".into(),
             subject: "s".into(),
@@ -155,10 +155,10 @@ mod tests {
             wall_ms,
         };
         let all = [
-            one(&[], Some(0.01), Status::Done, Some(1000)),
-            one(&["crosses"], Some(0.03), Status::Done, Some(3000)),
-            one(&[], None, Status::Failed, Some(2000)),
-            one(&[], None, Status::Queued, None),
+            job(&[], Some(0.01), Status::Done, Some(1000)),
+            job(&["crosses"], Some(0.03), Status::Done, Some(3000)),
+            job(&[], None, Status::Failed, Some(2000)),
+            job(&[], None, Status::Queued, None),
         ];
         let [fem] = &tally(&all)[..] else { panic!("one simulator") };
         assert_eq!((fem.ended, fem.good, fem.faulty, fem.refused), (3, 1, 1, 1));

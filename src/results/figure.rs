@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use image::{GenericImage, RgbaImage};
 
+use crate::error::ResultsError;
 use body::{Dimension, Girths, Mass};
 use engine::stages::{self, Model};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 use store::cache::{self, Cache};
-use store::{InOrigin, Origin, Result, StageKind, Store, StudyError, SubjectId};
+use store::{InOrigin, Origin, Result, StageKind, Store, SubjectId};
 use wardrobe::catalogue;
 
 /// Margin around a body in its picture, m.
@@ -70,8 +71,7 @@ impl Figure {
     /// When the picture is too small or too large.
     pub fn picture(&self, width: u32, height: u32) -> Result<RgbaImage> {
         let mesh = &self.model.body.mesh;
-        let (low, high) =
-            mesh.bounds().ok_or_else(|| StudyError::refused(Origin::Render, "the body has no vertices"))?;
+        let (low, high) = mesh.bounds().ok_or(ResultsError::EmptyBody)?;
         let size = high - low;
         // Across: the front, then the side, each with a margin; x points sideways, y to the front, z up.
         let across = [size.x + MARGIN_M, size.y + MARGIN_M];
@@ -81,10 +81,9 @@ impl Figure {
         let frame = Frame { centre: (low + high) / 2.0, height_m };
         let left = ((f64::from(width) * across[0] / all) as u32).clamp(1, width - 1);
         let mut whole = RgbaImage::new(width, height);
-        for (view, at, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
+        for (view, from, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
             let picture = render::cutout(&self.scene, &Camera::new(view, frame), across, height);
-            let picture = picture.origin(Origin::Render)?;
-            whole.copy_from(&picture, at, 0).origin(Origin::Render)?;
+            whole.copy_from(&picture.origin(Origin::Render)?, from, 0).origin(Origin::Render)?;
         }
         Ok(whole)
     }

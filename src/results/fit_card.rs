@@ -152,8 +152,8 @@ impl FitCard {
         let own = bare.iter().filter(|bare| bare.garment == self.garment && bare.subject == self.subject);
         let mut is_other = false;
         for Bare { size, level, bare_deg, .. } in own {
-            let of_size = self.sizes.iter_mut().filter(|one| one.size == *size).flat_map(|one| &mut one.levels);
-            for known in of_size.filter(|known| known.level == *level) {
+            let sizes = self.sizes.iter_mut().filter(|known| known.size == *size);
+            for known in sizes.flat_map(|known| &mut known.levels).filter(|known| known.level == *level) {
                 known.covered_deg = Some(360.0 - bare_deg);
                 is_other = true;
             }
@@ -195,8 +195,8 @@ impl FitCard {
     /// The levels that any size covers, from the neck down.
     #[must_use]
     pub fn levels(&self) -> Vec<&str> {
-        let mut found: Vec<&str> =
-            self.sizes.iter().flat_map(|size| &size.levels).map(|one| one.level.as_str()).collect();
+        let levels = self.sizes.iter().flat_map(|size| &size.levels);
+        let mut found: Vec<&str> = levels.map(|level| level.level.as_str()).collect();
         found.sort_by_key(|level| (order(level), *level));
         found.dedup();
         found
@@ -345,15 +345,20 @@ fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
 }
 
 /// Keeps the cards of a name, if one is given.
-fn keep(cards: &mut Vec<FitCard>, what: &'static str, name: Option<&str>, of: fn(&FitCard) -> &String) -> Result<()> {
+fn keep(
+    cards: &mut Vec<FitCard>,
+    what: &'static str,
+    name: Option<&str>,
+    name_of: fn(&FitCard) -> &String,
+) -> Result<()> {
     let Some(name) = name else { return Ok(()) };
-    let mut known: Vec<String> = cards.iter().map(|card| of(card).clone()).collect();
+    let mut known: Vec<String> = cards.iter().map(|card| name_of(card).clone()).collect();
     known.sort();
     known.dedup();
     if !known.iter().any(|known| known == name) {
         return Err(StudyError::NotFound { what, name: name.to_owned(), known });
     }
-    cards.retain(|card| of(card) == name);
+    cards.retain(|card| name_of(card) == name);
     Ok(())
 }
 

@@ -68,10 +68,10 @@ impl Mannequin {
     pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
         let (body, notes) = read_body(file, unit, sex)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok((Self::of((name, Arc::new(Model { body })))?, notes))
+        Ok((Self::new(name, Arc::new(Model { body }))?, notes))
     }
 
-    fn of((name, model): (String, Arc<Model>)) -> Result<Self> {
+    fn new(name: String, model: Arc<Model>) -> Result<Self> {
         let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { name, model, field })
     }
@@ -82,7 +82,8 @@ impl Mannequin {
 /// # Errors
 /// When there is no revision of that number, or no body can be built from its measurements.
 pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
-    Mannequin::of(figure::model(store, id)?)
+    let (name, model) = figure::model(store, id)?;
+    Mannequin::new(name, model)
 }
 
 /// Accuracy of a preview.
@@ -133,7 +134,7 @@ impl Mannequin {
             Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
         };
         let garment = meshes.finest()?;
-        let (hung, positions, mut remarks) = hang(&meshes, self, cloth, care, is_stale)?;
+        let Hanging { hung, positions, mut remarks } = hang(&meshes, self, cloth, care, is_stale)?;
         let free = free_edges(garment, &piece.open_edges());
         if !free.is_empty() {
             remarks.push("red edges are in no seam".to_owned());
@@ -216,14 +217,16 @@ impl Monitor for Glance<'_> {
     }
 }
 
+/// Result of draping a garment for a preview.
+struct Hanging {
+    hung: Hung,
+    /// Positions of its vertices, where any are known.
+    positions: Option<Vec<V3>>,
+    remarks: Vec<String>,
+}
+
 /// Drapes a garment on a body as carefully as asked.
-fn hang(
-    meshes: &Meshes,
-    on: &Mannequin,
-    cloth: &Fabric,
-    care: Care,
-    is_stale: &dyn Fn() -> bool,
-) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
+fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Hanging> {
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
     if care == Care::Glance {
@@ -232,10 +235,13 @@ fn hang(
     }
     let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, care, is_stale };
     let body = &on.model.body;
+    let draped = |positions, remarks| Hanging { hung: Hung::Draped, positions, remarks };
     match fem::simulate(body, &on.field, &meshes.0, cloth, &params, &mut glance) {
-        Ok(drape) if care == Care::Trial => Ok((Hung::Draped, Some(drape.positions.clone()), told(garment, &drape))),
-        Ok(drape) => Ok((Hung::Draped, Some(drape.positions), vec![])),
-        Err(SimError::Cancelled) if glance.is_enough => Ok((Hung::Draped, glance.seen, vec![])),
+        Ok(drape) => {
+            let remarks = if care == Care::Trial { told(garment, &drape) } else { vec![] };
+            Ok(draped(Some(drape.positions), remarks))
+        }
+        Err(SimError::Cancelled) if glance.is_enough => Ok(draped(glance.seen, vec![])),
         Err(SimError::Cancelled) => Err(StudyError::Interrupted),
         Err(error) => {
             // What was seen of a coarser mesh has other vertices.
@@ -243,7 +249,7 @@ fn hang(
             let placed = || place(body, garment, &Bend::default()).ok();
             let positions = seen.or_else(placed);
             let hung = if positions.is_some() { Hung::Undone } else { Hung::Not };
-            Ok((hung, positions, vec![error.to_string()]))
+            Ok(Hanging { hung, positions, remarks: vec![error.to_string()] })
         }
     }
 }
@@ -252,7 +258,7 @@ fn hang(
 fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
     let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);
-    let mut told: Vec<String> = faults.into_iter().map(|(fault, _)| fault).collect();
+    let mut told: Vec<String> = faults.into_iter().map(|fault| fault.words).collect();
     if told.is_empty() {
         told.push("at rest".to_owned());
     }
@@ -269,7 +275,7 @@ fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
         hold(side);
     }
     for piece in &garment.pieces {
-        let is_open = |name: &String| open.iter().any(|one| *one == format!("{}.{name}", piece.id));
+        let is_open = |name: &String| open.iter().any(|edge| *edge == format!("{}.{name}", piece.id));
         for (_, line) in piece.edges.iter().filter(|(name, _)| is_open(name)) {
             for side in line.windows(2) {
                 hold([side[0], side[1]]);

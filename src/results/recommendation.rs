@@ -68,8 +68,8 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
     let cards = fit_cards(store, study, None, None)?;
     let mut answers = Vec::new();
     for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
-        let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
-        answers.extend(size_answer(store, &of, &jobs, &recommended, &cards)?);
+        let own = eases.iter().filter(|ease| ease.subject == subject && ease.garment == *name);
+        answers.extend(size_answer(store, &own.collect::<Vec<_>>(), &jobs, &recommended, &cards)?);
     }
     Ok(answers)
 }

@@ -5,12 +5,13 @@ use std::path::Path;
 
 use rusqlite::{OptionalExtension, Row};
 
+use crate::error::ResultsError;
 use engine::{Executor, Outcome, Pipeline, enqueue};
 use geom::units::{from_mm, mm};
 use sim::Silent;
 use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
 use store::cache::Cache;
-use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Origin, Result, StageRow, Store, StudyError, SubjectId, read};
+use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, StageRow, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue::{self, read_fabric, read_style};
 
 /// Provenance of a result.
@@ -179,11 +180,10 @@ pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: 
 pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;
-    let refuse = |message: String| StudyError::refused(Origin::Rerun, message);
     let edge_mm: f64 = inputs
         .iter()
         .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
-        .ok_or_else(|| refuse(format!("job {id} has no mesh.edge_length_mm")))?;
+        .ok_or(ResultsError::NoEdgeLength(id))?;
     let keys = "SELECT subject_id, style_id, size_id, fabric_id FROM job WHERE job_id = ?";
     let keys: [i64; 4] = store
         .reader
@@ -193,13 +193,13 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let person = catalogue::person(store, SubjectId(keys[0]))?;
     let is_scan = |(name, _): (&str, &str)| name.starts_with("subject.") && name.ends_with(".scan");
     if person.scan.is_none() && inputs.iter().any(is_scan) {
-        return Err(refuse("its body is a scan, of which an older program kept nothing; run its study again".into()));
+        return Err(ResultsError::ScanNotKept.into());
     }
     if inputs.iter().any(|(name, _)| name == "outfit.id") {
-        return Err(refuse("it is a layer of an outfit, which is draped as a whole; run its study again".into()));
+        return Err(ResultsError::Layer.into());
     }
     if inputs.iter().any(|(name, _)| name == CARRIED_FROM) {
-        return Err(refuse("its body carried it from another pose; run its study again".into()));
+        return Err(ResultsError::Carried.into());
     }
     let spec = JobSpec {
         garment: job.garment,
@@ -214,7 +214,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         seams,
         fabric: read_fabric(&store.reader, keys[3])?,
         edge_length_m: from_mm(edge_mm),
-        parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
+        parameters: Parameters::of_inputs(&inputs).map_err(ResultsError::Parameters)?,
         schedule: Schedule::default(),
         outfit: None,
         dressed: None,
@@ -244,9 +244,9 @@ fn paired(a: &[ChiRow], b: &[ChiRow]) -> Vec<ChiPair> {
     let mut numbers: Vec<u32> = a.iter().chain(b).map(|row| row.no).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    let of = |rows: &[ChiRow], no: u32| rows.iter().rfind(|row| row.no == no).cloned();
+    let last_of = |rows: &[ChiRow], no: u32| rows.iter().rfind(|row| row.no == no).cloned();
     let pair = |no| {
-        let both = [of(a, no), of(b, no)];
+        let both = [last_of(a, no), last_of(b, no)];
         let name = both.iter().flatten().next().map(|row| row.name.clone()).unwrap_or_default();
         ChiPair { no, name, lengths_m: both.map(|row| row.map(|row| (row.l2d_m, row.l3d_m))) }
     };

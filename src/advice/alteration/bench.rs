@@ -10,7 +10,7 @@ use fit::target::Target;
 use geom::units::{from_mm, mm};
 use pattern::handle::HandleError;
 use pattern::{Handle, Style};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Number of rounds in which the change is corrected by its true effect, and its squares are weighted anew.
 const ROUNDS: usize = 12;
@@ -116,7 +116,7 @@ impl<'a> Bench<'a> {
             };
             let place = self.handles.iter().position(|handle| Some(*handle) == refused.handle());
             let Some(place) = place.filter(|place| limits_m[*place] > 0.0) else {
-                return Err(StudyError::refused(Origin::Alter, refused));
+                return Err(refused).origin(Origin::Alter);
             };
             limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
         }
@@ -242,8 +242,8 @@ impl<'a> Bench<'a> {
             let helps = |change: &Sensitivity| change.get(&missed.level).is_some_and(|by| by.abs() >= LEAST_EFFECT);
             let own = self.changes.iter().zip(self.handles.iter().zip(amounts)).filter(|(change, _)| helps(change));
             let own: Vec<(&Handle, f64)> = own.map(|(_, (handle, amount_m))| (handle, mm(*amount_m).abs())).collect();
-            let names = |of: &[(&Handle, f64)]| {
-                of.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
+            let names = |moved: &[(&Handle, f64)]| {
+                moved.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
             };
             let at_limit: Vec<_> = own.iter().copied().filter(|(_, by_mm)| *by_mm >= limit_mm - DRAWN_MM).collect();
             match (own.is_empty(), at_limit.is_empty()) {

@@ -1,13 +1,14 @@
 //! The drape of a changed pattern by FEM-GS: its readings, and their sensitivity to the handles.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::alteration::readings::{Place, Reading, Readings};
 use crate::alteration::{Redraped, STEP_M, Sensitivity};
 use body::Body;
 use engine::Outcome;
-use engine::fitting::Fitting;
-use engine::stages::Meshes;
+use engine::fitting::{Fitting, Wearer};
+use engine::stages::{Garb, Meshes};
 use fit::Simulator;
 use geom::units::mm;
 use geom::{DistanceField, V2, V3};
@@ -52,16 +53,16 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
     pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
-        let Draped { meshes, drape, outcome } = self.draped(style)?;
-        Ok((outcome, self.fitting(style, &meshes).eases_on(&drape)?))
+        let Draped { garb, drape, outcome } = self.draped(style)?;
+        Ok((outcome, self.fitting(&garb).eases_on(&drape)?))
     }
 
     fn draped(&self, style: &Style) -> Result<Draped> {
-        let meshes = Meshes::of(style, self.spec.edge_length_m)?;
-        let fitting = self.fitting(style, &meshes);
+        let garb = self.garb(style, Meshes::of(style, self.spec.edge_length_m)?);
+        let fitting = self.fitting(&garb);
         let drape = fitting.simulate(&mut Silent)?;
         let outcome = fitting.outcome(&drape)?;
-        Ok(Draped { meshes, drape, outcome })
+        Ok(Draped { garb, drape, outcome })
     }
 
     /// Drapes a style as its study does, and reads the drape.
@@ -69,16 +70,15 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
     pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
-        let Draped { meshes, drape, outcome } = self.draped(style)?;
-        let garment = meshes.finest()?;
+        let Draped { garb, drape, outcome } = self.draped(style)?;
+        let garment = garb.meshes.finest()?;
         let place = Place::new(self.body, style, garment, &self.spec.fabric)?;
-        let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
         let redraped = Redraped {
             converged: outcome.converged,
             ei: outcome.metrics.ei,
             penetration_max_mm: mm(outcome.penetration_max_m),
-            hem_front_over_back_mm: hem,
-            most_kpa: outcome.worn.pressing.iter().map(|one| one.most_kpa).reduce(f64::max),
+            hem_front_over_back_mm: outcome.worn.hem_front_over_back_m().map(mm),
+            most_kpa: outcome.worn.most_kpa(),
             drag_lines: outcome.worn.folds.iter().filter(|fold| fold.is_drag).count(),
         };
         Ok((redraped, place.readings(garment, &drape.positions)?))
@@ -99,15 +99,16 @@ impl<'a> FittingRoom<'a> {
             place.readings(garment, &drape.origin(Origin::Sim)?.positions)
         };
         let all = STARTS.into_iter().map(drape).collect::<Result<Vec<_>>>()?;
-        let of = |(name, reading): (&String, &Reading)| {
-            let values: Vec<f64> = all.iter().map(|one| one.get(name).map(|one| one.value)).collect::<Option<_>>()?;
+        let scatter = |(name, reading): (&String, &Reading)| {
+            let values = all.iter().map(|readings| readings.get(name).map(|reading| reading.value));
+            let values: Vec<f64> = values.collect::<Option<_>>()?;
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
             let least = if reading.unit == "kPa" { LEAST_SCATTER_KPA } else { LEAST_SCATTER };
             let value = (squares / (values.len() - 1) as f64).sqrt().max(least);
             Some((name.clone(), Reading { value, ..*reading }))
         };
-        Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(of).collect()))
+        Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(scatter).collect()))
     }
 
     /// Meshes of a style up to the last but one.
@@ -125,9 +126,9 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
     pub fn answers(&self, style: &Style, handles: &[Handle]) -> Result<Answers> {
-        let meshes = self.coarse(style)?;
-        let drape = self.fitting(style, &meshes).simulate(&mut Silent)?;
-        let (garment, fabric) = (meshes.finest()?, &self.spec.fabric);
+        let garb = self.garb(style, self.coarse(style)?);
+        let drape = self.fitting(&garb).simulate(&mut Silent)?;
+        let (garment, fabric) = (garb.meshes.finest()?, &garb.fabric);
         let skin = Skin::new(&self.body.mesh).ok();
         let params = self.spec.parameters.fem()?;
         let floor_m = fem::floor_m(self.body);
@@ -151,27 +152,31 @@ impl<'a> FittingRoom<'a> {
                 return Ok(Sensitivity::new());
             };
             let rates = response.rates([&less, &more], 2.0 * TAKEN_ALONG_M).origin(Origin::Alter)?;
-            let at = |by_m: f64| {
+            let readings_at = |by_m: f64| {
                 let drawn = along(garment, [&less, &more], by_m);
                 let positions: Vec<V3> = rested.iter().zip(&rates).map(|(p, rate)| p + rate * by_m).collect();
                 place.readings(&drawn, &positions)
             };
-            Ok(changes(&at(STEP_M)?, &at(-STEP_M)?, 2.0 * STEP_M))
+            Ok(changes(&readings_at(STEP_M)?, &readings_at(-STEP_M)?, 2.0 * STEP_M))
         };
         let of_handles = handles.iter().map(|handle| answer(*handle)).collect::<Result<Vec<_>>>()?;
         Ok(Answers { of_handles, is_stable: response.is_stable() })
     }
 
-    fn fitting<'f>(&'f self, style: &'f Style, meshes: &'f Meshes) -> Fitting<'f> {
-        let Self { spec, body, field } = self;
-        let (fabric, parameters) = (&spec.fabric, &spec.parameters);
-        Fitting { body, field, style, meshes, fabric, simulator: Simulator::Fem, parameters }
+    /// A style in the fabric of the job.
+    fn garb(&self, style: &Style, meshes: Meshes) -> Garb {
+        Garb { style: style.clone(), meshes: Arc::new(meshes), fabric: self.spec.fabric.clone() }
+    }
+
+    fn fitting<'f>(&'f self, garb: &'f Garb) -> Fitting<'f> {
+        let wearer = Wearer { body: self.body, field: &self.field };
+        Fitting { wearer, garb, simulator: Simulator::Fem, parameters: &self.spec.parameters }
     }
 }
 
 /// A style that was draped.
 struct Draped {
-    meshes: Meshes,
+    garb: Garb,
     drape: Drape,
     outcome: Outcome,
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use body::Body;
 use engine::Level;
-use engine::levels::quantities;
+use engine::assessment::{Quantity, hang, quantities};
 use fit::worn::{self, DIRECTIONS, Section};
 use geom::units::mm;
 use geom::{Surface, V3};
@@ -53,7 +53,7 @@ impl<'a> Place<'a> {
         let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let points = style.points_of_measure();
         let named = [Point::Shoulder, Point::Inseam, Point::CentreFrontLength, Point::CentreBackLength];
-        let path = |point: Point| points.iter().find(|one| one.point == point).map(|one| one.path.as_slice());
+        let path = |point: Point| points.iter().find(|found| found.point == point).map(|found| found.path.as_slice());
         let paths: Vec<&[PathPart]> = named.into_iter().map(|point| path(point).unwrap_or_default()).collect();
         let mut laid = style.laid(garment, &paths).into_iter().map(Option::unwrap_or_default);
         let mut next = || laid.next().unwrap_or_default();
@@ -69,8 +69,8 @@ impl<'a> Place<'a> {
     pub fn readings(&self, drawn: &Garment, positions: &[V3]) -> Result<Readings> {
         let sewn = Sewn::new(drawn, self.fabric, positions).origin(Origin::Measure)?;
         let mut found = Readings::new();
-        let hang = engine::levels::hang(self.style, self.garment, positions);
-        found.extend(quantities(&hang).into_iter().map(|(name, value, unit)| (name, Reading { value, unit })));
+        let balance = quantities(&hang(self.style, self.garment, positions)).into_iter();
+        found.extend(balance.map(|Quantity { name, value, unit }| (name, Reading { value, unit })));
         let mut add = |name: String, value_m: Option<f64>| {
             found.extend(value_m.map(|m| (name, Reading { value: mm(m), unit: "mm" })));
         };
@@ -88,16 +88,16 @@ impl<'a> Place<'a> {
             let points = || lines.iter().flat_map(|line| &line.points);
             Some([points().next()?.at(positions), points().next_back()?.at(positions)])
         };
-        let off = |p: V3| self.surface.signed_distance(&p);
-        add("off_neck_side".to_owned(), ends(&self.shoulder).map(|[neck, _]| off(neck)));
-        add("off_shoulder_point".to_owned(), ends(&self.shoulder).map(|[_, tip]| off(tip)));
+        let gap_at = |p: V3| self.surface.signed_distance(&p);
+        add("off_neck_side".to_owned(), ends(&self.shoulder).map(|[neck, _]| gap_at(neck)));
+        add("off_shoulder_point".to_owned(), ends(&self.shoulder).map(|[_, tip]| gap_at(tip)));
         add("fork_below_crotch".to_owned(), ends(&self.inseam).map(|[fork, _]| self.body.levels.crotch_m - fork.z));
         for (side, lines) in ["neck_front", "neck_back"].into_iter().zip(&self.necks) {
             add(side.to_owned(), ends(lines).map(|[neck, _]| neck.z).filter(|_| !self.shoulder.is_empty()));
         }
-        for one in worn::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
-            let most = Reading { value: one.most_kpa, unit: "kPa" };
-            found.insert(format!("pressure_{}", one.region.as_str()), most);
+        for pressed in worn::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
+            let most = Reading { value: pressed.most_kpa, unit: "kPa" };
+            found.insert(format!("pressure_{}", pressed.region.as_str()), most);
         }
         Ok(found)
     }

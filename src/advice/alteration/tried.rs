@@ -77,11 +77,9 @@ impl Tried {
             }
             let mut promised = now.clone();
             for (name, reading) in &mut promised {
-                let by = |(answer, change): (&crate::alteration::Sensitivity, f64)| {
-                    answer.get(name).copied().unwrap_or(0.0) * change
-                };
                 let changes = next.iter().zip(&amounts).map(|(next, now)| next - now);
-                reading.value += answers.of_handles.iter().zip(changes).map(by).sum::<f64>();
+                let answers = answers.of_handles.iter().map(|answer| answer.get(name).copied().unwrap_or(0.0));
+                reading.value += answers.zip(changes).map(|(answer, change)| answer * change).sum::<f64>();
             }
             let changed = bench.moved(&next)?;
             let after = room.drape(&changed)?;
@@ -140,8 +138,8 @@ fn known(bench: &Bench, readings: &Readings) -> Result<()> {
 fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts: &[f64]) -> Vec<Goal> {
     let goal = |(name, [least, most]): (&String, &[f64; 2])| {
         let value = now.get(name)?.value;
-        let of = |answer: &crate::alteration::Sensitivity| answer.get(name).copied().unwrap_or(0.0);
-        let sensitivity: Vec<f64> = answers.of_handles.iter().map(of).collect();
+        let of_handles = answers.of_handles.iter();
+        let sensitivity: Vec<f64> = of_handles.map(|answer| answer.get(name).copied().unwrap_or(0.0)).collect();
         let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
         let inside = 0.25 * (most - least);
         // What the coarse drape does not have is answered by no handle, and asked for firmly: it is missed, and said so.
@@ -153,11 +151,11 @@ fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts
 
 /// Sum over the readings that are asked for of their departures, in widths of their bands.
 fn missed(wish: &Wish, readings: &Readings) -> f64 {
-    let of = |(name, target): (&String, &[f64; 2])| {
+    let departure = |(name, target): (&String, &[f64; 2])| {
         let value = readings.get(name)?.value;
         let [least, most] = *target;
         let off = (least - value).max(value - most).max(0.0);
         Some(if within(*target, value) { 0.0 } else { off / (most - least).max(1e-9) })
     };
-    wish.targets.iter().filter_map(of).sum()
+    wish.targets.iter().filter_map(departure).sum()
 }

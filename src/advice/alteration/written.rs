@@ -1,12 +1,13 @@
 //! The changed pattern as files, read again from them.
 
+use crate::error::AdviceError;
 use pattern::dxf::{self, Standard};
 use pattern::handle::{self, Redrawn};
 use pattern::piece::Piece;
 use pattern::{Handle, Style, garmentcode, size_order};
 use spec::{JobSpec, patterns};
 use store::files::SourceFile;
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// A changed pattern in files.
 pub struct Written {
@@ -58,11 +59,11 @@ pub fn nest(
 ) -> Result<(String, Vec<u8>)> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut reseamed = None;
-    for of in others.iter().chain([spec]) {
-        let message = format!("{}: holds its own seams; accepted for a nest: DXF with a seam file", of.pattern.name);
-        let seams = of.seams.as_ref().ok_or_else(|| StudyError::refused(Origin::Alter, message))?;
-        let sized = redrawn(of, seams, moves)?;
-        pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(of.size.clone()), ..piece }));
+    for job in others.iter().chain([spec]) {
+        let without_seams = || AdviceError::NestWithoutSeams { pattern: job.pattern.name.clone() };
+        let seams = job.seams.as_ref().ok_or_else(without_seams)?;
+        let sized = redrawn(job, seams, moves)?;
+        pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(job.size.clone()), ..piece }));
         // The seam file beside the nest is that of the asked size, the last.
         reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
     }
@@ -70,8 +71,8 @@ pub fn nest(
     let name = format!("{name}.dxf");
     let bytes = dxf::write_pieces(&pieces, &texts(spec), standard);
     let file = SourceFile { name: name.clone(), bytes: bytes.clone().into() };
-    for of in others.iter().chain([spec]) {
-        patterns::read_style(&file, reseamed.as_ref(), Some(&of.size), None)?;
+    for job in others.iter().chain([spec]) {
+        patterns::read_style(&file, reseamed.as_ref(), Some(&job.size), None)?;
     }
     Ok((name, bytes))
 }

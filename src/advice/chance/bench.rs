@@ -25,9 +25,10 @@ pub(super) struct Level {
     /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of the bench's
     /// dimensions.
     slopes: Vec<f64>,
-    /// Part of the garment whose seams run through the level, and the standard deviation of the garment's length
-    /// there, m.
-    made: (usize, f64),
+    /// Index of the part of the garment whose seams run through the level.
+    part: usize,
+    /// Standard deviation of the garment's length there, m.
+    made_m: f64,
 }
 
 /// A size on a subject.
@@ -48,7 +49,7 @@ impl Sized {
     /// the same error.
     pub fn made_m(&self, draw: &mut Draw) -> Vec<f64> {
         let made: [f64; PARTS] = std::array::from_fn(|_| draw.normal());
-        self.levels.iter().map(|level| level.made.1 * made[level.made.0]).collect()
+        self.levels.iter().map(|level| level.made_m * made[level.part]).collect()
     }
 }
 
@@ -103,7 +104,7 @@ impl Bench {
         let dimensions: Vec<Dimension> = Dimension::ALL.into_iter().filter(is_open).collect();
         let mut bench = Self { readings, sizes: Vec::new(), likely, middle, error_factor, dimensions };
         let built = bodies::build_body(&bench.middle)?;
-        let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|one| bench.moved(*one)).collect();
+        let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|dimension| bench.moved(*dimension)).collect();
         let tolerance_m = from_mm(question.tolerance_mm);
         let size = |(size, style): &(String, Style)| Sized {
             size: size.clone(),
@@ -138,8 +139,8 @@ impl Bench {
     /// Differences of two people in the logarithms of the dimensions that are not known exactly; 0 where either lacks
     /// one.
     fn off(&self, from: &Measurements, to: &Measurements) -> Vec<f64> {
-        let one = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
-        self.dimensions.iter().map(|dimension| one(dimension).unwrap_or(0.0)).collect()
+        let difference = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
+        self.dimensions.iter().map(|dimension| difference(dimension).unwrap_or(0.0)).collect()
     }
 
     /// The median body with a dimension one deviation less and more; `None` where there is no such body.
@@ -160,7 +161,7 @@ impl Bench {
         scanned: Option<&Body>,
         tolerance_m: f64,
     ) -> Vec<Level> {
-        let at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
+        let ease_at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
         let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
         let all: Vec<&Body> = bodies.clone().flatten().collect();
         let mut found = ease::on_all(style, &all).into_iter();
@@ -174,7 +175,7 @@ impl Bench {
         let moved: Vec<[Option<Eases>; 2]> =
             (0..moved.len()).map(|_| [eases.next().flatten(), eases.next().flatten()]).collect();
         let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Eases>; 2])| {
-            let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| at(eases, level)));
+            let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| ease_at(eases, level)));
             let sides = f64::from(u8::from(less.is_some()) + u8::from(more.is_some()));
             let change = more.unwrap_or(here) - less.unwrap_or(here);
             if sides > 0.0 { change / (sides * self.likely.spread(*dimension)) } else { 0.0 }
@@ -188,10 +189,11 @@ impl Bench {
                 band_m: target.band_m(name, is_top),
                 middle_m: *here,
                 slopes,
-                made: (part, share * tolerance_m),
+                part,
+                made_m: share * tolerance_m,
             };
             // A scan has a shape of its own: its ease where it was read, moved to the middle person.
-            let own = own.as_ref().and_then(|eases| at(eases, name));
+            let own = own.as_ref().and_then(|eases| ease_at(eases, name));
             let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
             Level { middle_m, ..found }
         };

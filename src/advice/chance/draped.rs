@@ -1,25 +1,26 @@
 //! Draws of one size, draped: body, cloth and start are drawn, and the drapes are measured.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::json;
 
 use crate::chance::Question;
-use crate::chance::bench::{Bench, Sized};
+use crate::chance::bench::{Bench, Level, Sized};
+use crate::error::AdviceError;
 use engine::Outcome;
-use engine::fitting::Fitting;
-use engine::stages::{self, Meshes};
+use engine::fitting::{Fitting, Wearer};
+use engine::stages::{self, Garb, Meshes};
 use fit::chance::{self, Share, Sitting};
 use fit::{Draw, Simulator};
 use geom::DistanceField;
 use geom::units::mm;
-use pattern::Style;
 use sim::fabric::{Kind, weights};
 use sim::{Fabric, Silent};
 use spec::versions::FIELD_SPACING_M;
 use spec::{JobSpec, bodies};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Range of the distance at which pieces start from the body, in body depths: from the usual one to that of the thesis
 /// [T 4.4.2].
@@ -59,58 +60,51 @@ struct Drawn {
 /// When the pattern cannot be read or meshed. A draw that cannot be draped is no error.
 pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Result<DrapedChance> {
     let style = stages::style(job)?;
-    let meshes = Meshes::of(&style, job.edge_length_m)?;
-    let size = bench.sizes.iter().find(|size| size.size == job.size);
-    let size = size.ok_or_else(|| StudyError::refused(Origin::Chance, "no such size"))?;
+    let meshes = Arc::new(Meshes::of(&style, job.edge_length_m)?);
+    let garb = Garb { style, meshes, fabric: job.fabric.clone() };
+    let size = bench.sizes.iter().find(|size| size.size == job.size).ok_or(AdviceError::UnknownSize)?;
     let mut draw = Draw::new(question.seed);
     let (mut drawn, mut refused) = (Vec::new(), Vec::new());
     for number in 1..=question.fem {
-        match one(job, bench, size, (&style, &meshes), &mut draw) {
-            Ok(one) => drawn.push(one),
+        match drawn_and_draped(job, bench, size, &garb, &mut draw) {
+            Ok(draped) => drawn.push(draped),
             Err(error) => refused.push(format!("draw {number}: {error}")),
         }
     }
     let bands = size.bands();
-    let fit = |one: &&Drawn| chance::verdict(&one.eases_m, &bands).sitting == Sitting::Fits && one.outcome.converged;
-    let of = |value: &dyn Fn(&Drawn) -> Option<f64>| -> Vec<f64> { drawn.iter().filter_map(value).collect() };
-    let some = |values: Vec<f64>| (!values.is_empty()).then(|| chance::interval(&values));
-    let level = |at: usize| chance::interval(&of(&|one| one.eases_m.get(at).copied())).map(mm);
-    let hem = |one: &Drawn| one.outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
-    let pressed = |one: &Drawn| one.outcome.worn.pressing.iter().map(|one| one.most_kpa).reduce(f64::max);
+    let fits =
+        |draw: &&Drawn| chance::verdict(&draw.eases_m, &bands).sitting == Sitting::Fits && draw.outcome.converged;
+    let values = |value: &dyn Fn(&Drawn) -> Option<f64>| -> Vec<f64> { drawn.iter().filter_map(value).collect() };
+    let known = |values: Vec<f64>| (!values.is_empty()).then(|| chance::interval(&values));
+    let level = |number: usize| chance::interval(&values(&|draw| draw.eases_m.get(number).copied())).map(mm);
     Ok(DrapedChance {
         draws: drawn.len(),
-        at_rest: drawn.iter().filter(|one| one.outcome.converged).count(),
-        fits: Share::of(drawn.iter().filter(fit).count(), drawn.len()),
-        ease_mm: size.levels.iter().enumerate().map(|(at, one)| (one.name.clone(), level(at))).collect(),
-        hem_front_over_back_mm: some(of(&hem)),
-        most_kpa: some(of(&pressed)),
-        bending_length_mm: chance::interval(&of(&|one| Some(one.bending_m))).map(mm),
+        at_rest: drawn.iter().filter(|draw| draw.outcome.converged).count(),
+        fits: Share::of(drawn.iter().filter(fits).count(), drawn.len()),
+        ease_mm: size.levels.iter().enumerate().map(|(number, known)| (known.name.clone(), level(number))).collect(),
+        hem_front_over_back_mm: known(values(&|draw| draw.outcome.worn.hem_front_over_back_m().map(mm))),
+        most_kpa: known(values(&|draw| draw.outcome.worn.most_kpa())),
+        bending_length_mm: chance::interval(&values(&|draw| Some(draw.bending_m))).map(mm),
         refused,
     })
 }
 
-fn one(
-    job: &JobSpec,
-    bench: &Bench,
-    size: &Sized,
-    (style, meshes): (&Style, &Meshes),
-    draw: &mut Draw,
-) -> Result<Drawn> {
+/// Draws body, cloth and start, and drapes a size.
+fn drawn_and_draped(job: &JobSpec, bench: &Bench, size: &Sized, garb: &Garb, draw: &mut Draw) -> Result<Drawn> {
     let person = bench.person(draw);
     let made_m = size.made_m(draw);
-    let fabric = drawn_fabric(&job.fabric, draw);
+    let garb = Garb { fabric: drawn_fabric(&garb.fabric, draw), ..garb.clone() };
     let [near, far] = OFFSET_MU;
     let mut parameters = job.parameters.clone();
     parameters.set("fem.offset_mu", json!(near + (far - near) * draw.share())).origin(Origin::Chance)?;
     let body = bodies::build_body(&person)?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
-    let simulator = Simulator::Fem;
-    let fitting =
-        Fitting { body: &body, field: &field, style, meshes, fabric: &fabric, simulator, parameters: &parameters };
+    let wearer = Wearer { body: &body, field: &field };
+    let fitting = Fitting { wearer, garb: &garb, simulator: Simulator::Fem, parameters: &parameters };
     let outcome = fitting.outcome(&fitting.simulate(&mut Silent)?)?;
-    let on = |(level, made_m): (&crate::chance::bench::Level, f64)| worn_ease_m(&outcome, &level.name) + made_m;
-    let eases_m = size.levels.iter().zip(made_m).map(on).collect();
-    Ok(Drawn { eases_m, bending_m: fabric.bending_lengths_m()[0], outcome })
+    let ease_m = |(level, made_m): (&Level, f64)| worn_ease_m(&outcome, &level.name) + made_m;
+    let eases_m = size.levels.iter().zip(made_m).map(ease_m).collect();
+    Ok(Drawn { eases_m, bending_m: garb.fabric.bending_lengths_m()[0], outcome })
 }
 
 /// Draws a cloth of a class, as stiff as one of the known cloths of its weight. A fabric that is one measured cloth

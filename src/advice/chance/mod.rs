@@ -13,6 +13,7 @@ pub use planted::{PlantedLevel, PlantedTally, Reliability, planted};
 use serde::Serialize;
 
 use crate::alteration::one;
+use crate::error::AdviceError;
 use bench::{Bench, Sized};
 use body::Dimension;
 use engine::stages;
@@ -23,7 +24,7 @@ use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 use spec::{JobSpec, Study};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// A question after a probability of fit, and the draws that answer it.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,11 +170,11 @@ impl Chance {
 /// Estimates the probabilities that the sizes of a garment fit a subject.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or pattern
+/// [`store::StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or pattern
 /// refuse.
 pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
-    let first = jobs.first().ok_or_else(|| StudyError::refused(Origin::Chance, "the garment has no size"))?;
+    let first = jobs.first().ok_or(AdviceError::NoSize)?;
     let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?)));
     let styles = styles.collect::<Result<Vec<_>>>()?;
@@ -215,7 +216,7 @@ fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
 /// Every dimension of the subject with its interval.
 fn known(bench: &Bench) -> Vec<LikelyDimension> {
     let scale = |dimension: Dimension, value: f64| (value * dimension.per_si() * 10.0).round() / 10.0;
-    let of = |dimension: Dimension| {
+    let likely_dimension = |dimension: Dimension| {
         let likely = bench.likely_at(dimension)?;
         let read = bench.readings.get(dimension).map(|value| [value, bench.error(dimension)]);
         Some(LikelyDimension {
@@ -224,7 +225,7 @@ fn known(bench: &Bench) -> Vec<LikelyDimension> {
             likely: likely.map(|value| scale(dimension, value)),
         })
     };
-    Dimension::ALL.into_iter().filter_map(of).collect()
+    Dimension::ALL.into_iter().filter_map(likely_dimension).collect()
 }
 
 /// Draws bodies and garments, and counts their verdicts.
@@ -254,8 +255,8 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
     let draws = verdicts.len();
     let count = |is: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count();
     let share = |count: usize| Share::of(count, draws).share;
-    let level = |(at, level): (usize, &bench::Level)| {
-        let eases: Vec<f64> = drawn.iter().map(|eases| eases[at]).collect();
+    let level = |(number, level): (usize, &bench::Level)| {
+        let eases: Vec<f64> = drawn.iter().map(|eases| eases[number]).collect();
         let sits = |wanted: Sitting| {
             let is = |ease: &&f64| level.band_m.is_some_and(|band| chance::sitting(**ease, band) == wanted);
             share(eases.iter().filter(is).count())
@@ -266,7 +267,7 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
             ease_mm: chance::interval(&eases).map(mm),
             tight: sits(Sitting::Tight),
             loose: sits(Sitting::Loose),
-            decides: share(count(&|verdict| verdict.decides == Some(at))),
+            decides: share(count(&|verdict| verdict.decides == Some(number))),
         }
     };
     SizeChance {

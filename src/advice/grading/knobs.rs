@@ -1,10 +1,11 @@
 //! Handles by which a pattern is graded: one for each level that has a band, and those that follow the first of them
 //! as in the pattern's own grade.
 
+use crate::error::AdviceError;
 use crate::grading::people::{self, Figure};
 use fit::coverage::{Asked, Asks};
 use pattern::{Handle, Style};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// Step in which sizes are drawn, m.
 pub const STEP_M: f64 = 1e-3;
@@ -69,12 +70,11 @@ impl<'a> Knobs<'a> {
         let all = style.handles();
         let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
         let handles = chosen(&all, &changes);
-        let Some(lead) = handles.first() else {
-            let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
-            let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
-            return Err(StudyError::refused(Origin::Grade, message));
+        let no_handle = || AdviceError::NoHandle {
+            style: style.name.clone(),
+            handles: all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", "),
         };
-        let lead = *lead;
+        let lead = *handles.first().ok_or_else(no_handle)?;
         let slope = |handle: Handle| slope(own, lead, handle);
         let others = all.iter().copied().filter(|handle| !handles.contains(handle));
         let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
@@ -190,7 +190,7 @@ fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     pairs.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (k, level) in pairs {
-        if taken.iter().all(|(handle, of)| *handle != k && *of != level) {
+        if taken.iter().all(|(handle, taken_level)| *handle != k && *taken_level != level) {
             taken.push((k, level));
         }
     }
@@ -217,9 +217,10 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
 fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
-        let of =
-            |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
-        let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
+        let length_m = |style: &Style| {
+            style.points_of_measure().iter().find(|found| found.point == point).map(|found| found.length_m)
+        };
+        let lengths = own.iter().map(length_m).collect::<Option<Vec<f64>>>()?;
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         Some(lengths.iter().map(|length| length - mean).collect())
     };

@@ -15,8 +15,9 @@ mod tally;
 use serde::Serialize;
 
 use crate::alteration::one;
+use crate::error::AdviceError;
 use crate::grading::knobs::{Band, Knobs};
-use crate::grading::people::Figure;
+use crate::grading::people::{Covered, Figure};
 use crate::grading::tally::Tally;
 use body::Sex;
 use engine::stages;
@@ -26,7 +27,7 @@ use pattern::Style;
 use report::file_part;
 use spec::file::GarmentEntry;
 use spec::{JobSpec, Study, patterns};
-use store::{Origin, Result, StudyError};
+use store::{Result, StudyError};
 use wardrobe::seams::Specification;
 
 /// Greatest amount of a handle either way, m.
@@ -202,23 +203,23 @@ pub struct Grading {
 /// rules do not make the sizes again.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
-    let seams = asked.spec.seams.as_ref().ok_or_else(|| {
-        refused(format!("{}: holds its own seams; accepted: DXF with a seam file", asked.spec.pattern.name))
-    })?;
+    let without_seams = || AdviceError::GradeWithoutSeams { pattern: asked.spec.pattern.name.clone() };
+    let seams = asked.spec.seams.as_ref().ok_or_else(without_seams)?;
     let own = asked.own()?;
     let base = &own[asked.base];
     let drawn = people::drawn(asked.sex, [wish.people, wish.held_out], wish.seed);
     // Somebody alone tells the levels, and whether one is measured at a height of its own.
     let first = people::figures(&drawn[0][..1], false);
-    let somebody = first.first().ok_or_else(|| refused("the first of the people cannot be built".to_owned()))?;
+    let somebody = first.first().ok_or(AdviceError::NoFirstPerson)?;
     let covered = somebody.covered(base);
     let bands = bands(asked.entry, &covered, &wish.without)?;
-    let has_trunk = covered.iter().any(|(_, has_height)| *has_height);
+    let has_trunk = covered.iter().any(|level| level.has_own_height);
     let [sought, held_out] = drawn.map(|people| people::figures(&people, has_trunk));
     let middle = in_the_middle(&sought, &bands[0].level).unwrap_or(somebody);
     let knobs = Knobs::of(base, &own, middle, &bands, LIMIT_M)?;
     let series = if wish.is_even { Series::Even } else { Series::Rising };
-    let turns = sizes(&knobs, &sought, &bands, asked.count, series, wish.seed)?;
+    let crowd = Crowd { figures: &sought, bands: &bands };
+    let turns = sizes(&knobs, crowd, asked.count, series, wish.seed)?;
     let names = asked.names();
     let nest = nest::drawn(&asked, seams, &names, &knobs, &turns)?;
     let new: Vec<Style> = nest.styles;
@@ -236,8 +237,8 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     };
     let judged = [&tallies[0][1], &tallies[1][1]];
     let pictured = [
-        picture::Drawn { title: "own sizes", styles: &own, names: &own_names, tally: judged[0] },
-        picture::Drawn { title: "new sizes", styles: &new, names: &names, tally: judged[1] },
+        Judged { title: "own sizes", styles: &own, names: &own_names, tally: judged[0] },
+        Judged { title: "new sizes", styles: &new, names: &names, tally: judged[1] },
     ];
     let picture = picture::svg(&held_out, &bands, &pictured, &asked.entry.name);
     let mut files = nest.files;
@@ -257,15 +258,28 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
         parts: tally::parts(&held_out, &bands, judged),
         apart_mm: mm(nest.apart_m),
         drapes: (wish.draped > 0.0)
-            .then(|| drape::agree(&asked.spec, &new, &names, &held_out, judged[1], &bands, wish.draped))
+            .then(|| drape::agree(&asked.spec, &pictured[1], Crowd { figures: &held_out, bands: &bands }, wish.draped))
             .transpose()?,
         sheet: Specification::of(asked.entry.name.clone(), names, &new),
         files,
     })
 }
 
-fn refused(message: String) -> StudyError {
-    StudyError::refused(Origin::Grade, message)
+/// People, with the levels at which a garment is to fit them.
+#[derive(Clone, Copy)]
+struct Crowd<'a> {
+    figures: &'a [Figure],
+    bands: &'a [Band],
+}
+
+/// A set of sizes, judged on people.
+struct Judged<'a> {
+    title: &'static str,
+    /// Pattern of each size, in order.
+    styles: &'a [Style],
+    /// Name of each size, in the same order.
+    names: &'a [String],
+    tally: &'a Tally,
 }
 
 /// A grading as it is asked for, found in the study.
@@ -284,7 +298,7 @@ impl<'a> Asked<'a> {
     fn of(study: &'a Study, wish: &GradeWish) -> Result<Self> {
         let names = study.garments.iter().map(|garment| garment.name.clone()).collect();
         let name = one("garment", wish.garment.as_deref(), names)?;
-        let missing = || refused(format!("{name}: nobody wears it; accepted: a garment with subjects and sizes"));
+        let missing = || AdviceError::NotWorn { garment: name.clone() };
         let entry = study.garments.iter().find(|entry| entry.name == name).ok_or_else(missing)?;
         let names: Vec<String> = entry.sizes.iter().map(|size| size.name.clone()).collect();
         // The lower one of two in the middle.
@@ -301,17 +315,17 @@ impl<'a> Asked<'a> {
             .collect();
         let sex = *sexes.first().ok_or_else(missing)?;
         if sexes.iter().any(|other| *other != sex) {
-            return Err(refused(format!("{name}: women and men wear it; accepted: a garment of one sex")));
+            return Err(AdviceError::BothSexes { garment: name }.into());
         }
         let count = wish.sizes.unwrap_or(names.len());
         if !SIZES.contains(&count) {
-            return Err(refused(format!("{count} sizes; accepted: {} to {}", SIZES.start(), SIZES.end())));
+            return Err(AdviceError::Count { count, of: "sizes", accepted: SIZES }.into());
         }
-        if let Some(people) = [wish.people, wish.held_out].iter().find(|people| !PEOPLE.contains(people)) {
-            return Err(refused(format!("{people} people; accepted: {} to {}", PEOPLE.start(), PEOPLE.end())));
+        if let Some(count) = [wish.people, wish.held_out].into_iter().find(|people| !PEOPLE.contains(people)) {
+            return Err(AdviceError::Count { count, of: "people", accepted: PEOPLE }.into());
         }
         if !(0.0..=1.0).contains(&wish.draped) {
-            return Err(refused(format!("a share of {} draped; accepted: 0 to 1", wish.draped)));
+            return Err(AdviceError::Share { share: wish.draped }.into());
         }
         let index = names.iter().position(|size| *size == base).unwrap_or(middle);
         let spec = spec::jobs(study).into_iter().find(|job| job.garment == name && job.size == base);
@@ -340,22 +354,18 @@ impl<'a> Asked<'a> {
 }
 
 /// The levels that a base covers and that have a band, girths of the trunk first.
-fn bands(entry: &GarmentEntry, covered: &[(String, bool)], without: &[String]) -> Result<Vec<Band>> {
-    if let Some(other) = without.iter().find(|level| !covered.iter().any(|(known, _)| known == *level)) {
-        let known = covered.iter().map(|(level, _)| level.clone()).collect();
+fn bands(entry: &GarmentEntry, covered: &[Covered], without: &[String]) -> Result<Vec<Band>> {
+    let is_covered = |level: &str| covered.iter().any(|known| known.level == level);
+    if let Some(other) = without.iter().find(|level| !is_covered(level)) {
+        let known = covered.iter().map(|known| known.level.clone()).collect();
         return Err(StudyError::NotFound { what: "level", name: other.clone(), known });
     }
-    let is_top = ["chest", "bust"].iter().any(|chest| covered.iter().any(|(level, _)| level == chest));
-    let band = |(level, _): &(String, bool)| {
-        entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m })
-    };
-    let is_asked = |(level, _): &&(String, bool)| !without.contains(level);
-    let mut bands: Vec<Band> = covered.iter().filter(is_asked).filter_map(band).collect();
+    let is_top = ["chest", "bust"].into_iter().any(is_covered);
+    let band = |level: &String| entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m });
+    let asked = covered.iter().map(|known| &known.level).filter(|level| !without.contains(level));
+    let mut bands: Vec<Band> = asked.filter_map(band).collect();
     bands.sort_by_key(|band| tally::order(&band.level));
-    match bands.is_empty() {
-        true => Err(refused(format!("{}: no level has a target; accepted: target_ease_mm of a level", entry.name))),
-        false => Ok(bands),
-    }
+    if bands.is_empty() { Err(AdviceError::NoTarget { garment: entry.name.clone() }.into()) } else { Ok(bands) }
 }
 
 /// The person whose body is the median of all at a level.
@@ -366,22 +376,15 @@ fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
 }
 
 /// Seeks sizes. Where one cannot be drawn, since its handles do not go so far together, all get tighter limits.
-fn sizes(
-    knobs: &Knobs<'_>,
-    figures: &[Figure],
-    bands: &[Band],
-    count: usize,
-    series: Series,
-    seed: u64,
-) -> Result<Turns> {
-    let asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
+fn sizes(knobs: &Knobs<'_>, crowd: Crowd<'_>, count: usize, series: Series, seed: u64) -> Result<Turns> {
+    let asks: Vec<Vec<Asks>> = vec![knobs.asks(crowd.figures, crowd.bands)?; count];
     let mut refused = None;
     for share in LIMITS {
         let limits: Vec<[i32; 2]> =
             knobs.limits.iter().map(|limit| limit.map(|turn| (f64::from(turn) * share).round() as i32)).collect();
-        let price = PRICE * figures.len() as f64;
+        let price = PRICE * crowd.figures.len() as f64;
         let search = Search { asks: &asks, limits: &limits, habits: &knobs.habits, price, series };
-        match as_drawn(knobs, figures, bands, &search, seed) {
+        match as_drawn(knobs, crowd, &search, seed) {
             Ok(turns) => return Ok(turns),
             Err(error) => refused = Some(error),
         }
@@ -391,7 +394,8 @@ fn sizes(
 
 /// Seeks sizes, measures them as they are drawn, and seeks again near them by the measured eases. Returns the best
 /// sizes as drawn.
-fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Search<'_>, seed: u64) -> Result<Turns> {
+fn as_drawn(knobs: &Knobs<'_>, crowd: Crowd<'_>, search: &Search<'_>, seed: u64) -> Result<Turns> {
+    let Crowd { figures, bands } = crowd;
     let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
     let mut asks = search.asks.to_vec();
     let mut turns = search.best(seed);

@@ -10,7 +10,6 @@ use fit::Draw;
 use pattern::Style;
 use pattern::pom::Stand;
 use spec::bodies;
-use store::Result;
 
 /// Change of the seed for the people held out.
 const HELD_OUT: u64 = 0x68_656c_646f_7574;
@@ -29,6 +28,14 @@ pub struct Figure {
     trunk: Vec<[f64; 2]>,
 }
 
+/// A level that a style covers.
+pub struct Covered {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// True if the body is measured there at a height of its own.
+    pub has_own_height: bool,
+}
+
 impl Figure {
     /// Reduces a built body.
     pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
@@ -44,18 +51,18 @@ impl Figure {
     /// Ease of a style at each of some levels, m: `None` where the style does not cover it.
     pub fn eases(&self, style: &Style, levels: &[String]) -> Vec<Option<f64>> {
         let found = ease::lengths(style, &self.stand);
-        let of = |level: &String| {
-            let one = found.iter().find(|one| one.level == *level)?;
-            Some(one.length_m - self.body_m(one)?)
+        let ease_at = |level: &String| {
+            let length = found.iter().find(|length| length.level == *level)?;
+            Some(length.length_m - self.body_m(length)?)
         };
-        levels.iter().map(of).collect()
+        levels.iter().map(ease_at).collect()
     }
 
-    /// Every level that a style covers, from the neck down, and true if it is measured at a height of its own.
-    pub fn covered(&self, style: &Style) -> Vec<(String, bool)> {
-        let is_known = |one: &Length| one.height_m.is_some() || ease::body_length_m(&self.girths, &one.level).is_some();
-        let found = ease::lengths(style, &self.stand).into_iter().filter(is_known);
-        found.map(|one| (one.level, one.height_m.is_some())).collect()
+    /// Every level that a style covers, from the neck down.
+    pub fn covered(&self, style: &Style) -> Vec<Covered> {
+        let found = ease::lengths(style, &self.stand).into_iter();
+        let covered = found.map(|length| Covered { has_own_height: length.height_m.is_some(), level: length.level });
+        covered.filter(|known| known.has_own_height || self.girth_m(&known.level).is_some()).collect()
     }
 
     /// Girth or length of the body at a level, m.
@@ -82,9 +89,9 @@ pub fn drawn(sex: Sex, counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] 
 
 /// Builds the figures of people, in their order. People who cannot be built are left out.
 pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
-    let figure = |one: &Measurements| {
-        let body = bodies::build_body(one).ok()?;
-        Some(Figure::of(one, &body, has_trunk))
+    let figure = |person: &Measurements| {
+        let body = bodies::build_body(person).ok()?;
+        Some(Figure::of(person, &body, has_trunk))
     };
     of_all(people, figure).into_iter().flatten().collect()
 }
@@ -109,11 +116,6 @@ pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec
     })
 }
 
-/// Builds the body of a person.
-pub fn body(figure: &Figure) -> Result<Body> {
-    bodies::build_body(&figure.measurements)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,8 +128,8 @@ mod tests {
             let style = Style::read(&draft.pieces, model.seams(), "drafted.seams.toml").expect("our own");
             let [people, others] = drawn(Sex::Male, [3, 1], 4);
             assert_ne!(people[0], others[0], "those held out are others");
-            for (one, figure) in people.iter().zip(figures(&people, true)) {
-                let body = bodies::build_body(one).expect("a person that can be");
+            for (person, figure) in people.iter().zip(figures(&people, true)) {
+                let body = bodies::build_body(person).expect("a person that can be");
                 let eases = ease::on(&style, &body);
                 assert!(eases.len() > 3);
                 for ease in eases {

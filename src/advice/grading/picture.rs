@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
+use crate::grading::Judged;
 use crate::grading::knobs::Band;
 use crate::grading::people::Figure;
-use crate::grading::tally::Tally;
+use crate::grading::tally::{Tally, order};
 use geom::units::mm;
 use pattern::Style;
 use results::size_map::{COLOURS, axis, escaped};
@@ -15,22 +16,10 @@ const MARGIN: f64 = 60.0;
 /// Greatest number of people that are drawn.
 const MOST: usize = 800;
 
-/// A set of sizes as it is drawn.
-pub struct Drawn<'a> {
-    /// Title of its panel.
-    pub title: &'static str,
-    /// Pattern of each size, in order.
-    pub styles: &'a [Style],
-    /// Name of each size, in the same order.
-    pub names: &'a [String],
-    /// Tally of the people whom they fit.
-    pub tally: &'a Tally,
-}
-
 /// Draws people held out by the first and the last girth that has a band, in the colour of the size that fits, grey
 /// where none does. A box is the range of girths that a size fits at both levels.
-pub fn svg(figures: &[Figure], bands: &[Band], sets: &[Drawn<'_>], garment: &str) -> String {
-    let girths: Vec<&Band> = bands.iter().filter(|band| crate::grading::tally::order(&band.level) < GIRTHS).collect();
+pub(super) fn svg(figures: &[Figure], bands: &[Band], sets: &[Judged<'_>], garment: &str) -> String {
+    let girths: Vec<&Band> = bands.iter().filter(|band| order(&band.level) < GIRTHS).collect();
     let across = girths.first().copied().or(bands.first());
     let up = girths.last().copied().or(bands.last());
     let (Some(across), Some(up)) = (across, up) else { return String::new() };
@@ -147,18 +136,17 @@ impl Panel {
 
     /// Draws the legend of the colours, with shares.
     fn legend(&self, svg: &mut String, names: &[String], tally: &Tally, people: usize) {
-        let share = |of: Option<usize>| {
-            let wears = |person: &usize| tally.is_fitted(*person).then(|| tally.wears(*person)) == of;
+        let share = |size: Option<usize>| {
+            let wears = |person: &usize| tally.is_fitted(*person).then(|| tally.wears(*person)) == size;
             100.0 * (0..people).filter(wears).count() as f64 / people.max(1) as f64
         };
         let sizes = names.iter().enumerate().map(|(size, name)| (name.as_str(), Some(size)));
-        for (k, (name, of)) in sizes.chain([("none", None)]).enumerate() {
-            let at = MARGIN + 18.0 + 18.0 * k as f64;
-            let colour = of.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
-            let _ =
-                writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, at - 4.0);
-            let text = format!("{}: {:.1} %", escaped(name), share(of));
-            let _ = writeln!(svg, "<text x=\"{}\" y=\"{at}\">{text}</text>", self.left + 24.0);
+        for (k, (name, size)) in sizes.chain([("none", None)]).enumerate() {
+            let y = MARGIN + 18.0 + 18.0 * k as f64;
+            let colour = size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
+            let _ = writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, y - 4.0);
+            let text = format!("{}: {:.1} %", escaped(name), share(size));
+            let _ = writeln!(svg, "<text x=\"{}\" y=\"{y}\">{text}</text>", self.left + 24.0);
         }
     }
 }

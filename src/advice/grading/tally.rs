@@ -27,17 +27,18 @@ pub fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// Fit of a size on a person.
+/// Worst level of a size on a person.
 #[derive(Clone, Copy, Debug)]
-pub struct Sits {
-    /// The worst level, and its weighted departure, m: 0 where all levels lie in their bands.
-    pub worst: (usize, f64),
+struct Worst {
+    level: usize,
+    /// Weighted departure from its band, m: 0 where all levels lie in their bands.
+    weight_m: f64,
 }
 
 /// Fit of every size of a set on every person.
 pub struct Tally {
-    /// Fit by size and person.
-    sits: Vec<Vec<Sits>>,
+    /// By size and person.
+    worst: Vec<Vec<Worst>>,
     /// Levels that are outside their bands on the size to wear, by person.
     off: Vec<Vec<bool>>,
 }
@@ -49,36 +50,37 @@ impl Tally {
         let asked = people::eases(base, figures, &levels);
         let weights = |style: &Style| -> Vec<Vec<f64>> {
             let eases = people::eases(style, figures, &levels);
-            let of = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
+            let weights = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
                 (0..bands.len()).map(|level| weight(eases[level], asked[level], bands[level].band_m)).collect()
             };
-            eases.iter().zip(&asked).map(of).collect()
+            eases.iter().zip(&asked).map(weights).collect()
         };
         Self::of_weights(&styles.iter().map(weights).collect::<Vec<_>>())
     }
 
     /// Judges by weighted departures, by size, person and level.
     fn of_weights(weights: &[Vec<Vec<f64>>]) -> Self {
-        let worst = |weights: &Vec<f64>| {
-            let all = weights.iter().copied().enumerate();
-            Sits { worst: all.fold((0, 0.0), |worst, one| if one.1 > worst.1 { one } else { worst }) }
+        let worst_of = |weights: &Vec<f64>| {
+            let all = weights.iter().enumerate().map(|(level, weight_m)| Worst { level, weight_m: *weight_m });
+            let none = Worst { level: 0, weight_m: 0.0 };
+            all.fold(none, |worst, next| if next.weight_m > worst.weight_m { next } else { worst })
         };
-        let sits: Vec<Vec<Sits>> = weights.iter().map(|people| people.iter().map(worst).collect()).collect();
-        let people = sits.first().map_or(0, Vec::len);
+        let worst: Vec<Vec<Worst>> = weights.iter().map(|people| people.iter().map(worst_of).collect()).collect();
+        let people = worst.first().map_or(0, Vec::len);
         let off = (0..people)
-            .map(|person| weights[to_wear(&sits, person)][person].iter().map(|weight| *weight > 0.0).collect())
+            .map(|person| weights[to_wear(&worst, person)][person].iter().map(|weight| *weight > 0.0).collect())
             .collect();
-        Self { sits, off }
+        Self { worst, off }
     }
 
     /// Index of the size to wear: the one whose worst level is best, of equals the smaller.
     pub fn wears(&self, person: usize) -> usize {
-        to_wear(&self.sits, person)
+        to_wear(&self.worst, person)
     }
 
     /// True if some size fits.
     pub fn is_fitted(&self, person: usize) -> bool {
-        self.sits[self.wears(person)][person].worst.1 == 0.0
+        self.worst[self.wears(person)][person].weight_m == 0.0
     }
 
     fn people(&self) -> usize {
@@ -95,7 +97,7 @@ impl Tally {
         let share = held_out_percent / 100.0;
         let within = NORMAL_95 * (share * (1.0 - share) / self.people().max(1) as f64).sqrt();
         let sizes = names.iter().enumerate().map(|(size, name)| {
-            let fits = self.sits[size].iter().filter(|sits| sits.worst.1 == 0.0).count();
+            let fits = self.worst[size].iter().filter(|worst| worst.weight_m == 0.0).count();
             let wearers: Vec<usize> =
                 (0..self.people()).filter(|person| self.is_fitted(*person) && self.wears(*person) == size).collect();
             SizeShare {
@@ -122,7 +124,7 @@ impl Tally {
     /// Share of the people whom no size fits for whom a level is the worst, %.
     fn fails_percent(&self, level: usize) -> f64 {
         let unfitted = || (0..self.people()).filter(|person| !self.is_fitted(*person));
-        let fails = unfitted().filter(|person| self.sits[self.wears(*person)][*person].worst.0 == level).count();
+        let fails = unfitted().filter(|person| self.worst[self.wears(*person)][*person].level == level).count();
         percent(fails, unfitted().count())
     }
 }
@@ -137,9 +139,9 @@ fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f
     }
 }
 
-fn to_wear(sits: &[Vec<Sits>], person: usize) -> usize {
-    let weight = |size: &usize| sits[*size][person].worst.1;
-    (0..sits.len()).min_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0)
+fn to_wear(worst: &[Vec<Worst>], person: usize) -> usize {
+    let weight_m = |size: &usize| worst[*size][person].weight_m;
+    (0..worst.len()).min_by(|a, b| weight_m(a).total_cmp(&weight_m(b))).unwrap_or(0)
 }
 
 fn percent(count: usize, of: usize) -> f64 {
@@ -153,8 +155,8 @@ fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
         let values = figures.filter_map(|figure| figure.measurements.get(dimension));
         let mut values: Vec<f64> = values.map(|value| value * dimension.per_si()).collect();
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
-        let [low, middle, high] = PERCENTILES.map(at);
+        let percentile = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
+        let [low, middle, high] = PERCENTILES.map(percentile);
         Some(Range { dimension: dimension.key(), values: [low?, middle?, high?] })
     };
     DIMENSIONS.into_iter().filter_map(range).collect()

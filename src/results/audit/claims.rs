@@ -2,7 +2,7 @@
 
 use crate::audit::rounding::{mean, variance};
 use crate::audit::tables::{SUBJECTS, Sized, Tables};
-use crate::audit::{Finding, three};
+use crate::audit::{Audit, Finding, three};
 use fit::Simulator::{self, Fem, Hybrid};
 
 /// Greatest difference of a printed limit of a range from the number that it rounds: half of its last digit.
@@ -95,7 +95,7 @@ const CLAIMS: [Claim; 15] = [
 ];
 
 /// Checks every statement against the tables.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let refuted = |claim: &Claim| {
         Some(Finding {
             kind: "statement",
@@ -105,7 +105,7 @@ pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
             says: "the tables do not bear it out".into(),
         })
     };
-    (CLAIMS.len(), CLAIMS.iter().filter_map(refuted).collect())
+    Audit { recomputed: CLAIMS.len(), findings: CLAIMS.iter().filter_map(refuted).collect() }
 }
 
 fn sized((garment, size): (&str, &str)) -> Sized {

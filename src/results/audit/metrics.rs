@@ -3,7 +3,7 @@
 use crate::audit::ratios::as_computed;
 use crate::audit::rounding::{mean, prints_as, variance};
 use crate::audit::tables::{Metric, SUBJECTS, Sized, Summary, Tables};
-use crate::audit::{Finding, three};
+use crate::audit::{Audit, Finding, three};
 use fit::Simulator;
 
 /// Upper bound of the number of measurements of a style of the thesis.
@@ -12,12 +12,12 @@ const MOST_MEASUREMENTS: usize = 16;
 const BLUR: f64 = 1e-4;
 
 /// Checks every printed E, SD, EI and their averages.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let instead = stand_in(tables);
     let mut findings: Vec<Finding> = tables.metrics.iter().flat_map(|metric| row(tables, metric, instead)).collect();
     findings.extend(deviation(tables));
     findings.extend(missing(tables));
-    (tables.metrics.len() * 7, findings)
+    Audit { recomputed: tables.metrics.len() * 7, findings }
 }
 
 /// Ratios of a metric's garment on a subject, as they were computed for the tables.
@@ -155,7 +155,7 @@ fn missing(tables: &Tables) -> Vec<Finding> {
 }
 
 /// Checks mean and SD of the subjects (Tables 6-3, 6-4), and the sex that their captions name.
-pub(super) fn subjects(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn subjects(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> = tables.summaries.iter().flat_map(|summary| statistics(tables, summary)).collect();
     let miscaptioned = tables.summaries.iter().filter(|s| s.captioned != s.sex && s.statistic == "mean");
     findings.extend(miscaptioned.map(|summary| Finding {
@@ -166,7 +166,7 @@ pub(super) fn subjects(tables: &Tables) -> (usize, Vec<Finding>) {
         says: "the caption names the other sex: the numbers are those of these subjects".into(),
     }));
     findings.extend(heading(tables));
-    (tables.summaries.len() * 5, findings)
+    Audit { recomputed: tables.summaries.len() * 5, findings }
 }
 
 /// Table 6-13 is headed as the T-shirt's size S. The numbers tell the size whose E it prints.
@@ -194,7 +194,8 @@ fn statistics(tables: &Tables, summary: &Summary) -> Vec<Finding> {
     let names = ["chest", "waist", "hip", "across shoulder", "neck"];
     let wrong = (0..5).filter_map(|k| {
         let sex = summary.sex.as_str();
-        let values: Vec<f64> = tables.subjects.iter().filter(|(of, _)| of == sex).map(|(_, v)| v[k]).collect();
+        let own = tables.subjects.iter().filter(|(known, _)| known == sex);
+        let values: Vec<f64> = own.map(|(_, numbers)| numbers[k]).collect();
         let recomputed = if summary.statistic == "mean" { mean(&values) } else { variance(&values, 1.0).sqrt() };
         ((recomputed - summary.numbers[k]).abs() > 0.0051).then(|| Finding {
             kind: "metric",

@@ -2,16 +2,16 @@
 
 use crate::audit::rounding::{blur, mean, prints_as, variance};
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
-use crate::audit::{Finding, three, threes};
+use crate::audit::{Audit, Finding, three, threes};
 use fit::Simulator;
 
 /// Checks every ratio, row mean and row SD.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> =
         tables.rows.iter().flat_map(|row| ratios(row).into_iter().chain(summary(row))).collect();
     findings.extend(winners(tables));
     findings.extend(shifts(tables));
-    (tables.rows.len() * 8, findings)
+    Audit { recomputed: tables.rows.len() * 8, findings }
 }
 
 /// Ratio that a printed one was computed as: to the pattern or, in a chained row, to the subject before.

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::audit::Finding;
 use crate::audit::tables::{Row, Tables};
+use crate::audit::{Audit, Finding};
 
 /// A table or figure of chapter 6 with its garment, size (`one` where there is only one) and simulator.
 type Label = (&'static str, [&'static str; 3]);
@@ -73,15 +73,15 @@ const DRAPE_RANGES: [(&str, [f64; 2]); 2] = [("t-shirt", [20.0, 40.0]), ("loose 
 const CUT_SHORT: (&str, &str) = ("Tim cost", "Time cost");
 
 /// Checks captions, references and words.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     if tables.rows.is_empty() {
-        return (0, Vec::new());
+        return Audit { recomputed: 0, findings: Vec::new() };
     }
     let mut findings = captions(tables);
     findings.extend(references(tables));
     findings.extend(iterations());
     findings.extend(words(tables));
-    (CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings)
+    Audit { recomputed: CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings }
 }
 
 /// Captions that name no size, of garments in several sizes.
@@ -155,8 +155,8 @@ fn words(tables: &Tables) -> Vec<Finding> {
         says: says.into(),
     };
     let first = (!rows.is_empty()).then(|| {
-        let of: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
-        let place = format!("{} rows of {} tables", rows.len(), of.len());
+        let tables: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
+        let place = format!("{} rows of {} tables", rows.len(), tables.len());
         finding(place, "Circumstance", "Circumference", "the names of these measurements mean another word")
     });
     let (stated, meant) = CUT_SHORT;

@@ -1,7 +1,7 @@
 //! Contradictions within the tables: rows that are sums of others, copied columns, patterns that differ by simulator.
 
-use crate::audit::Finding;
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
+use crate::audit::{Audit, Finding};
 use fit::Simulator;
 
 /// Greatest difference of a printed length from the sum of two, mm: lengths are printed to 0.01 mm.
@@ -12,7 +12,7 @@ const SAME_PATTERN_MM: f64 = 0.011;
 const UNEVEN_GRADE: f64 = 0.02;
 
 /// Checks the tables as wholes.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings = Vec::new();
     for of in tables.garments() {
         for simulator in [Simulator::Fem, Simulator::Hybrid] {
@@ -24,7 +24,7 @@ pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
     }
     findings.extend(grading(tables));
     findings.extend(waists(tables));
-    (tables.rows.len(), findings)
+    Audit { recomputed: tables.rows.len(), findings }
 }
 
 /// Rows whose six lengths are the sums of two other rows'.

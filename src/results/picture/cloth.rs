@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use image::{Rgba, RgbaImage};
 
+use crate::error::ResultsError;
 use geom::units::from_mm;
 use pattern::Garment;
 use render::{self, Mapping, Print, Rgb, Texture, Weave};
 use sim::Fabric;
-use store::{Origin, Result, StudyError};
+use store::{Result, StudyError};
 
 /// Repeat of the check, m: two squares of 20 mm.
 const CHECK_M: f64 = 0.04;
@@ -97,9 +98,8 @@ impl Cloth {
             }
             Kind::Image(path) => {
                 let bytes = std::fs::read(path).map_err(|source| StudyError::Io { path: path.clone(), source })?;
-                let picture = image::load_from_memory(&bytes).map_err(|error| {
-                    StudyError::refused(Origin::Render, format!("{}: {error}; accepted: PNG and JPEG", path.display()))
-                })?;
+                let picture = image::load_from_memory(&bytes)
+                    .map_err(|reason| ResultsError::NoImage { file: path.clone(), reason })?;
                 let texture = Texture::new(&picture.to_rgba8());
                 let repeat = self.repeat_mm.map(|mm| [from_mm(mm), from_mm(mm) * texture.aspect()]);
                 let mapping = repeat.map_or(Mapping::Piece, |repeat_m| Mapping::Fabric { repeat_m });
@@ -137,17 +137,17 @@ pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: R
         }
         drawn.push(cloth.texture(fabric, own)?);
     }
-    let mut of = vec![0; garment.triangles.len()];
+    let mut texture_of = vec![0; garment.triangles.len()];
     let mut mapped = Vec::new();
     for piece in &garment.pieces {
         let is_of = |cloth: &Cloth| cloth.piece.as_ref().is_some_and(|name| piece.id.eq_ignore_ascii_case(name));
         let named = cloths.iter().rposition(is_of);
         let chosen = named.or_else(|| cloths.iter().rposition(|cloth| cloth.piece.is_none())).map_or(0, |k| k + 1);
-        of[piece.triangles.clone()].fill(chosen);
+        texture_of[piece.triangles.clone()].fill(chosen);
         mapped.push((piece.vertices.clone(), piece.grain, drawn[chosen].1));
     }
     let places = render::texture_coordinates(&garment.rest, &mapped);
-    Ok(Print { textures: drawn.into_iter().map(|(texture, _)| texture).collect(), of, places })
+    Ok(Print { textures: drawn.into_iter().map(|(texture, _)| texture).collect(), of: texture_of, places })
 }
 
 #[cfg(test)]

@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 
 use image::RgbaImage;
 
+use crate::error::ResultsError;
+use body::Levels;
 use engine::stages::{Meshes, Model};
 use fit::Simulator;
 use geom::units::mm;
@@ -50,11 +52,10 @@ pub struct Look {
 
 impl Look {
     /// Camera in which some meshes are as large as they can be, times the enlargement.
-    pub(crate) fn camera<'a>(self, of: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
-        let mut frame = Frame::enclosing(of, aspect(width, height));
-        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
-        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
-        Camera { azimuth_deg: f64::from(self.azimuth_deg), ..Camera::new(View::Front, frame) }
+    pub(crate) fn camera<'a>(self, meshes: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
+        let Self { azimuth_deg, zoom_pct, rise_pct } = self;
+        let frame = Zoom { zoom_pct, rise_pct }.of(Frame::enclosing(meshes, aspect(width, height)));
+        Camera { azimuth_deg: f64::from(azimuth_deg), ..Camera::new(View::Front, frame) }
     }
 }
 
@@ -294,15 +295,11 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let Meshes(mut meshes) = product(store, id, StageKind::Mesh)?;
     let drape: Drape = product(store, id, StageKind::Drape)?;
     let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
-    let garment = meshes
-        .pop()
-        .filter(fits)
-        .ok_or_else(|| StudyError::refused(Origin::Store, format!("the mesh of job {id} does not fit its drape")))?;
+    let garment = meshes.pop().filter(fits).ok_or(ResultsError::OtherMesh(id))?;
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
     let fabric = fabric_of(store, id)?;
-    let at = &model.body.levels;
-    let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
-    let levels = BTreeMap::from(levels);
+    let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = model.body.levels;
+    let levels = [("chest", chest_m), ("underbust", underbust_m), ("waist", waist_m), ("hip", hip_m)].into();
     let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
     let under = read::layers_under(store, id)?.into_iter().filter_map(|layer| worn(store, layer).ok()).collect();
     Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier })

@@ -22,6 +22,15 @@ pub struct Zoom {
     pub rise_pct: i32,
 }
 
+impl Zoom {
+    /// Enlarges a frame.
+    pub(super) fn of(self, mut frame: Frame) -> Frame {
+        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
+        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
+        frame
+    }
+}
+
 /// One picture of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shot {
@@ -63,25 +72,15 @@ pub struct Order {
 }
 
 impl Order {
-    fn aspect(&self) -> f64 {
-        f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1))
-    }
-
     /// Camera of a shot. `whole` encloses bodies and garments, `garments` the garments only.
     fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
-        let close = |Zoom { zoom_pct, rise_pct }: Zoom| {
-            let mut frame = garments;
-            frame.centre.z += f64::from(rise_pct) / 100.0 * frame.height_m / 2.0;
-            frame.height_m *= 100.0 / f64::from(zoom_pct.max(1));
-            frame
-        };
-        let frame = self.zoom.map_or(whole, close);
+        let frame = self.zoom.map_or(whole, |zoom| zoom.of(garments));
         match shot {
             Shot::View(view) => Camera::new(view, frame),
             Shot::Turned(azimuth_deg) => Camera { azimuth_deg, ..Camera::new(View::Front, frame) },
             Shot::CloseUp => {
                 let (azimuth_deg, zoom) = CLOSE_UP;
-                Camera { azimuth_deg, ..Camera::new(View::Front, close(self.zoom.unwrap_or(zoom))) }
+                Camera { azimuth_deg, ..Camera::new(View::Front, self.zoom.unwrap_or(zoom).of(garments)) }
             }
         }
     }
@@ -98,7 +97,8 @@ impl Order {
     fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
         let cloth = || dressed.iter().map(|worn| &worn.cloth);
         let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
-        [Frame::enclosing(all, self.aspect()), Frame::enclosing(cloth(), self.aspect())]
+        let aspect = picture::aspect(self.size.0, self.size.1);
+        [Frame::enclosing(all, aspect), Frame::enclosing(cloth(), aspect)]
     }
 }
 
@@ -130,7 +130,7 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
         (shots, _) => shots,
     };
     let picture = match cells.as_slice() {
-        [one] => render::png(&one.picture),
+        [cell] => render::png(&cell.picture),
         _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
     };
     picture.origin(Origin::Render)

@@ -278,8 +278,8 @@ pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix
     for garment in read::study(store, study)?.garments {
         let grid = read::grid(store, study, &garment)?;
         let cell = |size: &String, subject: &String| {
-            let of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
-            eases.iter().find(of).map(|row| Ease {
+            let is_of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
+            eases.iter().find(is_of).map(|row| Ease {
                 level: row.level.clone(),
                 pattern_girth_m: row.pattern_girth_m,
                 body_girth_m: row.body_girth_m,

@@ -7,7 +7,7 @@ mod published;
 mod runs;
 mod sheets;
 
-use crate::draped_fit;
+use crate::assessment;
 use crate::reporting::facts::BodyFacts;
 use fit::Simulator;
 use report::data::{Fact, FitData, RawLink};
@@ -77,7 +77,7 @@ pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Ve
         files.push((file.to_owned(), of_study(store, view, study)?.csv().into_bytes()));
     }
     let simulators = data.runs.iter().map(|run| run.simulator);
-    let compares = Simulator::ALL.iter().all(|one| simulators.clone().any(|other| other == *one));
+    let compares = Simulator::ALL.iter().all(|simulator| simulators.clone().any(|of_run| of_run == *simulator));
     let by_default = if compares { Purpose::Compare } else { Purpose::Fit };
     files.extend(report::files(&data, purpose.unwrap_or(by_default)).origin(Origin::Report)?);
     Ok(files)
@@ -95,7 +95,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     let (runs, sheets) = runs::report_runs(store, study, &jobs, files)?;
     let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
-    let worn = draped_fit::worn(store, study, None, None)?;
+    let worn = assessment::worn(store, study, None, None)?;
     let today = one(store, "SELECT date('now')")?;
     Ok(ReportData {
         title: study.to_owned(),

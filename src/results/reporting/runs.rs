@@ -53,7 +53,7 @@ pub(super) fn report_runs(
     for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
         let mut taken = report_runs_of(store, jobs, &eases)?;
         for (((run, worn), job), shots) in
-            taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
+            taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, Format { frame, shrink }))
         {
             let Shots { views, maps, cells, files: kept } = shots?;
             if worn.is_some() {
@@ -76,7 +76,7 @@ pub(super) fn report_runs(
 
 /// Runs with their ease, without pictures.
 fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
-    let of = |job: &JobRow| {
+    let run_of = |job: &JobRow| {
         let outcome = match job.status {
             Status::Done => Outcome::Converged,
             Status::NotConverged => Outcome::NotConverged,
@@ -90,7 +90,7 @@ fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Resul
         });
         Ok(run)
     };
-    jobs.iter().map(of).collect()
+    jobs.iter().map(run_of).collect()
 }
 
 /// Name of a job's garment without the seed that a sweep may have given it.
@@ -188,13 +188,19 @@ struct Shots {
     files: Vec<(String, Vec<u8>)>,
 }
 
+/// Format of all pictures of a report.
+#[derive(Clone, Copy)]
+struct Format {
+    frame: Frame,
+    /// Scale of the pictures on the page.
+    shrink: f64,
+}
+
 /// Takes the pictures of some jobs in parallel, a thread each.
-fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) -> Vec<Result<Shots>> {
+fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
     thread::scope(|scope| {
         let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
-            worn.as_ref()
-                .map(|worn| (job, worn))
-                .map_or_else(|| Ok(Shots::default()), |(job, worn)| shots(job, worn, look))
+            worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
         };
         let threads: Vec<_> = jobs.iter().zip(dressed).map(|pair| scope.spawn(move || shoot(pair))).collect();
         let join = |thread: thread::ScopedJoinHandle<_>| match thread.join() {
@@ -208,19 +214,18 @@ fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) 
 /// Takes the pictures of a run: smaller on the page, and at full size in the files beside it.
 struct Photographer<'a> {
     job: &'a JobRow,
-    frame: Frame,
-    shrink: f64,
+    format: Format,
     files: Vec<(String, Vec<u8>)>,
 }
 
 impl Photographer<'_> {
     fn shot(&self, scene: &Scene, view: View) -> Result<RgbaImage> {
-        render::render(scene, &Camera::new(view, self.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
+        render::render(scene, &Camera::new(view, self.format.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
     }
 
     /// Returns a picture for the page. The file beside it has the legend of its scale drawn in.
     fn keep(&mut self, shot: RgbaImage, name: &str, caption: String, scale: Option<&Scale>) -> Result<Picture> {
-        let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.shrink).round() as u32);
+        let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.format.shrink).round() as u32);
         let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
         let bytes = render::jpeg(&small).origin(Origin::Render)?;
         let mut full = shot;
@@ -236,8 +241,8 @@ impl Photographer<'_> {
 }
 
 /// Takes the pictures of a run: four views, the pop-up (Hybrid-GS) or a check of 20 mm (FEM-GS), and the maps.
-fn shots(job: &JobRow, worn: &Dressed, (frame, shrink): (Frame, f64)) -> Result<Shots> {
-    let mut photographer = Photographer { job, frame, shrink, files: Vec::new() };
+fn shots(job: &JobRow, worn: &Dressed, format: Format) -> Result<Shots> {
+    let mut photographer = Photographer { job, format, files: Vec::new() };
     let mut scene = worn.scene(Map::Plain)?;
     let (mut views, mut field_maps, mut cells) = (Vec::new(), Vec::new(), Vec::new());
     for view in View::ALL {

@@ -7,7 +7,7 @@ use image::imageops;
 use render::{self, Cell, RenderError, View};
 use report::FileNames;
 use report::data::RawLink;
-use store::{JobRow, Origin, Result, StudyError};
+use store::{InOrigin, JobRow, Origin, Result};
 
 /// Pixels of a picture on the page.
 pub(super) const PICTURE: (u32, u32) = (480, 540);
@@ -93,7 +93,7 @@ impl<'a> Sheets<'a> {
             }
             // Thousands of runs fit on no sheet; each has its own pictures.
             Err(RenderError::Size { .. }) => Ok(None),
-            Err(error) => Err(StudyError::refused(Origin::Render, error)),
+            Err(error) => Err(error).origin(Origin::Render),
         }
     }
 }

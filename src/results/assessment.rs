@@ -112,7 +112,7 @@ impl SizeWorn {
     /// Returns a quantity of its balance.
     #[must_use]
     pub fn balance_of(&self, quantity: &str) -> Option<f64> {
-        self.balance.iter().find(|one| one.quantity == quantity).map(|one| one.value)
+        self.balance.iter().find(|known| known.quantity == quantity).map(|known| known.value)
     }
 
     /// Height of its hem in front less that behind, mm, with a description; `None` where it is not measured.
@@ -218,6 +218,10 @@ fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: S
 
 fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
     let gaps = "SELECT level, least_gap_mm, mean_gap_mm, greatest_gap_mm FROM v_section_level WHERE job_id = ? ORDER BY height_mm DESC";
+    let balance = "SELECT quantity, value, unit FROM balance WHERE job_id = ? ORDER BY quantity";
+    let pressure = "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC";
+    let folds =
+        "SELECT kind, length_mm, from_vertical_deg, height_mm, side_deg FROM fold WHERE job_id = ? ORDER BY number";
     let points = "SELECT point, flat_mm, step_mm, draped_mm FROM v_pom WHERE job_id = ? ORDER BY position";
     let drawn = "SELECT opening, mean_mm, most_mm FROM drawn WHERE job_id = ? ORDER BY opening";
     Ok(SizeWorn {
@@ -231,40 +235,27 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
                 greatest_gap_mm: row.get(3)?,
             })
         })?,
-        balance: rows(
-            store,
-            "SELECT quantity, value, unit FROM balance WHERE job_id = ? ORDER BY quantity",
-            job,
-            |row| Ok(Balance { quantity: row.get(0)?, value: row.get(1)?, unit: row.get(2)? }),
-        )?,
-        pressure: rows(
-            store,
-            "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC",
-            job,
-            |row| {
-                Ok(RegionPressure {
-                    region: row.get(0)?,
-                    area_cm2: row.get(1)?,
-                    mean_kpa: row.get(2)?,
-                    most_kpa: row.get(3)?,
-                    most_mmhg: row.get(4)?,
-                })
-            },
-        )?,
-        folds: rows(
-            store,
-            "SELECT kind, length_mm, from_vertical_deg, height_mm, side_deg FROM fold WHERE job_id = ? ORDER BY number",
-            job,
-            |row| {
-                Ok(FoldLine {
-                    kind: row.get(0)?,
-                    length_mm: row.get(1)?,
-                    from_vertical_deg: row.get(2)?,
-                    height_mm: row.get(3)?,
-                    side_deg: row.get(4)?,
-                })
-            },
-        )?,
+        balance: rows(store, balance, job, |row| {
+            Ok(Balance { quantity: row.get(0)?, value: row.get(1)?, unit: row.get(2)? })
+        })?,
+        pressure: rows(store, pressure, job, |row| {
+            Ok(RegionPressure {
+                region: row.get(0)?,
+                area_cm2: row.get(1)?,
+                mean_kpa: row.get(2)?,
+                most_kpa: row.get(3)?,
+                most_mmhg: row.get(4)?,
+            })
+        })?,
+        folds: rows(store, folds, job, |row| {
+            Ok(FoldLine {
+                kind: row.get(0)?,
+                length_mm: row.get(1)?,
+                from_vertical_deg: row.get(2)?,
+                height_mm: row.get(3)?,
+                side_deg: row.get(4)?,
+            })
+        })?,
         points: rows(store, points, job, |row| {
             Ok(WornPoint { point: row.get(0)?, flat_mm: row.get(1)?, step_mm: row.get(2)?, draped_mm: row.get(3)? })
         })?,
