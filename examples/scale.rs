@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use toile::engine::{Measured, Outcome, RunOptions, WornOn, actions, run};
+use toile::engine::{Assessment, Measured, Outcome, RunOptions, actions, run};
 use toile::fit::{Ease, FitClass, Simulator};
 use toile::measure::{Chi, metrics};
 use toile::pattern::MeasurementKind;
@@ -255,7 +255,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         self_crossings: 0,
         history: history.collect(),
         points: Vec::new(),
-        worn: WornOn::default(),
+        worn: Assessment::default(),
         closures: Vec::new(),
         eases: vec![ease],
         distortion: None,

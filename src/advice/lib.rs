@@ -3,6 +3,7 @@
 
 pub mod alteration;
 pub mod chance;
+mod error;
 pub mod grading;
 pub mod population;
 

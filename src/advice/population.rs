@@ -1,6 +1,6 @@
-//! A population as a few representative bodies (the thesis's proposal, 7.1): people drawn from a published survey, grouped
-//! by what clothes depend on, and of each group the one in its middle. A new subject is then answered for by the nearest
-//! representative, whose results are there already.
+//! A population as a few representative bodies (the thesis's proposal, 7.1). People are drawn from a published survey
+//! and grouped by the dimensions that clothes depend on, and the middle person of each group represents it. For a new
+//! subject the nearest representative answers, whose results are there already.
 
 use std::fmt::Write;
 
@@ -22,15 +22,15 @@ pub(crate) const DIMENSIONS: [Dimension; 7] = [
     Dimension::NeckGirth,
     Dimension::AcrossShoulder,
 ];
-/// Scores beyond which nobody is drawn: one of 16,000.
+/// Greatest magnitude of a score: one person of 16,000 is beyond it.
 const EXTREME: f64 = 4.0;
-/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
-/// comparisons as people times representatives, again and again.
+/// Greatest number of representatives for which people are grouped. Beyond it everybody who is drawn represents
+/// himself, since grouping takes as many comparisons as people times representatives, in every round.
 const GROUPED: usize = 500;
-/// Most rounds of grouping.
+/// Greatest number of rounds of grouping.
 const ROUNDS: usize = 200;
 
-/// Somebody who stands for a group of a population.
+/// A person who represents a group of a population.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Representative {
     /// Measurements, to the millimetre and the tenth of a kilogram.
@@ -39,44 +39,55 @@ pub struct Representative {
     pub share: f64,
 }
 
-/// What people are drawn and how they are grouped.
+/// Numbers of people and representatives of a population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PopulationOptions {
-    /// Representatives of each sex.
+    /// Number of representatives of each sex.
     pub bodies: usize,
-    /// People drawn of each sex.
+    /// Number of people drawn of each sex.
     pub people: usize,
     /// Seed of the draw.
     pub seed: u64,
 }
 
-/// The representative of a study that is most like somebody.
+/// The representative of a study that is nearest to a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// Name in the study.
     pub subject: String,
     /// Root mean square difference of the dimensions known of both, standard deviations.
     pub distance: f64,
-    /// The greatest difference: which dimension, theirs and the representative's, m or kg.
-    pub widest: (Dimension, f64, f64),
+    /// Dimension with the greatest difference.
+    pub widest: Difference,
     /// Its jobs that have a result.
     pub jobs: Vec<JobId>,
 }
 
-/// People of a sex, as frequent as in the survey.
+/// A dimension of two people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Dimension in which they differ.
+    pub dimension: Dimension,
+    /// Value of the person who is asked about, m or kg.
+    pub asked: f64,
+    /// Value of the representative, m or kg.
+    pub found: f64,
+}
+
+/// Draws people of a sex, as frequent as in the survey.
 #[must_use]
 pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
     (0..count).map(|_| draw(sex, random)).collect()
 }
 
-/// The representatives of a sex, the most frequent first.
+/// Returns the representatives of a sex, the most frequent first.
 #[must_use]
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
     if options.bodies > GROUPED {
         let share = 1.0 / options.bodies as f64;
-        let one = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
-        return (0..options.bodies).map(one).collect();
+        let drawn = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
+        return (0..options.bodies).map(drawn).collect();
     }
     let people = people(sex, options.people, &mut random);
     let points: Vec<Point> = people.iter().map(point).collect();
@@ -92,17 +103,17 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
     found
 }
 
-/// `[[subject]]` tables of representatives.
+/// Writes `[[subject]]` tables of representatives.
 #[must_use]
 pub fn subjects_text(representatives: &[Representative]) -> String {
     let mut text = String::new();
-    for (number, one) in representatives.iter().enumerate() {
-        let sex = sex_name(&one.measurements);
+    for (number, Representative { measurements, share }) in representatives.iter().enumerate() {
+        let sex = sex_name(measurements);
         // Writing into a text does not fail, here and below.
-        let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", one.share * 100.0);
+        let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", share * 100.0);
         let _ = writeln!(text, "id = \"{}{:03}\"\nsex = \"{sex}\"", &sex[..1], number + 1);
         for field in MEASUREMENTS.iter() {
-            if let Some(value) = field.get(&one.measurements) {
+            if let Some(value) = field.get(measurements) {
                 let _ = writeln!(text, "{} = {value}", field.key);
             }
         }
@@ -111,7 +122,7 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
     text
 }
 
-/// The subject of a study most like somebody, among those of the same sex.
+/// Returns the subject of a study that is nearest to a person, among those of the same sex.
 ///
 /// # Errors
 /// When a value is wrong, there is no such study, or it has nobody of that sex.
@@ -149,7 +160,7 @@ pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
 }
 
 /// Difference of two people of one sex over the dimensions known of both, and the greatest of them.
-fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64, f64))> {
+fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, Difference)> {
     if a.sex != b.sex {
         return None;
     }
@@ -158,19 +169,18 @@ fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64,
     let mut widest: Option<(f64, Dimension)> = None;
     for (dimension, score) in body::scores(a) {
         let Some((_, other)) = theirs.iter().find(|(known, _)| *known == dimension) else { continue };
-        let off = (score - other).abs();
-        squares.push(off * off);
-        if widest.is_none_or(|(most, _)| off > most) {
-            widest = Some((off, dimension));
+        let difference = (score - other).abs();
+        squares.push(difference * difference);
+        if widest.is_none_or(|(most, _)| difference > most) {
+            widest = Some((difference, dimension));
         }
     }
     let (_, dimension) = widest?;
-    let values = (a.get(dimension)?, b.get(dimension)?);
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-    Some((mean.sqrt(), (dimension, values.0, values.1)))
+    Some((mean.sqrt(), Difference { dimension, asked: a.get(dimension)?, found: b.get(dimension)? }))
 }
 
-/// Somebody within the range of the survey.
+/// Draws a person within the range of the survey.
 fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     loop {
         let scores = DIMENSIONS.map(|dimension| (dimension, random.normal()));
@@ -185,7 +195,7 @@ fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     }
 }
 
-/// To what a tape reads.
+/// Rounds measurements to the resolution of a tape and of scales.
 fn rounded(person: &Measurements) -> Measurements {
     let mut rounded = person.clone();
     for (dimension, value) in person.known() {
@@ -207,20 +217,20 @@ fn off(a: &Point, b: &Point) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 
-/// Groups points around as many middles (k-means [Lloyd 1982], begun as [Arthur and Vassilvitskii 2007] say); of each
-/// group the point nearest its mean, and how many it has.
+/// Groups points by k-means [Lloyd 1982], begun as in [Arthur and Vassilvitskii 2007]. Returns of each group the point
+/// nearest its mean, and the number of its points.
 fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
     let mut middles = seeds(points, count, random);
-    let mut of = vec![usize::MAX; points.len()];
+    let mut group_of = vec![usize::MAX; points.len()];
     for _ in 0..ROUNDS {
         let next: Vec<usize> = points.iter().map(|point| nearest_middle(point, &middles)).collect();
-        if next == of {
+        if next == group_of {
             break;
         }
-        of = next;
+        group_of = next;
         for (number, middle) in middles.iter_mut().enumerate() {
             let mut sum = Point::default();
-            let members = of.iter().zip(points).filter(|(group, _)| **group == number);
+            let members = group_of.iter().zip(points).filter(|(group, _)| **group == number);
             let mut size = 0.0;
             for (_, point) in members {
                 sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x);
@@ -233,14 +243,14 @@ fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize
     }
     let mut found = Vec::with_capacity(middles.len());
     for (number, middle) in middles.iter().enumerate() {
-        let members: Vec<usize> = (0..points.len()).filter(|&k| of[k] == number).collect();
+        let members: Vec<usize> = (0..points.len()).filter(|&k| group_of[k] == number).collect();
         let best = members.iter().copied().min_by(|&a, &b| off(&points[a], middle).total_cmp(&off(&points[b], middle)));
         found.extend(best.map(|best| (best, members.len())));
     }
     found
 }
 
-/// First middles: each point the likelier the farther it is from those before.
+/// First middles: each point is chosen the likelier, the farther it is from those before.
 fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
     let mut middles: Vec<Point> = points.first().copied().into_iter().collect();
     let mut far: Vec<f64> = points.iter().map(|point| middles.first().map_or(0.0, |first| off(point, first))).collect();
@@ -287,10 +297,10 @@ mod tests {
         let found = representatives(Sex::Female, &FEW);
         assert_eq!(found, representatives(Sex::Female, &FEW), "the same seed, the same people");
         assert_eq!(found.len(), FEW.bodies);
-        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        assert!((found.iter().map(|group| group.share).sum::<f64>() - 1.0).abs() < 1e-9);
         assert!(found[0].share < 0.25 && found[FEW.bodies - 1].share > 0.01, "{found:?}");
         // Nobody is far from all of them: within the spread of one group.
-        let middles: Vec<Point> = found.iter().map(|one| point(&one.measurements)).collect();
+        let middles: Vec<Point> = found.iter().map(|middle| point(&middle.measurements)).collect();
         let mut random = Draw::new(9);
         let far: Vec<f64> = (0..500)
             .map(|_| point(&draw(Sex::Female, &mut random)))
@@ -305,9 +315,9 @@ mod tests {
         let many = PopulationOptions { bodies: GROUPED + 1, people: 100, seed: 1 };
         let found = representatives(Sex::Male, &many);
         assert_eq!(found.len(), GROUPED + 1);
-        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
-        let mean =
-            found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>() / found.len() as f64;
+        assert!((found.iter().map(|person| person.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        let statures = found.iter().filter_map(|person| person.measurements.get(Dimension::Stature));
+        let mean = statures.sum::<f64>() / found.len() as f64;
         assert!((mean - 1.756).abs() < 0.01, "{mean}");
     }
 
@@ -316,17 +326,18 @@ mod tests {
         let text = subjects_text(&representatives(Sex::Male, &FEW));
         let table: toml::Table = text.parse().expect("TOML");
         assert_eq!(table["subject"].as_array().map(Vec::len), Some(FEW.bodies));
-        for one in representatives(Sex::Male, &FEW) {
-            body::build(&one.measurements).expect("a person that can be");
+        for person in representatives(Sex::Male, &FEW) {
+            body::build(&person.measurements).expect("a person that can be");
         }
     }
 
     #[test]
     fn the_nearest_is_of_the_same_sex_and_alike() {
-        let of = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
-        assert_eq!(distance(&of(Sex::Male, 1.0), &of(Sex::Female, 1.0)), None);
-        let (same, _) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.0)).expect("alike");
-        let (far, widest) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.2)).expect("alike");
-        assert!(same == 0.0 && far > 1.0 && widest == (Dimension::ChestGirth, 1.0, 1.2), "{far} {widest:?}");
+        let person = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
+        assert_eq!(distance(&person(Sex::Male, 1.0), &person(Sex::Female, 1.0)), None);
+        let (same, _) = distance(&person(Sex::Male, 1.0), &person(Sex::Male, 1.0)).expect("alike");
+        let (far, widest) = distance(&person(Sex::Male, 1.0), &person(Sex::Male, 1.2)).expect("alike");
+        let chest = Difference { dimension: Dimension::ChestGirth, asked: 1.0, found: 1.2 };
+        assert!(same == 0.0 && far > 1.0 && widest == chest, "{far} {widest:?}");
     }
 }

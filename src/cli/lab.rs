@@ -4,7 +4,7 @@ use super::args::Lab;
 use super::context::Context;
 use super::{End, Outcome};
 use sim::laboratory::bench::Experiment;
-use store::{Table, Value};
+use store::{InOrigin, Origin, Table, Value};
 
 /// Runs `toile lab`: prints the findings of each experiment beside its known answers.
 pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
@@ -14,7 +14,7 @@ pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
     let mut rows = Vec::new();
     for experiment in Experiment::ALL.into_iter().filter(is_asked) {
         context.say(format_args!("{}: {}", experiment.as_str(), experiment.about()));
-        for finding in results::laboratory(experiment)? {
+        for finding in experiment.run().origin(Origin::Sim)? {
             let (error, unit) = finding.error();
             rows.push(vec![
                 Value::Text(experiment.as_str().to_owned()),

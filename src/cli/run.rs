@@ -12,7 +12,7 @@ use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
 use super::progress::{Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
-use engine::{Planned, RunOptions, SlurmOptions, compose, enqueue, run, slurm};
+use engine::{Planned, RunOptions, SlurmOptions, enqueue, run, slurm};
 use sim::Stage;
 use spec::{JobSpec, Limits, Selection, Study};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
@@ -51,7 +51,7 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let workers = arguments.workers.map(usize::from);
     if arguments.detach {
         // Queued here already, so that `--attach` finds its jobs at once.
-        compose::queue(&mut store, &study, &selection)?;
+        enqueue::queue(&mut store, &study, &selection)?;
         return detached::start(context, &study.name);
     }
     let interrupted = match arguments.engine {

@@ -6,7 +6,7 @@ use super::args::Section;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
 use fit::Simulator;
-use results::{CrossSection, CutAt, CutCloth, GarmentWorn, draped_fit, section};
+use results::{CrossSection, CutAt, CutCloth, GarmentWorn, assessment, cross_section};
 use store::{JobId, Store, Table, Value};
 
 /// Runs `toile section`: prints cross sections, or draws one.
@@ -19,7 +19,7 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
         (None, Some(height_mm)) => CutAt::HeightMm(height_mm),
         (None, None) => CutAt::Levels,
     };
-    let worn = draped_fit::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    let worn = assessment::worn(&store, &study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
     let mut cut: Vec<Drapes<'_>> = Vec::new();
     for worn in &worn {
         let jobs = jobs(&store, &study, worn, arguments)?;
@@ -36,7 +36,7 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
         return draw(context, &store, &cut, &at, file);
     }
     let found: Vec<Vec<CrossSection>> =
-        cut.iter().map(|drapes| section::sections(&store, &drapes.jobs, &at)).collect::<Result<_, _>>()?;
+        cut.iter().map(|drapes| cross_section::sections(&store, &drapes.jobs, &at)).collect::<Result<_, _>>()?;
     if context.json {
         output::json(&found.concat())?;
         return Ok(End::Done);
@@ -61,7 +61,7 @@ fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> 
     let simulator = arguments.sim.map(Simulator::from).or(worn.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
     let is_wanted = |size: &str| arguments.size.is_empty() || arguments.size.iter().any(|wanted| wanted == size);
-    let sizes = draped_fit::drapes(store, study, &worn.card, simulator)?;
+    let sizes = assessment::drapes(store, study, &worn.card, simulator)?;
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
@@ -70,7 +70,7 @@ fn draw(context: &Context, store: &Store, cut: &[Drapes<'_>], at: &CutAt, file: 
     let mut drawn = Vec::new();
     for Drapes { worn, jobs } in cut {
         let wear = worn.card.to_wear().map(|size| size.size.as_str());
-        drawn.extend(section::drawn(store, jobs, at, wear)?);
+        drawn.extend(cross_section::drawn(store, jobs, at, wear)?);
     }
     let [(_, chart)] = drawn.as_slice() else {
         let asked = format!("{} sections are asked for; a drawing is of one", drawn.len());

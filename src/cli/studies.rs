@@ -117,7 +117,7 @@ fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome 
     let store = context.store()?;
     let name = context.study_name(&store, study)?;
     let nearest = population::nearest(&store, &name, &subject.0)?;
-    let (dimension, asked, found) = nearest.widest;
+    let population::Difference { dimension, asked, found } = nearest.widest;
     let edge = |value: f64| format!("{:.0} {}", value * dimension.per_si(), dimension.unit());
     context.say(format_args!(
         "{} of {name} is nearest: {:.2} standard deviations off, most in {} ({}, not {})",

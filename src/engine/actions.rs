@@ -1,4 +1,4 @@
-//! What a user may do to the queue.
+//! Actions of a user on the queue: cancel, retry, priority, pause.
 
 use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, read};
@@ -41,7 +41,7 @@ fn change(store: &mut Store, ids: &[JobId], event: &Event<'_>, done: &str) -> Re
     })
 }
 
-/// Sets the priority of jobs: greater runs earlier.
+/// Sets the priority of jobs. A job of greater priority runs earlier.
 ///
 /// # Errors
 /// When the database is open read-only.
@@ -55,7 +55,7 @@ pub fn set_priority(store: &mut Store, ids: &[JobId], priority: i64) -> Result<(
     })
 }
 
-/// Lets no new jobs of a study start; running ones go on.
+/// Pauses a study: none of its jobs starts any more, and running ones go on.
 ///
 /// # Errors
 /// When the database is open read-only or there is no such study.
@@ -79,7 +79,7 @@ fn set_paused(store: &mut Store, study: &str, paused: bool) -> Result<()> {
     })
 }
 
-/// Why a job cannot be retried, for messages.
+/// Returns the reason for which a job of this status cannot be retried; `None` where it can.
 #[must_use]
 pub fn why_no_retry(status: Status) -> Option<&'static str> {
     match status {

@@ -6,11 +6,12 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::faults::{Fault, drape_faults};
-use crate::layers::{Garb, Wardrobe};
+use crate::error::EngineError;
+use crate::faults::{Fault, FaultKind, drape_faults};
+use crate::layers::Ensemble;
 use crate::outcome::{Measured, Outcome};
-use crate::reach::{Reached, reached};
-use crate::stages::Meshes;
+use crate::reach::{Moved, Reached, moved};
+use crate::stages::{Garb, Meshes};
 use body::{Body, Pose};
 use fit::measure::{self, Metrics};
 use fit::{Ease, Simulator};
@@ -20,6 +21,7 @@ use pattern::{Garment, MeasurementKind, Spot, Style};
 use render::export::{MeshFormat, Part};
 use render::{self, Camera, Frame, Material, Rgb, Scene};
 use report::FileNames;
+use sim::dressing::Wearer;
 use sim::hybrid::Closure;
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 use spec::Parameters;
@@ -31,21 +33,21 @@ use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::{self, Question};
 
-/// Least shortfall that is told as a problem, mm.
+/// Least shortfall of a girth that counts as a problem, mm.
 const SHORTFALL_MM: f64 = 5.0;
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
-/// What is to be tried on.
+/// A trial: one or more garments on one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// A mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
+    /// File of the body: a mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
     pub body: PathBuf,
     /// Unit of the mesh, where it cannot be told from its height.
     pub body_unit: Option<LengthUnit>,
     /// Sex of the body, where known.
     pub sex: Option<Sex>,
-    /// What is worn, the inner first.
+    /// Garments that are worn, the inner first.
     pub layers: Vec<AttemptLayer>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
@@ -57,20 +59,21 @@ pub struct Attempt {
     pub simulator: Simulator,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
-    /// Simulations by FEM-GS: the first as placed, each other from a start that differs a little.
+    /// Number of simulations by FEM-GS. The first starts as the pieces are placed, each other one a little beside
+    /// that.
     pub repeat: u32,
-    /// Pose in which the body is dressed; as it stands where there is none.
+    /// Pose in which the body is dressed. Without one it is dressed as it stands.
     pub pose: Option<Pose>,
-    /// Pose into which FEM-GS carries the drape of a single garment from there.
+    /// Pose into which FEM-GS then carries the drape of a single garment.
     pub reach: Option<Pose>,
 }
 
-/// A garment to be tried on.
+/// A garment of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttemptLayer {
-    /// DXF file, a folder of them, or a GarmentCode specification.
+    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification.
     pub pattern: PathBuf,
-    /// Its seam file; without one a DXF pattern is sewn as proposed.
+    /// Seam file of the pattern. Without one a DXF pattern is sewn as proposed.
     pub seams: Option<PathBuf>,
     /// Size, where the pattern has several.
     pub size: Option<String>,
@@ -91,7 +94,7 @@ pub struct TriedChi {
     pub l2d_mm: f64,
     pub l3d_mm: f64,
     pub chi: f64,
-    /// Greatest less least chi over the repeated simulations.
+    /// Range (greatest less least) of chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread: Option<f64>,
 }
@@ -106,7 +109,7 @@ pub struct TriedEase {
     pub ease_mm: f64,
 }
 
-/// What the garment of a trial lacks at one level, with the columns of `v_gap`.
+/// Girths of garment and body of a trial at one level, with the columns of `v_gap`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedGap {
@@ -117,7 +120,7 @@ pub struct TriedGap {
     pub shortfall_mm: f64,
 }
 
-/// How far a try is from its pattern, over all measurements: `v_metrics`.
+/// Summary of chi over all measurements of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedErrors {
@@ -128,7 +131,7 @@ pub struct TriedErrors {
     pub max_abs_error: f64,
 }
 
-/// The draped cloth of a try: `v_metrics`.
+/// State of the draped cloth of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct TriedCloth {
@@ -140,11 +143,11 @@ pub struct TriedCloth {
     pub penetration_max_mm: f64,
     pub seam_gap_max_mm: f64,
     pub self_crossings: usize,
-    /// FEM: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
 }
 
-/// What came of a trial, with the columns of `v_metrics`.
+/// Result of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
 pub struct Tried {
@@ -158,30 +161,30 @@ pub struct Tried {
     #[serde(flatten)]
     pub cloth: TriedCloth,
     pub wall_ms: u64,
-    /// Greatest spread of a chi over the repeated simulations.
+    /// Greatest range of a chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread_max: Option<f64>,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
     /// Hybrid-GS: girths of garment and body; empty for the other simulator.
     pub gap: Vec<TriedGap>,
-    /// What changes in the pose that is reached.
+    /// Changes in the pose that is reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reached>,
-    /// What is wrong with the drape; empty where it is good.
+    /// Faults of the drape; empty where it is good.
     pub problems: Vec<String>,
-    /// What had to be guessed about the inputs.
+    /// Guesses that were made about the inputs.
     pub notes: Vec<String>,
-    /// Picture and meshes by file name.
+    /// Pictures and meshes by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Dresses a body in a garment, or in several over each other; `progress` hears the phase and the share done. Returns what came of each,
-/// the inner first; the files are with the last.
+/// Dresses a body in one garment, or in several over each other. `progress` is told the phase and the share that is
+/// done. Returns the result of each garment, the inner first; the files come with the last.
 ///
 /// # Errors
-/// When an input cannot be used: the message says what would be. A drape that is not good is no error.
+/// When an input cannot be used: the message says which would be accepted. A drape with faults is no error.
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
     check(asked)?;
@@ -191,12 +194,13 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     let body = asked.pose.map_or_else(|| Ok(upright.clone()), |pose| pose_body(&upright, pose))?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
     let parameters = Parameters::default();
-    let wardrobe = Wardrobe { on: (&body, &field), garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
+    let wearer = Wearer { body: &body, field: &field };
+    let ensemble = Ensemble { wearer, garbs: &garbs, simulator: asked.simulator, parameters: &parameters };
     let mut told = Told(progress);
-    let drapes = wardrobe.dress(&mut told)?;
+    let drapes = ensemble.dress(&mut told)?;
     let mut all = Vec::new();
     for (number, (garb, notes)) in garbs.iter().zip(notes).enumerate() {
-        let outcome = wardrobe.outcome(number, &drapes)?;
+        let outcome = ensemble.outcome(number, &drapes)?;
         let notes = guessed.iter().cloned().chain(notes).chain(outcome.warnings.iter().cloned()).collect();
         let mut tried = Tried::new(asked, garb, outcome);
         tried.problems.splice(0..0, problems(&body, garb.meshes.finest()?, &drapes[number]));
@@ -209,20 +213,21 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
         let again = |seed: u32| {
             let mut parameters = Parameters::default();
             parameters.set("fem.seed", seed.into()).origin(Origin::Sim)?;
-            Wardrobe { parameters: &parameters, ..wardrobe }.dress(&mut told)
+            Ensemble { parameters: &parameters, ..ensemble }.dress(&mut told)
         };
         let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
         spread(tried, garb.meshes.finest()?, &drapes.concat());
     }
     if let Some(last) = all.last_mut() {
-        last.files = files("drape", asked.simulator, &body, (&garbs, &drapes))?;
+        last.files = files("drape", asked.simulator, &Dressed { body: &body, garbs: &garbs, drapes: &drapes })?;
     }
     if let (Some(to), [garb], [tried]) = (asked.reach, &garbs[..], &mut all[..]) {
         let from = asked.pose.unwrap_or_default();
-        let (change, posed, drape) = reached(&upright, [from, to], (garb, &drapes[0]), &mut told)?;
-        tried.problems.extend(change.problems.iter().cloned());
-        tried.files.extend(files("reach", asked.simulator, &posed, (&garbs, &[drape]))?);
-        tried.reach = Some(change);
+        let Moved { reached, body, drape } = moved(&upright, [from, to], garb, &drapes[0], &mut told)?;
+        tried.problems.extend(reached.problems.iter().cloned());
+        let dressed = Dressed { body: &body, garbs: &garbs, drapes: &[drape] };
+        tried.files.extend(files("reach", asked.simulator, &dressed)?);
+        tried.reach = Some(reached);
     }
     for tried in &mut all {
         tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
@@ -230,27 +235,22 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<V
     Ok(all)
 }
 
-/// What cannot be asked for.
+/// Refuses options that do not go together.
 fn check(asked: &Attempt) -> Result<()> {
-    if asked.repeat > 1 && asked.simulator != Simulator::Fem {
-        return Err(StudyError::refused(
-            Origin::Sim,
-            "--repeat is for --sim fem: only that starts from a place that can be varied",
-        ));
+    let (is_fem, is_outfit) = (asked.simulator == Simulator::Fem, asked.layers.len() > 1);
+    if asked.repeat > 1 && !is_fem {
+        return Err(EngineError::RepeatWithoutFem.into());
     }
-    if asked.reach.is_some() && (asked.simulator != Simulator::Fem || asked.layers.len() > 1) {
-        return Err(StudyError::refused(
-            Origin::Sim,
-            "--reach is for one garment and --sim fem: friction carries it along",
-        ));
+    if asked.reach.is_some() && (!is_fem || is_outfit) {
+        return Err(EngineError::ReachWithoutFem.into());
     }
-    if asked.layers.len() > 1 && asked.repeat > 1 {
-        return Err(StudyError::refused(Origin::Sim, "--repeat is for one garment; accepted of an outfit: one drape"));
+    if is_outfit && asked.repeat > 1 {
+        return Err(EngineError::RepeatOfOutfit.into());
     }
     Ok(())
 }
 
-/// A garment as it is asked for, and what had to be guessed about it.
+/// Reads a garment as it is asked for, with notes on the guesses that were made about it.
 fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
     let mut notes = Vec::new();
     let fabric = fabric(&layer.fabric)?;
@@ -260,7 +260,7 @@ fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
 }
 
 impl Tried {
-    /// What a simulation has measured; without the problems of its drape, notes and files.
+    /// Result of a simulation, without the faults of its drape, notes and files.
     fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
@@ -339,7 +339,7 @@ impl TriedGap {
     }
 }
 
-/// Enters how far each chi of repeated simulations lies apart, and which of them did not come to rest.
+/// Enters the range of each chi over repeated simulations, and a problem for each that did not come to rest.
 fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     let others: Vec<_> = drapes.iter().map(|drape| measure::measure(garment, &drape.positions)).collect();
     let last = tried.chi.last().map(|row| row.stage);
@@ -354,7 +354,7 @@ fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     }
 }
 
-/// Passes progress on.
+/// Monitor that passes progress on to a function.
 struct Told<'a>(&'a mut dyn FnMut(&str, f64));
 
 impl Monitor for Told<'_> {
@@ -363,7 +363,7 @@ impl Monitor for Told<'_> {
     }
 }
 
-/// A fabric of the library by its name, or of a TOML file.
+/// Returns the fabric of a name in the library, or that of a TOML file.
 ///
 /// # Errors
 /// When there is none of that name, or the file is wrong.
@@ -378,7 +378,7 @@ pub fn fabric(name: &str) -> Result<Fabric> {
     library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
 }
 
-/// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
+/// Returns the style of a layer: with its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Result<Style> {
     let size = layer.size.as_deref();
     if layer.seams.is_some() || SourceFile::read_pattern(&layer.pattern)?.holds_seams() {
@@ -388,15 +388,8 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     let (unit, allowance_m) = (asked.unit, asked.allowance_m);
     let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
     let seams::ProposalOnPieces { proposal, pieces } = seams::proposal(&pattern, &how)?;
-    let proposal = proposal.to_drape().map_err(|unwearable| {
-        StudyError::refused(
-            Origin::Pattern,
-            format!(
-                "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
-                layer.pattern.display()
-            ),
-        )
-    })?;
+    let unwearable = |reason| EngineError::Unwearable { pattern: layer.pattern.clone(), reason };
+    let proposal = proposal.to_drape().map_err(unwearable)?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().map(Question::to_string).chain(proposal.notes.iter().cloned()));
     let name = layer.pattern.file_stem().unwrap_or_default().to_string_lossy();
@@ -408,28 +401,32 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     Ok(style)
 }
 
-/// What is wrong with a drape, and where; the numbers alone do not say.
+/// Faults of a drape with the piece in which each is worst, since the numbers alone do not tell the place.
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
     let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
-    let told = |(says, fault): (String, Fault)| {
-        let spot: Option<Spot> = match fault {
-            Fault::Moves => None,
-            Fault::Inside => quality::deepest_spot(body, garment, &drape.positions),
-            Fault::Crosses => quality::crossed_spot(garment, &drape.positions),
+    let with_spot = |fault: Fault| {
+        let spot: Option<Spot> = match fault.kind {
+            FaultKind::Moves => None,
+            FaultKind::Inside => quality::deepest_spot(body, garment, &drape.positions),
+            FaultKind::Crosses => quality::crossed_spot(garment, &drape.positions),
         };
-        says + &spot.map_or_else(String::new, |spot| format!(", in {spot}"))
+        fault.words + &spot.map_or_else(String::new, |spot| format!(", in {spot}"))
     };
-    faults.into_iter().map(told).collect()
+    faults.into_iter().map(with_spot).collect()
 }
 
-/// Four views of every stage as one picture each, and body and garments as meshes; the last stage is called `stem`.
-fn files(
-    stem: &str,
-    simulator: Simulator,
-    body: &Body,
-    (garbs, drapes): (&[Garb], &[Drape]),
-) -> Result<Vec<(String, Vec<u8>)>> {
+/// A body with the drapes of its garments.
+struct Dressed<'a> {
+    body: &'a Body,
+    garbs: &'a [Garb],
+    drapes: &'a [Drape],
+}
+
+/// Four views of every stage as one picture each, and body and garments as meshes. Files of the last stage are called
+/// `stem`.
+fn files(stem: &str, simulator: Simulator, dressed: &Dressed<'_>) -> Result<Vec<(String, Vec<u8>)>> {
+    let Dressed { body, garbs, drapes } = *dressed;
     let garments = garbs.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
     let mesh = |garment: &Garment, positions: &[V3]| TriMesh {
         positions: positions.to_vec(),
@@ -461,7 +458,7 @@ fn files(
     Ok(files)
 }
 
-/// How a layer looks: the inner as its simulator's drapes do, each other in a colour of its own.
+/// Material of a layer: of the inner one as in the drapes of its simulator, of each other one in a colour of its own.
 fn material(simulator: Simulator, number: usize) -> Material {
     match (number, simulator) {
         (0, Simulator::Fem) => Material::fem(),

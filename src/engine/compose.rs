@@ -1,26 +1,26 @@
-//! A new study from what the catalogue has: a folder with a `study.toml` to read and edit, and the patterns beside it.
+//! A new study made of entries of the catalogue: a folder with a `study.toml` to read and edit, and the patterns
+//! beside it.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::enqueue::{self, Planned};
-use crate::run;
+use crate::{enqueue, run};
 use fit::Simulator;
 use fit::target::Intended;
+use spec::Selection;
 use spec::export::{Files, place};
 use spec::new_study::{Outline, Worn, drafted_size};
 use spec::patterns::{self, Model};
-use spec::{Selection, Study};
 use store::files::{self, SourceFile};
 use store::{Result, SizeKey, Store, StudyError};
 use wardrobe::{SizeRow, catalogue};
 
-/// Where the pattern of a size comes from.
+/// Source of the pattern of a size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PatternSource {
     /// A size of the catalogue.
     Catalogue(SizeKey),
-    /// A style that the program drafts itself.
+    /// A style that the program drafts.
     Drafted(Model),
 }
 
@@ -31,30 +31,31 @@ pub struct Wearable {
     pub style: String,
     /// Name of the size within the style.
     pub size: String,
-    /// Where its pattern and its seams come from.
+    /// Source of its pattern and its seams.
     pub source: PatternSource,
 }
 
-/// What a new study is made of.
+/// A new study as it is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewStudy {
-    /// Its name, and that of its folder.
+    /// Name of the study and of its folder.
     pub name: String,
     /// The folder of all studies.
     pub folder: PathBuf,
     /// Names of subjects of the catalogue.
     pub subjects: Vec<String>,
-    /// Sizes, styles together.
+    /// Sizes that are worn; those of one style follow each other.
     pub sizes: Vec<Wearable>,
     /// Name of a fabric of the catalogue.
     pub fabric: String,
     /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
-    /// How all garments are meant to sit; what is usual where that is not said.
+    /// Fit that is intended for all garments; the usual one where it is not said.
     pub fit: Option<Intended>,
 }
 
-/// What a new study may be made of: the sizes of the catalogue, and those of drafted styles whose names it does not have.
+/// Returns the sizes that a new study may wear: those of the catalogue, and those of drafted styles whose names it
+/// does not have.
 #[must_use]
 pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     let of_catalogue = sizes.iter().map(|row| Wearable {
@@ -74,7 +75,7 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     of_catalogue.chain(drafted).collect()
 }
 
-/// Writes a new study into a folder of its own and queues its jobs, which then wait to be run; returns its file.
+/// Writes a new study into a folder of its own and queues its jobs, which then wait to be run. Returns its file.
 ///
 /// # Errors
 /// When something is missing from it, its folder is there already, or a file cannot be written.
@@ -89,19 +90,8 @@ pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     files::write_files(&folder, &files)?;
     let path = folder.join("study.toml");
     let study = run::load_study(store, &path)?;
-    queue(store, &study, &Selection::default())?;
+    enqueue::queue(store, &study, &Selection::default())?;
     Ok(path)
-}
-
-/// Queues the jobs of a study without working on them.
-///
-/// # Errors
-/// When the database is open read-only.
-pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-    let transaction = store::write(store.writer()?)?;
-    let planned = enqueue::enqueue(&transaction, study, selection)?;
-    transaction.commit()?;
-    Ok(planned)
 }
 
 /// The files of a new study: its patterns, their seam files, `study.toml`.
@@ -240,7 +230,8 @@ mod tests {
         catalogue::import(&mut store, wardrobe::Part::Style, &[quickstart], wardrobe::Strictness::AllOrNone)
             .expect("good styles");
         let sizes = wearables(&catalogue::sizes(&store).expect("readable"));
-        assert!(!sizes.iter().any(|one| one.style == "tshirt" && matches!(one.source, PatternSource::Drafted(_))));
+        let is_drafted = |size: &Wearable| matches!(size.source, PatternSource::Drafted(_));
+        assert!(!sizes.iter().any(|size| size.style == "tshirt" && is_drafted(size)));
         let sizes = sizes.into_iter().filter(|wearable| wearable.style == "tshirt").collect();
         let new = NewStudy { sizes, ..new_study(folder.path()) };
         let path = create_study(&mut store, &new).expect("whole");

@@ -1,4 +1,4 @@
-//! Ease of a garment on a body, before anything is draped.
+//! Ease of a garment on a body by the flat pattern, before anything is draped.
 
 use body::{Body, Dimension, Girths, Joint};
 use fit::{Cuts, Ease};
@@ -10,7 +10,7 @@ use pattern::style::PathPart;
 /// Distance of the forearm's girth below the elbow, m.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
 
-/// What a body has at a level of its clothes, m.
+/// Girth or length of a body at a level that garments have, m; `None` where no dimension belongs to the level.
 pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     let dimension = match level {
         "neck" => Dimension::NeckGirth,
@@ -29,65 +29,69 @@ pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     girths.get(dimension)
 }
 
-/// Where a body has its levels.
+/// Heights of a body's levels, and lengths along its arms.
 pub fn stand(body: &Body) -> Stand {
     let mean = |pair: [V3; 2]| 0.5 * (pair[0] + pair[1]);
     let levels = &body.levels;
-    let at = |joint: Joint| body.skeleton.at(joint);
-    let upper_arm_m = (at(Joint::ElbowRight) - body.landmarks.shoulder[0]).norm();
-    let lower_arm_m = (at(Joint::WristRight) - at(Joint::ElbowRight)).norm();
+    let joint = |joint: Joint| body.skeleton.at(joint);
+    let upper_arm_m = (joint(Joint::ElbowRight) - body.landmarks.shoulder[0]).norm();
+    let lower_arm_m = (joint(Joint::WristRight) - joint(Joint::ElbowRight)).norm();
     Stand {
         side_neck_m: mean(body.landmarks.side_neck).z,
         underbust_m: levels.underbust_m,
         waist_m: levels.waist_m,
         hip_m: levels.hip_m,
         crotch_m: levels.crotch_m,
-        knee_m: 0.5 * (at(Joint::KneeRight).z + at(Joint::KneeLeft).z),
+        knee_m: 0.5 * (joint(Joint::KneeRight).z + joint(Joint::KneeLeft).z),
         forearm_along_m: upper_arm_m + FOREARM_BELOW_ELBOW_M,
         wrist_along_m: upper_arm_m + lower_arm_m,
     }
 }
 
-/// Ease at every level that the garment covers, from the neck down: along the lines of its seam file, and where that has none, along
-/// those found by what its pieces are. A study's own cuts classify it when it is read.
+/// Ease at every level that the garment covers, from the neck down. A level is measured along the line of the seam
+/// file, and without one along the line found from the roles of the pieces. The fit class is by default cuts: a
+/// study's own cuts classify it when it is read.
 pub fn on(style: &Style, body: &Body) -> Vec<Ease> {
     on_all(style, &[body]).pop().unwrap_or_default()
 }
 
-/// The same for several bodies: what the pieces are is found once.
+/// Returns [`on`] for several bodies. The roles of the pieces are found only once.
 pub fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
     let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
-    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, levels)| of(&levels, body)).collect()
+    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, lengths)| ease(&lengths, body)).collect()
 }
 
-fn of(levels: &[Length], body: &Body) -> Vec<Ease> {
-    let of_body = |level: &str| {
-        let height_m = levels.iter().find(|one| one.level == level).and_then(|one| one.height_m);
+/// Ease of a garment with these lengths on a body.
+fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
+    let body_m = |level: &str| {
+        let height_m = lengths.iter().find(|length| length.level == level).and_then(|length| length.height_m);
         height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
     };
-    fit::ease(levels.iter().map(|one| (one.level.as_str(), one.length_m)), of_body, &Cuts::default())
+    fit::ease(lengths.iter().map(|length| (length.level.as_str(), length.length_m)), body_m, &Cuts::default())
 }
 
-/// What a garment has at a level.
+/// Length of a garment at a level.
 pub struct Length {
     /// Level of the body, such as `chest`.
     pub level: String,
     /// Length of the pattern there, m.
     pub length_m: f64,
-    /// Height above the floor at which the body is measured, m, where that is not where its level lies.
+    /// Height above the floor at which the body is measured, m, where that is another one than the height of the
+    /// level.
     pub height_m: Option<f64>,
-    /// Where it lies on the cloth: of a girth that is measured by its half, that half.
+    /// Path on the pieces along which it is measured; of a girth that is measured by its half, that half.
     pub path: Vec<PathPart>,
 }
 
-/// What a style has at every level that it covers of somebody who stands so: along the lines of its seam file first.
+/// Returns the length of a style at every level that it covers of a body with these heights. Lines of the seam file
+/// come first.
 pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
     lengths_on(style, std::slice::from_ref(stand)).pop().unwrap_or_default()
 }
 
 fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
-    let stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
-    let of_file = || {
+    let is_stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
+    let stated = || {
         style.fit_levels.iter().map(|(level, path)| Length {
             level: level.clone(),
             length_m: style.path_length_m(path),
@@ -101,8 +105,8 @@ fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
         height_m: worn.height_m,
         path: worn.path,
     };
-    let on = |worn: Vec<WornLength>| {
-        of_file().chain(worn.into_iter().filter(|worn| !stated(worn.level)).map(found)).collect()
+    let all = |worn: Vec<WornLength>| {
+        stated().chain(worn.into_iter().filter(|worn| !is_stated(worn.level)).map(found)).collect()
     };
-    style.worn_lengths_on(stands).into_iter().map(on).collect()
+    style.worn_lengths_on(stands).into_iter().map(all).collect()
 }

@@ -1,23 +1,24 @@
-//! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
+//! Keeps the queue in line with a study: a job for every cell whose inputs are new, with the reason for each.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
+use crate::error::EngineError;
 use fit::Simulator;
 use fit::target::TARGETS;
 use geom::units::mm;
 use spec::{Change, Inputs, JobSpec, Limits, Selection, Study};
 use store::owner::Watch;
 use store::queue::{self, Event};
-use store::{JobId, Origin, Result, Status, Store, StudyError, columns, now_ms, read};
+use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
-/// Why a job runs, or why it need not.
+/// Reason for which a job runs, or need not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// Nothing like it was ever queued.
+    /// Its cell has no earlier job to compare with.
     New,
     /// An input changed since the latest earlier job of the same cell.
     Changed {
@@ -35,7 +36,7 @@ pub enum Why {
 }
 
 impl Why {
-    /// Whether the job is still to be run.
+    /// True if the job is still to be run.
     #[must_use]
     pub fn will_run(&self) -> bool {
         !matches!(self, Self::UpToDate(_))
@@ -57,21 +58,32 @@ impl std::fmt::Display for Why {
     }
 }
 
-/// A job of the queue for a specification.
+/// A job of the queue with its specification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     /// Number of the job in the queue.
     pub id: JobId,
-    /// What it does.
+    /// Specification of the job.
     pub spec: JobSpec,
-    /// Why it runs, or need not.
+    /// Reason for which it runs, or need not run.
     pub why: Why,
-    /// Whether it was its cell's job before, too.
+    /// True if it was the current job of its cell before.
     pub was_current: bool,
 }
 
-/// Stores a study and queues what is to be run of its jobs; failed and cancelled ones are queued again. What the study
-/// no longer has is no longer current.
+/// Queues the jobs of a study without working on them.
+///
+/// # Errors
+/// When the database is open read-only.
+pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue(&transaction, study, selection)?;
+    transaction.commit()?;
+    Ok(planned)
+}
+
+/// Stores a study and queues those of its jobs that are to be run. Failed and cancelled ones are queued again. Cells
+/// that the study no longer has lose their current job.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let all = spec::jobs(study);
     each_size_has_its_key(&all)?;
@@ -81,35 +93,26 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
     let study_id = store_study(transaction, study)?;
     retire(transaction, study_id, &all)?;
     let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();
-    let mut planned = Vec::with_capacity(specs.len());
-    for spec in specs {
-        let (id, why, was_current) = enqueue_one(transaction, study_id, &spec)?;
-        planned.push(Planned { id, spec, why, was_current });
-    }
+    let planned = specs.into_iter().map(|spec| enqueue_one(transaction, study_id, spec)).collect::<Result<Vec<_>>>()?;
     chain(transaction, &planned)?;
     Ok(planned)
 }
 
-/// Checks that no size would be given the result of another.
+/// Checks that no two sizes have the same inputs, so that none is given the result of another.
 fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
-    let mut size_of: BTreeMap<String, &JobSpec> = BTreeMap::new();
+    let mut size_of: BTreeMap<String, &String> = BTreeMap::new();
     for spec in specs {
         let JobSpec { garment, size, subject, .. } = spec;
-        let earlier = size_of.entry(spec.inputs.hash()).or_insert(spec);
-        if earlier.size != *size {
-            return Err(StudyError::refused(
-                Origin::Queue,
-                format!(
-                    "{garment}: sizes `{}` and `{size}` on {subject} have the same inputs, a fault of Toile; nothing is queued",
-                    earlier.size
-                ),
-            ));
+        let earlier = *size_of.entry(spec.inputs.hash()).or_insert(size);
+        if earlier != size {
+            let [garment, earlier, size, subject] = [garment, earlier, size, subject].map(String::clone);
+            return Err(EngineError::SameInputs { garment, earlier, size, subject }.into());
         }
     }
     Ok(())
 }
 
-/// Lets jobs that are to be run wait for those their garments come after, of the same run.
+/// Makes jobs that are to be run wait for the jobs of the same run that their garments come after.
 fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
         return Ok(());
@@ -134,12 +137,12 @@ fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     Ok(())
 }
 
-/// Where a study file lies.
+/// Canonical path of a study file.
 fn home_of(study: &Study) -> PathBuf {
     study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
 }
 
-/// The study file that the results of a study are kept for.
+/// Path of the study file that the results of a study are kept for.
 fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
     let path = connection.query_row("SELECT path FROM study WHERE name = ?", [name], |row| row.get::<_, String>(0));
     Ok(path.optional()?.map(PathBuf::from))
@@ -198,7 +201,7 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
     Ok(study_id)
 }
 
-/// Stores what ease each garment of a study is to have.
+/// Stores the target ease of each garment of a study.
 fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
     transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
     let mut statement = transaction.prepare_cached(
@@ -216,15 +219,21 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     Ok(())
 }
 
-/// Takes jobs and eases of cells that a study no longer has out of it; their results stay in the database.
+/// Takes jobs and eases of cells that a study no longer has out of the study. Their results stay in the database.
 fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
-    let cells: BTreeSet<Cell> = specs.iter().map(Cell::of).collect();
+    let cells: BTreeSet<Cell> = specs.iter().map(Cell::new).collect();
     let current: Vec<(JobId, Cell)> = transaction
         .prepare_cached(
             "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
         )?
         .query_map([study_id], |row| {
-            let cell = Cell(row.get(1)?, row.get(2)?, row.get(3)?, columns::simulator(row, 4)?, row.get(5)?);
+            let cell = Cell {
+                garment: row.get(1)?,
+                size: row.get(2)?,
+                subject: row.get(3)?,
+                simulator: columns::simulator(row, 4)?,
+                repeat: row.get(5)?,
+            };
             Ok((JobId(row.get(0)?), cell))
         })?
         .collect::<rusqlite::Result<_>>()?;
@@ -243,17 +252,26 @@ fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Re
     Ok(())
 }
 
-/// Garment, size, subject, simulator and repeat of a job.
+/// Cell of a study's grid.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Cell(String, String, String, Simulator, u32);
+struct Cell {
+    garment: String,
+    size: String,
+    subject: String,
+    simulator: Simulator,
+    repeat: u32,
+}
 
 impl Cell {
-    fn of(spec: &JobSpec) -> Self {
-        Self(spec.garment.clone(), spec.size.clone(), spec.subject.clone(), spec.simulator, spec.repeat)
+    fn new(spec: &JobSpec) -> Self {
+        let JobSpec { garment, size, subject, simulator, repeat, .. } = spec;
+        let [garment, size, subject] = [garment, size, subject].map(String::clone);
+        Self { garment, size, subject, simulator: *simulator, repeat: *repeat }
     }
 }
 
-fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why, bool)> {
+/// Finds or inserts the job of a specification and makes it the current one of its cell.
+fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> Result<Planned> {
     let hash = spec.inputs.hash();
     let same = transaction
         .prepare_cached(
@@ -265,10 +283,10 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
             |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)),
         )
         .optional()?;
-    let earlier = latest_of_cell(transaction, study_id, spec)?;
+    let earlier = latest_of_cell(transaction, study_id, &spec)?;
     if let Some((id, status)) = same {
         make_current(transaction, id, earlier)?;
-        set_limits(transaction, id, spec)?;
+        set_limits(transaction, id, &spec)?;
         let why = match status {
             Status::Done | Status::NotConverged => Why::UpToDate(status),
             Status::Queued | Status::Running => Why::Waiting,
@@ -277,7 +295,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
                 Why::Again(status)
             }
         };
-        return Ok((id, why, earlier == Some(id)));
+        return Ok(Planned { id, spec, why, was_current: earlier == Some(id) });
     }
     let why = match earlier {
         Some(since) => Why::Changed { since, changes: spec.inputs.changes_since(&inputs_of(transaction, since)?) },
@@ -286,9 +304,9 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
     if let Some(old) = earlier {
         supersede(transaction, old)?;
     }
-    let id = insert(transaction, study_id, spec, &hash)?;
+    let id = insert(transaction, study_id, &spec, &hash)?;
     queue::log(transaction, id, "info", &format!("queued: {why}"))?;
-    Ok((id, why, false))
+    Ok(Planned { id, spec, why, was_current: false })
 }
 
 /// The current job of a specification's cell.
@@ -308,7 +326,7 @@ fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>
     Ok(())
 }
 
-/// What a job may take, as its study says now.
+/// Stores the limits of a job as its study has them now.
 fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
     let Limits { time_s, memory_mb } = spec.schedule.limits;
     let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
@@ -317,7 +335,7 @@ fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Resul
     Ok(())
 }
 
-/// Takes a job out of its cell; what has not begun need not run any more, and nobody waits for it.
+/// Takes a job out of its cell and cancels it if it has not ended; no other job waits for it any more.
 fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
     transaction.prepare_cached("DELETE FROM job_need WHERE needs = ?")?.execute([id.0])?;
     transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
@@ -363,7 +381,8 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
     Ok(id)
 }
 
-/// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+/// Returns the reason for which a job was not found in the cache: the inputs that differ from the latest earlier job
+/// of its cell.
 ///
 /// # Errors
 /// When there is no such job.

@@ -1,30 +1,40 @@
-//! What can be wrong with a drape, in words.
+//! Faults of a drape.
 
-/// Deepest penetration of a drape that is good, mm.
+/// Greatest penetration into the body that is no fault, mm.
 const PENETRATION_MM: f64 = 0.5;
 
-/// What can be wrong with a drape.
+/// A fault of a drape.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Kind of the fault.
+    pub kind: FaultKind,
+    /// Description with its size.
+    pub words: String,
+}
+
+/// Kind of a fault of a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
-    /// It had not come to rest.
+pub enum FaultKind {
+    /// The drape did not come to rest.
     Moves,
-    /// It lies inside the body.
+    /// The cloth lies inside the body.
     Inside,
-    /// The cloth goes through itself.
+    /// The cloth intersects itself.
     Crosses,
 }
 
-/// What is wrong with a drape, in words.
-pub fn drape_faults(converged: bool, residual: f64, penetration_mm: f64, self_crossings: i64) -> Vec<(String, Fault)> {
+/// Returns the faults of a drape.
+pub fn drape_faults(converged: bool, residual: f64, penetration_mm: f64, self_crossings: i64) -> Vec<Fault> {
+    let fault = |kind, words| Fault { kind, words };
     let mut faults = Vec::new();
     if !converged {
-        faults.push((format!("not converged: residual {residual:.4}"), Fault::Moves));
+        faults.push(fault(FaultKind::Moves, format!("not converged: residual {residual:.4}")));
     }
     if penetration_mm > PENETRATION_MM {
-        faults.push((format!("{penetration_mm:.1} mm inside the body"), Fault::Inside));
+        faults.push(fault(FaultKind::Inside, format!("{penetration_mm:.1} mm inside the body")));
     }
     if self_crossings > 0 {
-        faults.push((format!("the cloth crosses itself at {self_crossings} edges"), Fault::Crosses));
+        faults.push(fault(FaultKind::Crosses, format!("the cloth crosses itself at {self_crossings} edges")));
     }
     faults
 }

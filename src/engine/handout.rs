@@ -1,7 +1,7 @@
-//! Jobs as files: handed to whatever runs them, on any machine, and their results taken back.
+//! Jobs as files: handed out to be run on any machine, and their results merged.
 //!
-//! A job file holds all that a job is made from, a result file all that came of it; neither needs a database. Results are
-//! merged in one transaction, and merging them again changes nothing.
+//! A job file holds all inputs of a job, a result file all of its outputs. Neither needs a database. Results are
+//! merged in one transaction, and to merge them again changes nothing.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,11 +11,12 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use crate::enqueue::{self, Planned};
+use crate::error::EngineError;
 use crate::job_files::{FORMAT, JOB, JobFile, Product, ResultFile, read_json, result_of, results_in, write_json};
 use crate::outcome::{self, Executor, Provenance};
 use crate::own_process::{self, Clock, Teller};
 use crate::pipeline::Pipeline;
-use spec::{Selection, Study};
+use spec::{JobSpec, Selection, Study};
 use store::cache::Cache;
 use store::owner::Owner;
 use store::queue::{self, Event};
@@ -30,37 +31,35 @@ pub struct HandedOut {
     pub file: Option<PathBuf>,
 }
 
-/// What merging did with the results it found.
+/// Jobs by what merging did with their results.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// Jobs that have a result now.
+    /// Jobs whose result is stored now.
     pub stored: Vec<JobId>,
-    /// Jobs that failed elsewhere, and are failed here now.
+    /// Jobs that failed elsewhere and are now marked as failed here.
     pub failed: Vec<JobId>,
-    /// Jobs whose result was here already.
+    /// Jobs whose result was stored here before.
     pub known: Vec<JobId>,
-    /// Jobs that a worker of this database runs right now: it will come to the same result.
+    /// Jobs that a worker of this database runs now. Its result will be the same.
     pub running: Vec<JobId>,
 }
 
-/// What became of a job file that was run.
+/// Result of running a job file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ran {
     /// The result file.
     pub file: PathBuf,
-    /// Why the job failed, if it did.
+    /// Reason for which the job failed, if it did.
     pub error: Option<String>,
 }
 
-/// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file.
+/// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file name.
 ///
 /// # Errors
 /// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
 pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
     selection.check(study)?;
-    let transaction = store::write(store.writer()?)?;
-    let planned = enqueue::enqueue(&transaction, study, selection)?;
-    transaction.commit()?;
+    let planned = enqueue::queue(store, study, selection)?;
     std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
     let provenance = Provenance::of(study.path.parent().unwrap_or(Path::new(".")));
     let mut handed = Vec::with_capacity(planned.len());
@@ -78,7 +77,7 @@ pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder:
     Ok(handed)
 }
 
-/// Merges result files, and those in folders, in one transaction. What has a result here keeps it.
+/// Merges result files, and those in folders, in one transaction. A job that has a result here keeps it.
 ///
 /// # Errors
 /// When the database is open read-only, or a file is no result of a job of this database: nothing is then stored.
@@ -101,9 +100,9 @@ pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
     Ok(merged)
 }
 
-/// Runs a job file within its limits and writes its result beside it, or where it is wanted. A job that fails has a result
-/// that says why. With a database the products of the stages stay there, the process ends with the one that started it,
-/// and says how far it is on standard output.
+/// Runs a job file within its limits and writes its result to `output`, or beside the job file. A job that fails has a
+/// result that says why. With a database the products of the stages are kept there, the process ends with the one that
+/// started it, and it prints its progress on standard output.
 ///
 /// # Errors
 /// When the job file cannot be read, or the result cannot be written.
@@ -123,7 +122,7 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     let mut teller = Teller { clock, is_heard: database.is_some(), last: None };
     let pipeline = Pipeline::over(Cache::new(database.map_or(scratch, Path::to_owned)));
     let outcome = match pipeline.execute(&spec, &mut teller) {
-        Err(StudyError::Interrupted) => Err(teller.clock.error()),
+        Err(StudyError::Interrupted) => Err(teller.clock.error().into()),
         outcome => outcome,
     };
     let outcome = outcome.map_err(|error| error.to_string());
@@ -143,7 +142,7 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     Ok(Ran { file, error })
 }
 
-/// Everything that the stages stored.
+/// All products that the stages stored.
 fn products(connection: &Connection) -> Result<Vec<Product>> {
     let mut statement = connection.prepare("SELECT hash, kind, bytes FROM artefact ORDER BY hash")?;
     let product = |row: &rusqlite::Row<'_>| {
@@ -154,13 +153,12 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
     Ok(products)
 }
 
-/// Merges one result file; the name of its study.
+/// Merges one result file; returns the name of its study.
 fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, Origin::Result)?;
     let spec = &result.spec;
-    let refuse = |message: String| StudyError::refused(Origin::Merge, format!("{}: {message}", path.display()));
     if spec.inputs.hash() != result.input_hash {
-        return Err(refuse("its inputs are not those it was made from".into()));
+        return Err(EngineError::OtherInputs { file: path.to_owned() }.into());
     }
     let sql = "SELECT job_id, status FROM job JOIN study USING (study_id) WHERE study.name = ? AND garment = ?
         AND size = ? AND subject = ? AND simulator = ? AND repeat = ? AND input_hash = ?";
@@ -178,11 +176,9 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
         .query_row(cell, |row| Ok((JobId(row.get(0)?), columns::status(row, 1)?)))
         .optional()?;
     let (id, status) = found.ok_or_else(|| {
-        let (study, garment, size, subject) = (&result.study, &spec.garment, &spec.size, &spec.subject);
-        refuse(format!(
-            "this database has no such job: {garment} {size} on {subject} of study {study}; was it made by another version \
-            of the program?"
-        ))
+        let JobSpec { garment, size, subject, .. } = spec;
+        let [study, garment, size, subject] = [&result.study, garment, size, subject].map(String::clone);
+        EngineError::UnknownJob { file: path.to_owned(), study, garment, size, subject }
     })?;
     match status {
         Status::Done | Status::NotConverged => merged.known.push(id),
@@ -206,7 +202,7 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
     Ok(result.study)
 }
 
-/// Stores products that are not here yet.
+/// Stores those products that the database does not have.
 fn take_products(transaction: &Transaction<'_>, products: &[Product]) -> Result<()> {
     let sql = "INSERT OR IGNORE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
     let mut statement = transaction.prepare_cached(sql)?;

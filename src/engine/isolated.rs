@@ -1,5 +1,5 @@
-//! Jobs with limits, each in a process of its own: the system keeps it to its memory, and it is ended when its time is
-//! over, whatever it is doing. Other jobs of the run do not notice.
+//! Jobs with limits, each in a process of its own. The system enforces the memory limit, and the process is killed
+//! when its time is over. Other jobs of the run do not notice.
 
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;
@@ -9,27 +9,28 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use crate::error::EngineError;
 use crate::job_files;
 use crate::outcome::{Executor, Outcome};
 use crate::own_process::{Clock, Line};
 use crate::pipeline::Pipeline;
 use sim::{Monitor, Progress};
 use spec::{JobSpec, Limits};
-use store::{Origin, Result, StudyError};
+use store::{Result, StudyError};
 
-/// Time between two looks at a process.
+/// Time between two checks of a process.
 const LOOK: Duration = Duration::from_millis(50);
-/// What is said where memory is not given.
+/// Messages of an allocation that failed.
 const NO_MEMORY: [&str; 3] = ["memory allocation of", "out of memory", "Cannot allocate memory"];
 
-/// The pipeline of a database; jobs with limits run apart.
+/// Executor that runs jobs with limits in processes of their own, and all others in this one.
 pub(crate) struct Isolated {
     database: PathBuf,
     pipeline: std::sync::Arc<Pipeline>,
 }
 
 impl Isolated {
-    /// Over the pipeline of a database.
+    /// Creates the executor of a database and its pipeline.
     pub fn new(database: &Path, pipeline: std::sync::Arc<Pipeline>) -> Self {
         Self { database: database.to_owned(), pipeline }
     }
@@ -44,15 +45,16 @@ impl Executor for Isolated {
         let [job, result] = ["job.json", "result.json"].map(|name| folder.path().join(name));
         job_files::write_job(&job, spec)?;
         let limits = spec.schedule.limits;
-        let (status, said) = watch(start(&job, &result, &self.database)?, &limits, monitor)?;
+        let exit = watch(start(&job, &result, &self.database)?, &limits, monitor)?;
         if !result.exists() {
-            return Err(ended(status, &said, &limits));
+            return Err(exit.error(&limits).into());
         }
-        job_files::read_outcome(&result).map_err(|error| out_of_memory(&error.to_string(), &limits).unwrap_or(error))
+        job_files::read_outcome(&result)
+            .map_err(|error| out_of_memory(&error.to_string(), &limits).map_or(error, StudyError::from))
     }
 }
 
-/// Starts this program on a job file. In a group of its own: what a terminal sends is for the run.
+/// Starts this program on a job file, in a process group of its own: signals of the terminal are for the run.
 fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
     let mut command = Command::new(&program);
@@ -61,9 +63,9 @@ fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     command.spawn().map_err(StudyError::io(program))
 }
 
-/// Follows a process to its end, and makes that end when its time is over or the run does not want it any more; how it
-/// ended, and what it said on standard error.
-fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result<(ExitStatus, String)> {
+/// Waits for a process to end, and kills it when its time is over or the run is cancelled. Returns its exit status,
+/// and its standard error.
+fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result<Exit> {
     let (out, mut errors) = (child.stdout.take(), child.stderr.take());
     let latest: Mutex<Option<Progress>> = Mutex::new(None);
     let latest = &latest;
@@ -89,7 +91,7 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
                 Err(error) => break Err(StudyError::io("toile job run")(error)),
             }
             if clock.is_over() {
-                break Err(clock.error());
+                break Err(clock.error().into());
             }
             if monitor.cancelled() {
                 break Err(StudyError::Interrupted);
@@ -104,21 +106,31 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
             let _ = child.kill();
             let _ = child.wait();
         }
-        Ok((ended?, said.join().unwrap_or_default()))
+        Ok(Exit { status: ended?, said: said.join().unwrap_or_default() })
     })
 }
 
-/// Why a process left no result.
-fn ended(status: ExitStatus, said: &str, limits: &Limits) -> StudyError {
-    let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
-    let other = || StudyError::refused(Origin::Job, format!("its process ended with {status}: {last}"));
-    out_of_memory(said, limits).unwrap_or_else(other)
+/// End of a process.
+struct Exit {
+    status: ExitStatus,
+    /// Standard error.
+    said: String,
 }
 
-/// The error of a job with a memory limit that says in some words that it got no more.
-fn out_of_memory(said: &str, limits: &Limits) -> Option<StudyError> {
+impl Exit {
+    /// Error of a process that left no result.
+    fn error(&self, limits: &Limits) -> EngineError {
+        let Self { status, said } = self;
+        let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
+        let other = || EngineError::ProcessEnded { status: *status, last_line: last.to_owned() };
+        out_of_memory(said, limits).unwrap_or_else(other)
+    }
+}
+
+/// Error of a job with a memory limit whose message tells of a failed allocation.
+fn out_of_memory(said: &str, limits: &Limits) -> Option<EngineError> {
     let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
-    Some(StudyError::refused(Origin::Limit, format!("needed more than its memory limit of {megabytes} MB")))
+    Some(EngineError::OutOfMemory { megabytes })
 }
 
 #[cfg(test)]
@@ -130,8 +142,9 @@ mod tests {
     #[test]
     fn an_end_is_put_down_to_memory_where_memory_was_not_given() {
         let check = |code: i32, said: &str, memory_mb: Option<u32>, expect: &str| {
-            let error = ended(ExitStatus::from_raw(code), said, &Limits { memory_mb, time_s: None });
-            assert_eq!(error.to_string(), expect);
+            let exit = Exit { status: ExitStatus::from_raw(code), said: said.to_owned() };
+            let error = exit.error(&Limits { memory_mb, time_s: None });
+            assert_eq!(StudyError::from(error).to_string(), expect);
         };
         let aborted = "memory allocation of 4096 bytes failed\n";
         check(6, aborted, Some(80), "limit: needed more than its memory limit of 80 MB");

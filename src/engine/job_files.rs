@@ -4,18 +4,19 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::EngineError;
 use crate::outcome::{Outcome, Provenance};
 use spec::JobSpec;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Layout of the files; raised when it changes.
+/// Version of the layout of the files; raised when it changes.
 pub(crate) const FORMAT: u32 = 1;
-/// How a job file ends.
+/// File name ending of a job file.
 pub(crate) const JOB: &str = ".job.json";
-/// How a result file ends.
+/// File name ending of a result file.
 pub(crate) const RESULT: &str = ".result.json";
 
-/// A job, for another machine.
+/// A job that may run on another machine.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct JobFile {
     pub format: u32,
@@ -24,7 +25,7 @@ pub(crate) struct JobFile {
     pub spec: JobSpec,
 }
 
-/// What came of a job on another machine.
+/// Result of a job from another machine.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct ResultFile {
     pub format: u32,
@@ -37,7 +38,7 @@ pub(crate) struct ResultFile {
     pub products: Vec<Product>,
 }
 
-/// A product of a stage as it is stored: packed.
+/// A product of a stage in its compressed form, as base64.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Product {
     pub hash: String,
@@ -45,25 +46,25 @@ pub(crate) struct Product {
     pub packed: String,
 }
 
-/// Writes a job file for a process that this one starts; where it is made does not go along.
+/// Writes a job file for a process that this one starts. The provenance is left out: this process knows it.
 pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
     let (study, provenance) = (String::new(), Provenance::default());
     write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
 }
 
-/// What came of a job, from its result file.
+/// Reads the outcome of a job from its result file.
 pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
     let result: ResultFile = read_json(path, Origin::Result)?;
     result.outcome.map_err(|message| StudyError::Elsewhere { message })
 }
 
-/// Where the result of a job file is written.
+/// Path of the result of a job file.
 pub(crate) fn result_of(job: &Path) -> PathBuf {
     let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
     job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
 }
 
-/// The result files of a folder, by name.
+/// Result files of a folder, by name.
 pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
@@ -76,23 +77,23 @@ pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Reads one of the files.
-pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, origin: Origin) -> Result<T> {
+/// Reads a job file or a result file, as `kind` names it.
+pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, kind: Origin) -> Result<T> {
     #[derive(Deserialize)]
     struct Head {
         format: u32,
     }
     let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-    let refuse = |found: String| StudyError::refused(origin, format!("{}: {found}", path.display()));
-    let head: Head =
-        serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {origin} file: {error}")))?;
-    if head.format != FORMAT {
-        return Err(refuse(format!("format {}; accepted: {FORMAT}", head.format)));
+    let file = || path.to_owned();
+    let other_file = |reason| EngineError::OtherFile { kind, file: file(), reason };
+    let Head { format } = serde_json::from_slice(&bytes).map_err(other_file)?;
+    if format != FORMAT {
+        return Err(EngineError::Format { kind, file: file(), found: format, accepted: FORMAT }.into());
     }
-    serde_json::from_slice(&bytes).map_err(|error| refuse(error.to_string()))
+    Ok(serde_json::from_slice(&bytes).map_err(|reason| EngineError::Content { kind, file: file(), reason })?)
 }
 
-/// Writes a file that is there whole or not at all, whenever the program ends.
+/// Writes a file atomically: whenever the program ends, it is there as a whole or not at all.
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     let bytes = serde_json::to_vec(value).origin(Origin::Store)?;
     let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));

@@ -21,18 +21,20 @@
 //! ```
 
 pub mod actions;
+pub mod assessment;
 pub mod attempt;
 pub mod carry;
 pub mod compose;
 pub mod ease;
 pub mod enqueue;
+mod error;
 pub mod faults;
 pub mod fitting;
 pub mod handout;
 pub mod isolated;
 mod job_files;
 pub mod layers;
-pub mod levels;
+
 pub mod outcome;
 mod own_process;
 pub mod pipeline;
@@ -45,6 +47,7 @@ mod tests;
 pub mod workers;
 
 pub use actions::why_no_retry;
+pub use assessment::{Assessment, Level, Pressing};
 pub use attempt::{
     Attempt, AttemptLayer, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt,
     fabric as fabric_named,
@@ -52,7 +55,6 @@ pub use attempt::{
 pub use compose::{NewStudy, PatternSource, Wearable, wearables};
 pub use enqueue::{Planned, Why};
 pub use handout::{HandedOut, Merged, Ran, run_job};
-pub use levels::{Level, Pressing, WornOn};
 pub use outcome::{Executor, Measured, MeasuredPoint, Outcome};
 pub use pipeline::Pipeline;
 pub use reach::{Reached, ReachedAt, ReachedOpening};

@@ -1,8 +1,8 @@
-//! What a finished job leaves behind, and writing all of it in one transaction.
+//! Outcome of a job, and the transaction that stores all of it.
 
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
-use crate::levels::{self, WornOn};
+use crate::assessment::{self, Assessment};
 use spec::JobSpec;
 use store::{JobId, Result, Status, StudyError};
 
@@ -16,7 +16,7 @@ use store::cache::Used;
 use store::owner::host;
 use store::queue::{self, Event};
 
-/// One measurement of a result with what it is.
+/// One measurement of a result.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measured {
     /// Stage at which it was taken.
@@ -25,9 +25,9 @@ pub struct Measured {
     pub name: String,
     /// Loop or length.
     pub kind: MeasurementKind,
-    /// Whether it runs along an edge that no seam holds.
+    /// True if it runs along an edge that is in no seam.
     pub is_free_edge: bool,
-    /// Whether the simulator restores it by construction.
+    /// True if the simulator restores its length by construction.
     pub is_controlled: bool,
     /// Its number, with its lengths in the pattern and on the drape.
     pub chi: Chi,
@@ -38,26 +38,27 @@ pub struct Measured {
 pub struct MeasuredPoint {
     /// Name of the point of measure in tables and SQL.
     pub point: String,
-    /// Flat on the pieces, m.
+    /// Length flat on the pieces, m.
     pub flat_m: f64,
-    /// On the drape, m: of a half that half. `None` of a distance across no cloth.
+    /// Length on the drape, m; of a girth that is measured by its half, of that half. `None` of a distance that runs
+    /// across no cloth.
     pub draped_m: Option<f64>,
 }
 
-/// The result of a simulation, measured.
+/// Outcome of a simulation, measured.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
-    /// Whether the residual reached its tolerance with all seams closed.
+    /// True if the residual reached its tolerance with all seams closed.
     pub converged: bool,
-    /// Every measurement, at every stage that the simulator tells apart.
+    /// All measurements, at every stage that the simulator distinguishes.
     pub measured: Vec<Measured>,
-    /// Summary of those of the last stage.
+    /// Summary of the measurements of the last stage.
     pub metrics: Metrics,
-    /// Vertices once sewn.
+    /// Vertices of the welded mesh.
     pub vertices: usize,
     /// Triangles of the mesh that was draped.
     pub faces: usize,
-    /// Iterations over all levels.
+    /// Iterations over all mesh levels.
     pub iterations: u32,
     /// Rms residual force over the mean vertex weight.
     pub residual: f64,
@@ -67,27 +68,27 @@ pub struct Outcome {
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// The run, step by step.
+    /// Residual and seam gap, step by step.
     pub history: Vec<Step>,
     /// Ease at each fit level.
     pub eases: Vec<Ease>,
     /// Its points of measure.
     #[serde(default)]
     pub points: Vec<MeasuredPoint>,
-    /// How it sits on its body.
+    /// Assessment of the drape on its body.
     #[serde(default)]
-    pub worn: WornOn,
+    pub worn: Assessment,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
     /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
-    /// What its reader should know of it, as sentences; they go to the job's log.
+    /// Warnings for the reader, as sentences; they go to the job's log.
     pub warnings: Vec<String>,
-    /// Products of stages it used.
+    /// Products of the stages that were used.
     pub used: Vec<Used>,
 }
 
-/// Turns a specification into a result; the pipeline in earnest, a closure in tests.
+/// Turns a specification into an outcome. The pipeline does so; tests use closures.
 pub trait Executor: Sync {
     /// Runs one job. Not converging is an [`Outcome`], not an error.
     ///
@@ -102,10 +103,10 @@ impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F
     }
 }
 
-/// Where results are made: the same for all jobs of a run.
+/// Provenance of results, the same for all jobs of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Provenance {
-    /// Commit of the repository the study file lies in, and whether it has uncommitted changes.
+    /// Commit of the repository in which the study file lies, and true if it has uncommitted changes.
     pub git: Option<(String, bool)>,
     /// Host name of the machine.
     pub machine: String,
@@ -114,7 +115,7 @@ pub(crate) struct Provenance {
 }
 
 impl Provenance {
-    /// Asks git about a study's folder; no repository, or no git, is no error.
+    /// Asks git for the commit of a study's folder. Without a repository or without git there is none.
     pub fn of(folder: &std::path::Path) -> Self {
         let git = |arguments: &[&str]| {
             let output = std::process::Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
@@ -126,14 +127,14 @@ impl Provenance {
         Self { git, ..Self::here() }
     }
 
-    /// This machine and program, without a repository.
+    /// Provenance of this machine and program, without a repository.
     pub fn here() -> Self {
         Self { git: None, machine: machine(), program_version: env!("CARGO_PKG_VERSION").to_owned() }
     }
 }
 
-/// Ends a job with what came of it, in one transaction; returns its new state, or `None` when it was no longer the
-/// owner's to end (cancelled or taken over meanwhile).
+/// Ends a job with its outcome, in one transaction. Returns its new state, or `None` if `owner` no longer holds the
+/// job: it was cancelled or taken over meanwhile.
 pub(crate) fn finish(
     connection: &mut Connection,
     id: JobId,
@@ -148,7 +149,7 @@ pub(crate) fn finish(
     Ok(status)
 }
 
-/// [`finish`] within a transaction.
+/// As [`finish`], within a transaction.
 pub(crate) fn finish_in(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -192,7 +193,7 @@ fn write_result(
     write_measured(transaction, id, outcome)?;
     write_closures(transaction, id, &outcome.closures)?;
     write_points(transaction, id, &outcome.points)?;
-    levels::write(transaction, id, &outcome.worn)?;
+    assessment::write(transaction, id, &outcome.worn)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
@@ -226,14 +227,13 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
         "INSERT INTO chi (job_id, stage, measurement_no, measurement, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     )?;
-    for m in &outcome.measured {
-        let kind = match m.kind {
+    for Measured { stage, name, kind, is_free_edge, is_controlled, chi } in &outcome.measured {
+        let kind = match kind {
             MeasurementKind::ClosedGirth => "closed_girth",
             MeasurementKind::OpenLength => "open_length",
         };
-        let (l2d_mm, l3d_mm) = (mm(m.chi.l2d_m), mm(m.chi.l3d_m));
-        let stage = m.stage.as_str();
-        let row = params![id.0, stage, m.chi.no, m.name, kind, m.is_free_edge, m.is_controlled, l2d_mm, l3d_mm];
+        let (l2d_mm, l3d_mm) = (mm(chi.l2d_m), mm(chi.l3d_m));
+        let row = params![id.0, stage.as_str(), chi.no, name, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm];
         statement.execute(row)?;
     }
     let metrics = &outcome.metrics;
@@ -269,7 +269,7 @@ fn write_points(transaction: &Transaction<'_>, id: JobId, points: &[MeasuredPoin
     Ok(())
 }
 
-/// The gap map in numbers: what a garment of Hybrid-GS lacks at each level.
+/// Writes the girths of garment and body at each level, of Hybrid-GS.
 fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
         "INSERT INTO gap (job_id, level, height_mm, body_girth_mm, garment_girth_mm) VALUES (?, ?, ?, ?, ?)",
@@ -282,7 +282,7 @@ fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]
     Ok(())
 }
 
-/// Ease of a specification's size on its subject, for a study.
+/// Writes the ease of a size on a subject, for a study.
 pub(crate) fn write_ease(
     transaction: &Transaction<'_>,
     study_id: i64,
@@ -304,7 +304,7 @@ pub(crate) fn write_ease(
     Ok(())
 }
 
-/// The machine in words: host, cores, system.
+/// Description of this machine: host, cores, system.
 pub fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     format!("{}, {cores} cores, {} {}", host(), std::env::consts::OS, std::env::consts::ARCH)

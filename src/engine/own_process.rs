@@ -1,19 +1,20 @@
-//! A job in a process of its own: it keeps to its limits, and tells how far it is in lines of standard output.
+//! A job in a process of its own, which keeps to its limits and prints its progress on standard output, line by line.
 
 use std::time::{Duration, Instant};
 
 use rustix::process::{Resource, Rlimit, Signal, set_parent_process_death_signal, setrlimit};
 use serde::{Deserialize, Serialize};
 
+use crate::error::EngineError;
 use sim::{Monitor, Progress, Step};
 use spec::Limits;
-use store::{Origin, Result, StudyError};
+use store::Result;
 
-/// Time between two lines in which a process says how far it is.
+/// Least time between two lines of progress.
 const LINES: Duration = Duration::from_millis(200);
-/// What simulators call their phases.
+/// Names of the simulators' phases.
 const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
-/// Time that a job may take.
+/// Clock of a job with a time limit.
 pub(crate) struct Clock {
     began: Instant,
     limit_s: Option<f64>,
@@ -25,41 +26,38 @@ impl Clock {
         Self { began: Instant::now(), limit_s: limits.time_s }
     }
 
-    /// Whether it has taken longer.
+    /// True if the time limit has passed.
     pub fn is_over(&self) -> bool {
         self.limit_s.is_some_and(|limit_s| self.began.elapsed().as_secs_f64() > limit_s)
     }
 
-    /// The error of a job that has.
-    pub fn error(&self) -> StudyError {
-        StudyError::refused(
-            Origin::Limit,
-            format!("took longer than its time limit of {} s", self.limit_s.unwrap_or_default()),
-        )
+    /// Error of a job whose time limit has passed.
+    pub fn error(&self) -> EngineError {
+        EngineError::OutOfTime { limit_s: self.limit_s.unwrap_or_default() }
     }
 }
 
-/// Keeps this process to a memory limit.
+/// Applies a memory limit to this process.
 ///
 /// # Errors
 /// When the system refuses.
 pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     let Some(megabytes) = limits.memory_mb else { return Ok(()) };
     let most = Some(u64::from(megabytes) * 1_000_000);
-    setrlimit(Resource::Data, Rlimit { current: most, maximum: most })
-        .map_err(|error| StudyError::refused(Origin::Limit, format!("memory_limit_mb = {megabytes}: {error}")))
+    let set = setrlimit(Resource::Data, Rlimit { current: most, maximum: most });
+    Ok(set.map_err(|reason| EngineError::MemoryLimit { megabytes, reason })?)
 }
 
-/// Ends this process with the one that started it.
+/// Makes this process end with the one that started it.
 pub(crate) fn end_with_parent() {
     // Where the system cannot, it ends with its job.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
 
-/// The monitor of a job in a process of its own: its time, and lines for whoever started it.
+/// Monitor of a job in a process of its own: checks its time, and prints progress for the process that started it.
 pub(crate) struct Teller {
     pub clock: Clock,
-    /// Whether somebody reads the lines.
+    /// True if the process that started this one reads the lines.
     pub is_heard: bool,
     pub last: Option<Instant>,
 }
@@ -82,7 +80,7 @@ impl Monitor for Teller {
     }
 }
 
-/// How far a job is, as one line.
+/// Progress of a job, as one line.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Line {
     phase: String,
@@ -91,7 +89,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// What a line says; `None` for any other line.
+    /// Reads a line of progress; `None` for any other line.
     pub fn read(text: &str) -> Option<Progress> {
         let Self { phase, fraction, step } = serde_json::from_str(text).ok()?;
         let phase = PHASES.into_iter().find(|known| *known == phase).unwrap_or("works");

@@ -1,15 +1,16 @@
-//! The pipeline in earnest: body, distance field, garment meshes, simulation and measuring, each stage through the cache.
+//! The pipeline of a job: body, distance field, garment meshes, simulation and measuring, each stage through the
+//! cache.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::carry::carry;
+use crate::carry::Carry;
 use crate::fitting::Fitting;
-use crate::layers::{self, Drapes, Garb, Wardrobe};
+use crate::layers::{self, Drapes, Ensemble};
 use crate::outcome::{Executor, Outcome};
-use crate::stages::{Meshes, Model, body_inputs, mesh, style};
+use crate::stages::{Garb, Meshes, Model, body_inputs, mesh};
 use geom::DistanceField;
-use sim::fem::carry::Worn;
+use sim::dressing::Wearer;
 use sim::{self, Drape, Monitor};
 use spec::file::Subject;
 use spec::{JobSpec, Outfit, Person, versions};
@@ -22,13 +23,13 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Stages whose products are kept in a database.
+    /// Creates stages whose products are kept in a database.
     #[must_use]
     pub fn new(database: &Path) -> Self {
         Self::over(Cache::new(database.to_owned()))
     }
 
-    /// Stages over a cache.
+    /// Creates stages over a cache.
     pub fn over(cache: Cache) -> Self {
         Self { cache }
     }
@@ -48,59 +49,62 @@ impl Pipeline {
         self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
     }
 
-    /// The drape of a garment that is worn alone.
+    /// Drape of a garment that is worn alone.
     fn drape(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<(Arc<Drape>, Used)> {
         let hash = spec.inputs.stage_hash(StageKind::Drape);
         self.cache.get(StageKind::Drape, &hash, || match &spec.dressed {
             Some(before) => self.carried(spec, before, monitor),
             None => {
                 let (model, meshes) = (self.model(spec)?.0, self.meshes(spec)?.0);
-                let fitting = Fitting {
-                    body: &model.body,
-                    field: &self.field(spec, &model)?.0,
-                    style: &style(spec)?,
-                    meshes: &meshes,
-                    fabric: &spec.fabric,
-                    simulator: spec.simulator,
-                    parameters: &spec.parameters,
-                };
-                fitting.simulate(monitor)
+                let wearer = Wearer { body: &model.body, field: &self.field(spec, &model)?.0 };
+                fitting(spec, wearer, &Garb::of(spec, meshes)?).simulate(monitor)
             }
         })
     }
 
-    /// A garment that is put on as `before` says, and carried into the pose of `spec`.
+    /// Drape of a garment that is put on as `before` says and carried into the pose of `spec`.
     fn carried(&self, spec: &JobSpec, before: &JobSpec, monitor: &mut dyn Monitor) -> Result<Drape> {
         let (drape, _) = self.drape(before, monitor)?;
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
-        let poses = [before, spec].map(|one| one.person.pose.unwrap_or_default());
         let meshes = self.meshes(spec)?.0;
-        let worn = Worn { garment: meshes.finest()?, fabric: &spec.fabric, drape: &drape };
-        carry(&upright, poses, worn, &spec.parameters, monitor).map(|(_, drape)| drape)
+        let carry = Carry {
+            upright: &upright,
+            poses: [before, spec].map(|job| job.person.pose.unwrap_or_default()),
+            garment: meshes.finest()?,
+            fabric: &spec.fabric,
+            drape: &drape,
+            parameters: &spec.parameters,
+        };
+        Ok(carry.run(monitor)?.drape)
     }
 
-    /// A layer of an outfit. The first of its layers drapes them all, for the others too.
+    /// Outcome of a layer of an outfit. The first layer that is asked for drapes them all, and the others find the
+    /// drapes in the cache.
     fn layer(&self, spec: &JobSpec, outfit: &Outfit, monitor: &mut dyn Monitor) -> Result<Outcome> {
         let (model, used_body) = self.model(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
         let (_, used_mesh) = self.meshes(spec)?;
         let garb = |layer: &JobSpec| Garb::of(layer, self.meshes(layer)?.0);
         let garbs = outfit.layers.iter().map(garb).collect::<Result<Vec<_>>>()?;
-        let on = (&model.body, &*field);
-        let wardrobe =
-            Wardrobe { on, garbs: &garbs, simulator: spec.simulator, parameters: &outfit.layers[0].parameters };
+        let ensemble = Ensemble {
+            wearer: Wearer { body: &model.body, field: &field },
+            garbs: &garbs,
+            simulator: spec.simulator,
+            parameters: &outfit.layers[0].parameters,
+        };
         let hash = layers::inputs(outfit).stage_hash(StageKind::Drape);
-        let (all, _) = self.cache.get(StageKind::Drape, &hash, || wardrobe.dress(monitor).map(Drapes))?;
+        let (all, _) = self.cache.get(StageKind::Drape, &hash, || ensemble.dress(monitor).map(Drapes))?;
         let own = || Ok(all.0[outfit.layer].clone());
         let (_, used_drape) = self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), own)?;
         let used = vec![used_body, used_field, used_mesh, used_drape];
-        Ok(Outcome { used, ..wardrobe.outcome(outfit.layer, &all.0)? })
+        Ok(Outcome { used, ..ensemble.outcome(outfit.layer, &all.0)? })
     }
 
-    /// The body of a subject, for its ease: a scan through the cache; one that is measured is built sooner than it is read.
+    /// Body of a subject, for its ease. A scan comes through the cache; a body of measurements is built faster than it
+    /// is read.
     ///
     /// # Errors
-    /// Those of the body.
+    /// When the body cannot be built.
     pub(crate) fn worn_body(&self, subject: &Subject) -> Result<Arc<Model>> {
         let Subject { id, person, .. } = subject;
         let make = || Ok(Model { body: person.body()? });
@@ -119,25 +123,24 @@ impl Executor for Pipeline {
         let (model, used_body) = self.model(spec)?;
         let (meshes, used_mesh) = self.meshes(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
-        let style = style(spec)?;
+        let garb = Garb::of(spec, meshes)?;
         let (drape, used_drape) = self.drape(spec, monitor)?;
-        let fitting = Fitting {
-            body: &model.body,
-            field: &field,
-            style: &style,
-            meshes: &meshes,
-            fabric: &spec.fabric,
-            simulator: spec.simulator,
-            parameters: &spec.parameters,
-        };
+        let fitting = fitting(spec, Wearer { body: &model.body, field: &field }, &garb);
         Ok(Outcome { used: vec![used_body, used_field, used_mesh, used_drape], ..fitting.outcome(&drape)? })
     }
+}
+
+/// The garment of a job on its body.
+fn fitting<'a>(spec: &'a JobSpec, wearer: Wearer<'a>, garb: &'a Garb) -> Fitting<'a> {
+    Fitting { wearer, garb, simulator: spec.simulator, parameters: &spec.parameters }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ease, fitting};
+    use crate::ease;
+    use crate::fitting::check_lengths;
+    use crate::stages::style;
     use fit::Simulator;
     use pattern::Garment;
     use spec::Study;
@@ -211,8 +214,8 @@ mod tests {
         let (own, other) = (mesh(&jobs[0]).expect("it meshes"), style(&jobs[2]).expect("it can be read"));
         let finest = own.finest().expect("it meshes");
         assert_ne!(jobs[0].size, jobs[2].size);
-        assert!(fitting::is_of(finest, &style(&jobs[0]).expect("it can be read")).is_ok());
-        let error = fitting::is_of(finest, &other).expect_err("another size").to_string();
+        assert!(check_lengths(finest, &style(&jobs[0]).expect("it can be read")).is_ok());
+        let error = check_lengths(finest, &other).expect_err("another size").to_string();
         assert!(error.contains("974.10 mm on the mesh") && error.contains("1034.10 mm in the flat pattern"), "{error}");
     }
 

@@ -1,24 +1,23 @@
-//! What a movement does to a garment: it is carried from the pose that it was draped in to another, and measured in both.
+//! Effect of a movement on a garment: the drape is carried from its own pose into another, and measured in both.
 
 use serde::Serialize;
 
-use crate::carry::carry;
+use crate::carry::{Carried, Carry};
+use crate::error::EngineError;
 use crate::faults::drape_faults;
-use crate::layers::Garb;
+use crate::stages::Garb;
 use body::{Body, Pose};
 use fit::{on_body, reach};
 use geom::units::mm;
-use pattern::Garment;
-use sim::fem::carry::Worn;
 use sim::sewn::Sewn;
-use sim::{Drape, Fabric, Monitor};
+use sim::{Drape, Monitor};
 use spec::Parameters;
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// Share of a piece that its greatest tension leaves out: single vertices say little.
+/// Share of the vertices of a piece that its greatest tension leaves out, since single vertices say little.
 const LEFT_OUT: f64 = 0.01;
 
-/// How far an opening was drawn into the garment.
+/// Displacement of an opening into the garment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns say it: a mean and a greatest value along the opening")]
 pub struct ReachedOpening {
@@ -27,7 +26,7 @@ pub struct ReachedOpening {
     pub drawn_most_mm: f64,
 }
 
-/// A quantity before and after the movement, at a piece of the garment or a region of the body.
+/// A quantity before and after the movement, of a piece of the garment or of a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns say it: a place, and the quantity there in both poses")]
 pub struct ReachedAt {
@@ -39,7 +38,7 @@ pub struct ReachedAt {
 /// A garment in the pose that was reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// That pose.
+    /// Name of that pose.
     pub pose: String,
     /// Hem, cuffs, neckline and other closed free edges.
     pub opening: Vec<ReachedOpening>,
@@ -53,31 +52,43 @@ pub struct Reached {
     pub penetration_max_mm: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// What is wrong with the drape; empty where it is good.
+    /// Faults of the drape; empty where it is good.
     pub problems: Vec<String>,
 }
 
-/// What changes as a body moves from one pose into another with a garment on; the body and the drape there.
+/// A dressed body after a movement.
+pub(crate) struct Moved {
+    /// Changes by the movement.
+    pub reached: Reached,
+    /// Body in the pose that was reached.
+    pub body: Body,
+    /// Drape in that pose.
+    pub drape: Drape,
+}
+
+/// Carries a drape of a garment from one pose of its body into another, and measures both.
 ///
 /// # Errors
-/// As [`carry`].
-pub(crate) fn reached(
+/// As [`Carry::run`].
+pub(crate) fn moved(
     upright: &Body,
     poses: [Pose; 2],
-    (garb, drape): (&Garb, &Drape),
+    garb: &Garb,
+    drape: &Drape,
     monitor: &mut dyn Monitor,
-) -> Result<(Reached, Body, Drape)> {
+) -> Result<Moved> {
     let parameters = Parameters::default();
     let ([_, to], garment, fabric) = (poses, garb.meshes.finest()?, &garb.fabric);
-    let (bodies, after) = carry(upright, poses, Worn { garment, fabric, drape }, &parameters, monitor)?;
-    let [first, .., last] = &bodies[..] else { return Err(StudyError::refused(Origin::Body, "no pose to go to")) };
+    let carry = Carry { upright, poses, garment, fabric, drape, parameters: &parameters };
+    let Carried { bodies, drape: after } = carry.run(monitor)?;
+    let [first, .., last] = &bodies[..] else { return Err(EngineError::NoPose.into()) };
     let kept = after.kept.as_deref().unwrap_or_default();
-    let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|one| ReachedOpening {
-        opening: one.opening,
-        drawn_mm: mm(one.mean_m),
-        drawn_most_mm: mm(one.most_m),
+    let opening = reach::drawn(garment, kept, &after.positions).into_iter().map(|drawn| ReachedOpening {
+        opening: drawn.opening,
+        drawn_mm: mm(drawn.mean_m),
+        drawn_most_mm: mm(drawn.most_m),
     });
-    let (before, loaded) = (loads(first, (garment, fabric), drape)?, loads(last, (garment, fabric), &after)?);
+    let (before, loaded) = (loads(first, garb, drape)?, loads(last, garb, &after)?);
     let depth_mm = mm(after.penetration_max_m);
     let faults = drape_faults(after.converged, after.residual, depth_mm, after.self_crossings as i64);
     let reached = Reached {
@@ -88,19 +99,20 @@ pub(crate) fn reached(
         residual: after.residual,
         penetration_max_mm: depth_mm,
         self_crossings: after.self_crossings,
-        problems: faults.into_iter().map(|(says, _)| format!("{to}: {says}")).collect(),
+        problems: faults.into_iter().map(|fault| format!("{to}: {}", fault.words)).collect(),
     };
-    Ok((reached, last.clone(), after))
+    Ok(Moved { reached, body: last.clone(), drape: after })
 }
 
-/// What a drape does to cloth and body, by place.
+/// Loads of a drape on cloth and body, by place.
 struct Loads {
     tension_n_m: Vec<(String, f64)>,
     pressure_kpa: Vec<(String, f64)>,
 }
 
-fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> Result<Loads> {
-    let sewn = Sewn::new(garment, fabric, &drape.positions).origin(Origin::Measure)?;
+fn loads(body: &Body, garb: &Garb, drape: &Drape) -> Result<Loads> {
+    let garment = garb.meshes.finest()?;
+    let sewn = Sewn::new(garment, &garb.fabric, &drape.positions).origin(Origin::Measure)?;
     let tensions = sewn.tensions_n_m();
     let greatest = |own: &[f64]| {
         let mut sorted = own.to_vec();
@@ -111,17 +123,17 @@ fn loads(body: &Body, (garment, fabric): (&Garment, &Fabric), drape: &Drape) -> 
     let pieces = garment.pieces.iter();
     Ok(Loads {
         tension_n_m: pieces.map(|piece| (piece.id.clone(), greatest(&tensions[piece.vertices.clone()]))).collect(),
-        pressure_kpa: pressed.into_iter().map(|one| (one.region.as_str().to_owned(), one.most_kpa)).collect(),
+        pressure_kpa: pressed.into_iter().map(|on| (on.region.as_str().to_owned(), on.most_kpa)).collect(),
     })
 }
 
-/// The same quantity before and after, by place; what is at neither place counts as 0 there.
+/// Pairs a quantity before and after by place. At a place that one of them lacks it counts as 0.
 fn paired(before: Vec<(String, f64)>, after: &[(String, f64)]) -> Vec<ReachedAt> {
-    let at = |values: &[(String, f64)], place: &str| {
-        values.iter().find(|(of, _)| of == place).map_or(0.0, |(_, value)| *value)
+    let value_at = |values: &[(String, f64)], place: &str| {
+        values.iter().find(|(known, _)| known == place).map_or(0.0, |(_, value)| *value)
     };
-    let new = after.iter().filter(|(place, _)| !before.iter().any(|(of, _)| of == place));
+    let new = after.iter().filter(|(place, _)| !before.iter().any(|(known, _)| known == place));
     let places: Vec<String> = before.iter().chain(new).map(|(place, _)| place.clone()).collect();
-    let pair = |place: String| ReachedAt { before: at(&before, &place), after: at(after, &place), place };
+    let pair = |place: String| ReachedAt { before: value_at(&before, &place), after: value_at(after, &place), place };
     places.into_iter().map(pair).collect()
 }

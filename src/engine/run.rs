@@ -1,4 +1,4 @@
-//! Starting a run of a study: checked, queued, and worked on in the background.
+//! Starts runs of a study: it is checked, queued, and worked on in the background.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,18 +17,18 @@ use spec::{Selection, Study, patterns};
 use store::{Access, Live, Problem, Result, Store, StudyError, evidence};
 use wardrobe::catalogue;
 
-/// What to run, and how.
+/// Options of a run.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
-    /// Which jobs of the study.
+    /// Selection among the jobs of the study.
     pub selection: Selection,
-    /// Worker threads, one simulation each; by default as many as there are cores.
+    /// Number of worker threads, which run one simulation each; by default that of the cores.
     pub workers: Option<usize>,
-    /// Where the run may be watched.
+    /// View through which the run may be watched.
     pub live: Arc<Live>,
 }
 
-/// A run in the background. Dropping it stops it: what runs goes back into the queue.
+/// A run in the background. Dropping it stops it: running jobs go back into the queue.
 pub struct Run {
     /// Name of the study.
     pub study: String,
@@ -44,7 +44,7 @@ impl Run {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Whether all workers are done.
+    /// True if all workers are done.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
@@ -85,7 +85,7 @@ pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
     Ok(study)
 }
 
-/// What a run of a study would do; nothing is written.
+/// Returns the jobs that a run of a study would queue. Nothing is written.
 ///
 /// # Errors
 /// When the database is open read-only or a selection names what the study does not have.
@@ -97,7 +97,7 @@ pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<V
     planned
 }
 
-/// Queues a study and starts working on it with the real pipeline.
+/// Queues a study and starts to work on it with the pipeline.
 ///
 /// # Errors
 /// When the database is open read-only or a selection names what the study does not have.
@@ -132,7 +132,7 @@ pub fn start_with(
     launch(store, study, options, executor, || ())
 }
 
-/// Queues a study and works on it in a thread, beside `aside`.
+/// Queues a study and works on it in a thread, while `aside` runs in another.
 fn launch(
     store: &mut Store,
     study: &Study,
@@ -141,9 +141,7 @@ fn launch(
     aside: impl FnOnce() + Send + 'static,
 ) -> Result<Run> {
     options.selection.check(study)?;
-    let transaction = store::write(store.writer()?)?;
-    let planned = Arc::new(enqueue::enqueue(&transaction, study, &options.selection)?);
-    transaction.commit()?;
+    let planned = Arc::new(enqueue::queue(store, study, &options.selection)?);
 
     let stop = Arc::new(AtomicBool::new(false));
     let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
@@ -169,10 +167,11 @@ fn launch(
     Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
 }
 
-/// Subjects whose eases are stored together.
+/// Number of subjects whose eases are stored in one transaction.
 const TOGETHER: usize = 100;
 
-/// Finds the ease of every size of a study on every subject, and stores it. A subject's body is made once for all its garments.
+/// Finds the ease of every size of a study on every subject, and stores it. A subject's body is built once for all
+/// garments.
 fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
     let mut connection = store::open(database, Access::Write)?;
     let transaction = store::write(&mut connection)?;
@@ -183,7 +182,10 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
         let models = subjects.iter().map(|subject| pipeline.worn_body(subject)).collect::<Result<Vec<_>>>()?;
         let mut found = Vec::new();
         for worn in &worn {
-            let own = || subjects.iter().zip(&models).filter(|(one, _)| worn.subjects.contains(one.id.as_str()));
+            let own = || {
+                let all = subjects.iter().zip(&models);
+                all.filter(|(subject, _)| worn.subjects.contains(subject.id.as_str()))
+            };
             let bodies: Vec<&Body> = own().map(|(_, model)| &model.body).collect();
             let eases = ease::on_all(&worn.style, &bodies);
             found.extend(own().zip(eases).map(|((subject, _), eases)| (worn, subject, eases)));
@@ -199,7 +201,7 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
     Ok(transaction.commit()?)
 }
 
-/// A size with those who wear it.
+/// A size with the subjects who wear it.
 struct WornStyle<'a> {
     garment: &'a str,
     size: &'a str,
@@ -221,7 +223,7 @@ fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
     Ok(worn)
 }
 
-/// Refuses a study with a pattern that cannot be sewn, before anything is written for it.
+/// Refuses a study with a pattern that cannot be sewn, before anything is written.
 fn check_patterns(study: &Study) -> Result<()> {
     let mut problems = Vec::new();
     for garment in &study.garments {

@@ -1,7 +1,7 @@
-//! A study on a Slurm cluster: its jobs as arrays of tasks, their results merged as they come.
+//! A study on a Slurm cluster: its jobs as job arrays, whose results are merged as they come.
 //!
-//! Everything that must outlive this program lies in one folder that all nodes see: job files, result files, and the
-//! numbers of the arrays that were submitted. Started again, a run takes up what is there.
+//! All state that must outlive this program lies in one folder that all nodes see: job files, result files, and the
+//! numbers of the arrays that were submitted. A run that is started again continues from there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,24 +9,25 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::enqueue::Planned;
+use crate::error::EngineError;
 use crate::handout::{self, HandedOut, Merged};
 use crate::job_files::result_of;
 use spec::{Selection, Study};
-use store::{JobId, Origin, Result, Store, StudyError};
+use store::{JobId, Result, Store, StudyError};
 
-/// Tasks of one array: Slurm's own limit is 1001 where nobody raised it.
+/// Tasks of one array. Slurm's default limit is 1001.
 const ARRAY: usize = 1000;
 /// Times a task is submitted before it is given up.
 const TRIES: u32 = 3;
 /// File with the numbers of the arrays that were submitted.
 const SUBMITTED: &str = "submitted";
 
-/// How long a cluster may keep silent before a run gives up waiting: its controller is restarted in less.
+/// Time for which a cluster may keep silent before a run gives up: a controller restarts in less.
 const SILENCE: Duration = Duration::from_secs(600);
-/// What Slurm says of jobs that ended long ago.
+/// Slurm's message on jobs that ended long ago.
 const FORGOTTEN: &str = "Invalid job id";
 
-/// States of a task that Slurm still works on.
+/// States of a task that has not ended.
 const ACTIVE: [&str; 9] = [
     "PENDING",
     "RUNNING",
@@ -39,12 +40,12 @@ const ACTIVE: [&str; 9] = [
     "STAGE_OUT",
 ];
 
-/// How a study is handed to Slurm.
+/// Options of a study on Slurm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlurmOptions {
     /// Folder that all nodes see.
     pub folder: PathBuf,
-    /// Tasks at once; as many as Slurm likes where nothing is said.
+    /// Greatest number of tasks at once; without one Slurm decides.
     pub tasks: Option<usize>,
     /// More options of `sbatch`: `--time=10`, `--mem=2G`, `--partition=short`.
     pub sbatch: Vec<String>,
@@ -56,37 +57,45 @@ pub struct SlurmRun {
     pub planned: Vec<Planned>,
     options: SlurmOptions,
     name: String,
-    /// Job files without a result, and how often each was submitted.
-    open: BTreeMap<JobId, (PathBuf, u32)>,
+    /// Jobs without a result.
+    open: BTreeMap<JobId, OpenJob>,
     /// Arrays that were submitted.
     arrays: Vec<String>,
-    /// Since when Slurm has not said what it does with them.
+    /// Time since which Slurm does not answer about the arrays.
     silent_since: Option<Instant>,
 }
 
-/// What Slurm does with the arrays.
+/// A job without a result.
+struct OpenJob {
+    /// Its job file.
+    file: PathBuf,
+    /// Number of times it was submitted.
+    tries: u32,
+}
+
+/// State of the arrays at Slurm.
 #[derive(Debug, PartialEq, Eq)]
 enum Activity {
-    /// It works on one of them.
+    /// Slurm works on at least one of them.
     Active,
-    /// It works on none.
+    /// All have ended.
     Ended,
-    /// It does not say, and why.
+    /// Slurm does not answer, with the reason.
     Unknown(String),
 }
 
 impl Activity {
-    /// Of states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
+    /// Reads states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
     fn of(states: &str) -> Self {
         let is_active = |line: &str| line.split_whitespace().next().is_some_and(|state| ACTIVE.contains(&state));
         if states.lines().any(is_active) { Self::Active } else { Self::Ended }
     }
 }
 
-/// Hands the jobs of a study to Slurm; [`SlurmRun::step`] does the rest.
+/// Hands the jobs of a study to Slurm, by files. [`SlurmRun::step`] submits them.
 ///
 /// # Errors
-/// Those of [`handout::hand_out`].
+/// As [`handout::hand_out`].
 pub fn start_slurm(
     store: &mut Store,
     study: &Study,
@@ -97,7 +106,7 @@ pub fn start_slurm(
     let handed = handout::hand_out(store, study, selection, &folder)?;
     let mut open = BTreeMap::new();
     for HandedOut { job, file } in &handed {
-        open.extend(file.iter().map(|file| (job.id, (file.clone(), 0))));
+        open.extend(file.iter().map(|file| (job.id, OpenJob { file: file.clone(), tries: 0 })));
     }
     let arrays = std::fs::read_to_string(folder.join(SUBMITTED)).unwrap_or_default();
     Ok(SlurmRun {
@@ -111,8 +120,8 @@ pub fn start_slurm(
 }
 
 impl SlurmRun {
-    /// Takes results back, and submits what has none and is with nobody; whether all jobs have ended. To be called every
-    /// second or so.
+    /// Merges results, and submits jobs that have none and that Slurm does not work on. Returns true once all jobs
+    /// have ended. To be called about once a second.
     ///
     /// # Errors
     /// When Slurm cannot be asked, or a job was given up.
@@ -132,23 +141,16 @@ impl SlurmRun {
         Ok(false)
     }
 
-    /// Goes on waiting while Slurm does not say what it does, for some time.
+    /// Goes on waiting while Slurm does not answer, up to [`SILENCE`].
     fn wait_for_an_answer(&mut self, why: &str) -> Result<()> {
         let since = self.silent_since.get_or_insert_with(Instant::now);
         if since.elapsed() < SILENCE {
             return Ok(());
         }
-        let arrays = self.arrays.join(", ");
-        Err(StudyError::refused(
-            Origin::Slurm,
-            format!(
-                "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
-             start again to go on waiting, nothing is submitted twice"
-            ),
-        ))
+        Err(EngineError::SlurmSilent { why: why.to_owned(), arrays: self.arrays.join(", ") }.into())
     }
 
-    /// Takes the arrays out of Slurm.
+    /// Cancels the arrays at Slurm.
     ///
     /// # Errors
     /// When Slurm cannot be asked.
@@ -159,7 +161,7 @@ impl SlurmRun {
         self.forget()
     }
 
-    /// The numbers of the arrays that were submitted.
+    /// Numbers of the arrays that were submitted.
     #[must_use]
     pub fn arrays(&self) -> &[String] {
         &self.arrays
@@ -167,7 +169,7 @@ impl SlurmRun {
 
     fn merge(&mut self, store: &mut Store) -> Result<()> {
         let there: Vec<PathBuf> =
-            self.open.values().map(|(file, _)| result_of(file)).filter(|file| file.exists()).collect();
+            self.open.values().map(|job| result_of(&job.file)).filter(|file| file.exists()).collect();
         if there.is_empty() {
             return Ok(());
         }
@@ -182,8 +184,8 @@ impl SlurmRun {
         Ok(())
     }
 
-    /// What Slurm does with the arrays: asked of the queue, else of the accounts, else of each array. A queue that does not answer says
-    /// nothing of them: to submit them again would run them twice.
+    /// State of the arrays: asked of the queue, else of the accounting, else of each array. A queue that does not
+    /// answer tells nothing of them, and to submit them again would run them twice.
     fn activity(&self) -> Activity {
         if self.arrays.is_empty() {
             return Activity::Ended;
@@ -210,15 +212,14 @@ impl SlurmRun {
     }
 
     fn submit(&mut self) -> Result<()> {
-        if let Some((file, _)) = self.open.values().find(|(_, tries)| *tries >= TRIES) {
+        if let Some(OpenJob { file, .. }) = self.open.values().find(|job| job.tries >= TRIES) {
             let why = self.arrays.last().map(|array| last_words(array)).unwrap_or_default();
-            let message = format!("{} was submitted {TRIES} times and has no result; {why}", file.display());
-            return Err(StudyError::refused(Origin::Slurm, message));
+            return Err(EngineError::SlurmGaveUp { file: file.clone(), tries: TRIES, why }.into());
         }
         self.arrays.clear();
         let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
         let folder = &self.options.folder;
-        let open: Vec<&PathBuf> = self.open.values().map(|(file, _)| file).collect();
+        let open: Vec<&PathBuf> = self.open.values().map(|job| &job.file).collect();
         for (number, files) in open.chunks(ARRAY).enumerate() {
             let list = folder.join(format!("tasks-{number}"));
             let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
@@ -243,7 +244,7 @@ impl SlurmRun {
         }
         let file = folder.join(SUBMITTED);
         std::fs::write(&file, self.arrays.join("\n")).map_err(StudyError::io(&file))?;
-        self.open.values_mut().for_each(|(_, tries)| *tries += 1);
+        self.open.values_mut().for_each(|job| job.tries += 1);
         Ok(())
     }
 
@@ -254,7 +255,7 @@ impl SlurmRun {
     }
 }
 
-/// What Slurm says of the last task of an array: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
+/// State of the last task of an array as Slurm tells it: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
 fn last_words(array: &str) -> String {
     let text = slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None);
     let text = text.unwrap_or_default();
@@ -274,7 +275,7 @@ fn states_of(array: &str) -> Option<String> {
 
 /// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
-    let fail = |message: String| StudyError::refused(Origin::Slurm, format!("{program}: {message}"));
+    let fail = |message: String| EngineError::SlurmProgram { program, message };
     let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };
     let mut child = Command::new(program)
         .args(arguments)
@@ -288,12 +289,12 @@ fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Re
     }
     let output = child.wait_with_output().map_err(|error| fail(error.to_string()))?;
     if !output.status.success() {
-        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
+        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_owned()).into());
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// A path as one word of a shell.
+/// A path quoted as one word of a shell.
 fn quoted(path: &Path) -> String {
     format!("'{}'", path.to_string_lossy().replace('\'', "'\\''"))
 }

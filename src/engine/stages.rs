@@ -1,11 +1,15 @@
 //! Products of the stages before the drape: a body, the style of a size, its meshes.
 
+use std::sync::Arc;
+
+use crate::error::EngineError;
 use body::Body;
 use pattern::{Garment, Style};
+use sim::Fabric;
 use spec::{Inputs, JobSpec, Person, patterns, subject_inputs, versions};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// The inputs of a subject's body, the same as among those of any job on it.
+/// Inputs of a subject's body, the same as among the inputs of any job on it.
 pub fn body_inputs(name: &str, person: &Person) -> Inputs {
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, person);
@@ -18,7 +22,7 @@ pub fn body_inputs(name: &str, person: &Person) -> Inputs {
 /// A body, as the cache keeps it.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Model {
-    /// The human model.
+    /// The mannequin.
     pub body: Body,
 }
 
@@ -27,7 +31,7 @@ pub struct Model {
 pub struct Meshes(pub Vec<Garment>);
 
 impl Meshes {
-    /// Meshes of a style, the finest with edges of this length, m.
+    /// Meshes a style at all levels, the finest with edges of this length, m.
     ///
     /// # Errors
     /// When a piece cannot be meshed.
@@ -37,21 +41,48 @@ impl Meshes {
         Ok(Self(meshes.collect::<Result<_>>()?))
     }
 
-    /// The mesh that results are on.
+    /// Returns the finest mesh, which results are measured on.
+    ///
+    /// # Errors
+    /// When there is no mesh.
     pub fn finest(&self) -> Result<&Garment> {
-        self.0.last().ok_or_else(|| StudyError::refused(Origin::Mesh, "no mesh"))
+        Ok(self.0.last().ok_or(EngineError::NoMesh)?)
     }
 }
 
 store::json_artefact!(Model, Meshes);
 
-/// The style of a job's size.
+/// A garment that is ready to be worn.
+#[derive(Clone)]
+pub struct Garb {
+    /// Style of its size.
+    pub style: Style,
+    /// Meshes of its pieces, coarse to fine.
+    pub meshes: Arc<Meshes>,
+    /// Fabric of its pieces.
+    pub fabric: Fabric,
+}
+
+impl Garb {
+    /// Reads the style of a job's garment, which has these meshes.
+    ///
+    /// # Errors
+    /// When the pattern cannot be read or sewn.
+    pub fn of(spec: &JobSpec, meshes: Arc<Meshes>) -> Result<Self> {
+        Ok(Self { style: style(spec)?, meshes, fabric: spec.fabric.clone() })
+    }
+}
+
+/// Reads the style of a job's size.
+///
+/// # Errors
+/// When the pattern cannot be read or sewn.
 pub fn style(spec: &JobSpec) -> Result<Style> {
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
     patterns::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
 }
 
-/// Meshes of a job's garment, coarse to fine.
+/// Meshes a job's garment, coarse to fine.
 pub(crate) fn mesh(spec: &JobSpec) -> Result<Meshes> {
     let style = style(spec)?;
     Meshes::of(&style, spec.edge_length_m)

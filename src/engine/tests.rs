@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::{actions, compose, enqueue, run, *};
+use crate::{actions, enqueue, run, *};
 use body::{Dimension, Measurements, Sex};
 use fit::measure::{Chi, metrics};
 use fit::{Cuts, Ease, FitClass, Simulator};
@@ -139,7 +139,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         history: vec![step],
         eases: vec![ease],
         points: Vec::new(),
-        worn: WornOn::default(),
+        worn: Assessment::default(),
         closures: (spec.size == "m").then(gap).into_iter().collect(),
         distortion: None,
         warnings: vec![],
@@ -184,21 +184,21 @@ fn patient(open: Arc<AtomicBool>) -> impl Executor + Send {
 fn a_study_of_the_same_name_in_another_folder_is_refused_until_it_is_said_to_have_moved() {
     let mut bench = Bench::new();
     let folders = [tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder")];
-    let of = |k: usize| {
+    let study_in = |k: usize| {
         let path = folders[k].path().join("study.toml");
         std::fs::write(&path, "").expect("writable");
         Study { path, ..study(0.1) }
     };
     let all = Selection::default();
-    compose::queue(&mut bench.store, &of(0), &all).expect("the first of its name");
-    compose::queue(&mut bench.store, &of(0), &all).expect("the same again");
-    let told = compose::queue(&mut bench.store, &of(1), &all).expect_err("another folder").to_string();
+    enqueue::queue(&mut bench.store, &study_in(0), &all).expect("the first of its name");
+    enqueue::queue(&mut bench.store, &study_in(0), &all).expect("the same again");
+    let told = enqueue::queue(&mut bench.store, &study_in(1), &all).expect_err("another folder").to_string();
     assert!(told.contains("study `tops`") && told.contains("--moved"), "{told}");
-    enqueue::move_home(&mut bench.store, &of(1)).expect("writable");
-    compose::queue(&mut bench.store, &of(1), &all).expect("it has moved");
+    enqueue::move_home(&mut bench.store, &study_in(1)).expect("writable");
+    enqueue::queue(&mut bench.store, &study_in(1), &all).expect("it has moved");
     // A folder that is gone has moved, too.
     std::fs::remove_file(folders[1].path().join("study.toml")).expect("writable");
-    compose::queue(&mut bench.store, &of(0), &all).expect("nothing is there any more");
+    enqueue::queue(&mut bench.store, &study_in(0), &all).expect("nothing is there any more");
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Running jobs: worker threads that claim, execute and finish, and one pump that tells the database how they fare.
+//! Runs jobs: worker threads claim, execute and finish them, and one pump tells the database of their progress.
 //!
-//! Workers touch the database only to claim and to finish. The pump renews heartbeats and progress a few times a second
-//! and notices when a job is no longer ours, so that cancelling from another process reaches a running simulation.
-//! Results do not depend on the number of workers: a job knows nothing of the others.
+//! Workers touch the database only to claim and to finish. The pump renews heartbeats and progress a few times a
+//! second. It notices when a job is no longer held by this process, so that cancelling from another process reaches a
+//! running simulation. Results do not depend on the number of workers: a job knows nothing of the others.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,26 +15,27 @@ use std::time::{Duration, Instant};
 use rusqlite::{Connection, named_params};
 
 use crate::enqueue::Planned;
+use crate::error::EngineError;
 use crate::outcome::{self, Executor, Outcome, Provenance};
 use geom::V3;
 use geom::units::mm;
 use sim::{Monitor, Progress};
 use spec::JobSpec;
 use store::owner::{Owner, Watch};
-use store::{Access, JobId, JobProgress, Live as LiveView, Origin, Result, StudyError, evidence, now_ms, queue};
+use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, evidence, now_ms, queue};
 
-/// Time between two looks of the pump, and of a worker that waits for jobs of others.
+/// Time between two rounds of the pump, and between two claims of a worker that waits for jobs of others.
 const TICK: Duration = Duration::from_millis(200);
 
-/// A job in the hands of a worker.
+/// A job that a worker runs.
 #[derive(Default)]
 struct Live {
     progress: Mutex<Option<JobProgress>>,
-    /// Set when the job is no longer ours.
+    /// Set when this process no longer holds the job.
     lost: AtomicBool,
 }
 
-/// While results come, the evidence of their study is judged again after so many times as long as that took.
+/// Least time between two judgements of a study's evidence while results come, as a multiple of the time of one.
 const JUDGED_SHARE: u32 = 20;
 
 /// One run of the planned jobs by this process.
@@ -51,11 +52,11 @@ struct Run<'a> {
     watch: Mutex<Watch>,
     live: Mutex<BTreeMap<JobId, Arc<Live>>>,
     busy_workers: AtomicUsize,
-    /// Whether a job has ended since the evidence was judged.
+    /// True if a job has ended since the evidence was judged.
     has_news: AtomicBool,
 }
 
-/// What is to be done.
+/// Jobs to be run.
 pub(crate) struct Work<'a> {
     /// Name of the study.
     pub study: &'a str,
@@ -63,11 +64,11 @@ pub(crate) struct Work<'a> {
     pub jobs: &'a [Planned],
 }
 
-/// Runs jobs until none of them is queued or running any more (jobs of other processes are waited for), or until
-/// `stop`; then what runs goes back into the queue.
+/// Runs jobs until none of them is queued or running any more, or until `stop`. Jobs of other processes are waited
+/// for. On `stop`, running jobs go back into the queue.
 ///
 /// # Errors
-/// When the database fails: the run stops, and its jobs stay queued. A failing job is no error here.
+/// When the database fails: the run stops, and its jobs stay queued. A job that fails is no error here.
 pub(crate) fn run(
     database: &Path,
     work: &Work,
@@ -108,7 +109,7 @@ pub(crate) fn run(
 }
 
 impl Run<'_> {
-    /// A worker: one job after another. What stops one worker, the database failing, would stop the others too.
+    /// Claims and runs jobs until none is left. A failing database stops the other workers too.
     fn work(&self) -> Result<()> {
         let result = store::open(self.database, Access::Write).and_then(|mut connection| self.work_on(&mut connection));
         if result.is_err() {
@@ -134,15 +135,15 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Runs one claimed job and writes what came of it; a panic of a stage is its failure. That the database fails is
-    /// not: then the job goes back into the queue, if that can still be written, and the run ends.
+    /// Runs one claimed job and stores its outcome. A panic of a stage fails the job. A failing database does not: the
+    /// job goes back into the queue, if that can still be written, and the run ends.
     fn execute(&self, connection: &mut Connection, id: JobId) -> Result<()> {
         let live = Arc::new(Live::default());
         lock(&self.live).insert(id, live.clone());
         let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
-            .unwrap_or_else(|panic| Err(StudyError::refused(Origin::Panic, panic_text(&*panic))));
+            .unwrap_or_else(|panic| Err(EngineError::Panic(panic_text(&*panic)).into()));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
                 // Where it cannot be written, the end of this process puts the job back.
@@ -156,20 +157,19 @@ impl Run<'_> {
         written
     }
 
-    /// Writes what came of a job; a result that the schema refuses (not a number, a measurement twice) is a failure.
+    /// Stores the outcome of a job. A result that the schema refuses, such as one that is not a number, fails the job.
     fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
         let (spec, owner) = (self.specs[&id], self.owner.as_str());
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
             Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
-                let message = format!("the result cannot be stored: {error}");
-                let failure = Err(StudyError::refused(Origin::Store, message));
+                let failure = Err(EngineError::Unstorable(error).into());
                 outcome::finish(connection, id, spec, owner, &failure, &self.provenance).map(drop)
             }
             written => written.map(drop),
         }
     }
 
-    /// Tells the database how running jobs fare, until the workers are done.
+    /// Tells the database of the progress of running jobs, until the workers are done.
     fn pump(&self) -> Result<()> {
         let mut connection = store::open(self.database, Access::Volatile)?;
         let mut next_judged = Instant::now();
@@ -189,7 +189,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Renews heartbeats and progress of running jobs; marks those that are no longer ours.
+    /// Renews heartbeats and progress of running jobs; marks those that this process no longer holds.
     fn report(&self, connection: &mut Connection, live: &[(JobId, Arc<Live>)]) -> Result<()> {
         let transaction = store::write(connection)?;
         for (id, live) in live {
@@ -208,7 +208,7 @@ impl Run<'_> {
     }
 }
 
-/// Whether SQLite refused a value, not the write as such.
+/// True if SQLite refused a value, rather than failed to write.
 fn is_constraint(error: &rusqlite::Error) -> bool {
     error.sqlite_error_code() == Some(rusqlite::ErrorCode::ConstraintViolation)
 }
@@ -255,12 +255,12 @@ impl Monitor for Reporter<'_> {
     }
 }
 
-/// Locks; the data is a plain value, whole even after a panic elsewhere.
+/// Locks a mutex. Its data is a plain value, which is whole even after a panic elsewhere.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What a panic said.
+/// Message of a panic.
 fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic without a message".into())

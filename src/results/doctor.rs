@@ -1,4 +1,4 @@
-//! Checks that everything the program needs is in order.
+//! Checks that the machine, the database and the stages work.
 
 use std::path::Path;
 
@@ -8,18 +8,18 @@ use geom::units::mm;
 use spec::{bodies, patterns};
 use store::{Result, Store, Value, files, sql};
 
-/// One check and what it found.
+/// One check and its result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// What was checked.
+    /// Name of the part that was checked.
     pub name: &'static str,
-    /// Whether it is in order.
+    /// True if the part works.
     pub passed: bool,
-    /// What was found.
+    /// Result in words, or the error.
     pub found: String,
 }
 
-/// Runs all checks: the machine, the database, and each stage on a small case of its own.
+/// Runs all checks: the machine, the database, and each stage on a small case.
 #[must_use]
 pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
     let check = |name, found: Result<String>| match found {
@@ -44,7 +44,7 @@ fn database_check(path: &Path, readonly: bool) -> Result<String> {
     Ok(format!("{}: {}, {count} jobs", path.display(), said.join("; ")))
 }
 
-/// Builds a body and lays the tape on it.
+/// Builds a body and measures it.
 fn body_check() -> Result<String> {
     let known = Measurements::of(Sex::Female, 1.65).with(Dimension::Weight, 60.0).with(Dimension::ChestGirth, 0.9);
     let body = bodies::build_body(&known)?;

@@ -1,4 +1,4 @@
-//! How the jobs of a study ended: without a fault, with which, or why not at all.
+//! Results of the jobs of a study: a good drape, one with faults, or none.
 
 use rusqlite::Row;
 use serde::Serialize;
@@ -8,28 +8,29 @@ use fit::Simulator;
 use pattern::size_order;
 use store::{Result, Status, Store};
 
-/// How one job of a study ended.
+/// Result of one job of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Size of it.
+    /// Name of the size.
     pub size: String,
-    /// Who wears it.
+    /// Name of the subject.
     pub subject: String,
     /// `fem` or `hybrid`.
     pub simulator: String,
     /// State of its job.
     pub status: Status,
-    /// What is wrong with its drape; empty where it is good.
+    /// Faults of its drape; empty where it is good.
     pub faults: Vec<String>,
-    /// Why there is no drape.
+    /// Reason for which there is no drape.
     pub refused: Option<String>,
     /// Error indicator, where there is a drape.
     pub ei: Option<f64>,
     /// Vertices of its mesh.
     pub vertices: Option<i64>,
-    /// How deep it lies inside the body, mm. By Hybrid-GS that is no fault: what is too small lies inside by design.
+    /// Deepest penetration into the body, mm. By Hybrid-GS that is no fault: a garment that is too small lies inside
+    /// by design.
     pub inside_mm: Option<f64>,
     /// Greatest length by which a girth of the body exceeds that of the garment, mm.
     pub shortfall_mm: Option<f64>,
@@ -37,28 +38,29 @@ pub struct Dressed {
     pub wall_ms: Option<i64>,
 }
 
-/// How the jobs of one simulator ended.
+/// Results of the jobs of one simulator, counted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tally {
     /// `fem` or `hybrid`.
     pub simulator: String,
-    /// All jobs that ended.
+    /// Number of jobs that ended.
     pub ended: usize,
-    /// Drapes without a fault.
+    /// Number of drapes without a fault.
     pub good: usize,
-    /// Drapes with one.
+    /// Number of drapes with a fault.
     pub faulty: usize,
-    /// Jobs without a drape.
+    /// Number of jobs without a drape.
     pub refused: usize,
     /// Mean EI of all drapes.
     pub mean_ei: Option<f64>,
     /// Median time of a job, s.
     pub median_s: Option<f64>,
-    /// Time of the slowest, s.
+    /// Time of the slowest job, s.
     pub slowest_s: Option<f64>,
 }
 
-/// How the current jobs of a study ended, garments and subjects by name, sizes from the smallest.
+/// Returns the results of the current jobs of a study, by garment and subject in order of their names, sizes from the
+/// smallest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -72,7 +74,7 @@ pub fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
     let mut statement = store.reader.prepare_cached(sql)?;
     let mut rows = statement.query_map([study], dressed_row)?.collect::<rusqlite::Result<Vec<Dressed>>>()?;
     for garment in rows.chunk_by_mut(|a, b| a.garment == b.garment) {
-        size_order::sort(garment, |one| &one.size);
+        size_order::sort(garment, |job| &job.size);
     }
     Ok(rows)
 }
@@ -94,7 +96,7 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
         subject: row.get(2)?,
         simulator,
         status: Status::from_name(&status).unwrap_or(Status::Failed),
-        faults: faults.into_iter().map(|(fault, _)| fault).collect(),
+        faults: faults.into_iter().map(|fault| fault.words).collect(),
         refused: row.get(5)?,
         ei,
         vertices: row.get(8)?,
@@ -104,20 +106,20 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
     })
 }
 
-/// Sums up by simulator.
+/// Counts results by simulator.
 #[must_use]
 pub fn tally(all: &[Dressed]) -> Vec<Tally> {
-    let mut simulators: Vec<&str> = all.iter().map(|one| one.simulator.as_str()).collect();
+    let mut simulators: Vec<&str> = all.iter().map(|job| job.simulator.as_str()).collect();
     simulators.sort_unstable();
     simulators.dedup();
     simulators.into_iter().map(|simulator| of_simulator(simulator, all)).collect()
 }
 
 fn of_simulator(simulator: &str, all: &[Dressed]) -> Tally {
-    let ended: Vec<&Dressed> = all.iter().filter(|one| one.simulator == simulator && one.status.is_final()).collect();
-    let eis: Vec<f64> = ended.iter().filter_map(|one| one.ei).collect();
-    let faulty = ended.iter().filter(|one| !one.faults.is_empty()).count();
-    let mut times: Vec<i64> = ended.iter().filter_map(|one| one.wall_ms).collect();
+    let ended: Vec<&Dressed> = all.iter().filter(|job| job.simulator == simulator && job.status.is_final()).collect();
+    let eis: Vec<f64> = ended.iter().filter_map(|job| job.ei).collect();
+    let faulty = ended.iter().filter(|job| !job.faults.is_empty()).count();
+    let mut times: Vec<i64> = ended.iter().filter_map(|job| job.wall_ms).collect();
     times.sort_unstable();
     let seconds = |ms: &i64| *ms as f64 / 1e3;
     Tally {
@@ -138,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_tally_counts_what_ended_and_how() {
-        let one = |faults: &[&str], ei: Option<f64>, status, wall_ms| Dressed {
+        let job = |faults: &[&str], ei: Option<f64>, status, wall_ms| Dressed {
             garment: "g".into(),
             size: "one".into(),
             subject: "s".into(),
@@ -153,10 +155,10 @@ mod tests {
             wall_ms,
         };
         let all = [
-            one(&[], Some(0.01), Status::Done, Some(1000)),
-            one(&["crosses"], Some(0.03), Status::Done, Some(3000)),
-            one(&[], None, Status::Failed, Some(2000)),
-            one(&[], None, Status::Queued, None),
+            job(&[], Some(0.01), Status::Done, Some(1000)),
+            job(&["crosses"], Some(0.03), Status::Done, Some(3000)),
+            job(&[], None, Status::Failed, Some(2000)),
+            job(&[], None, Status::Queued, None),
         ];
         let [fem] = &tally(&all)[..] else { panic!("one simulator") };
         assert_eq!((fem.ended, fem.good, fem.faulty, fem.refused), (3, 1, 1, 1));

@@ -1,17 +1,18 @@
-//! The body of a subject of the catalogue: built once, kept like any product of the pipeline, measured and drawn.
+//! The body of a subject of the catalogue: built once, cached, measured and drawn.
 
 use std::sync::Arc;
 
 use image::{GenericImage, RgbaImage};
 
+use crate::error::ResultsError;
 use body::{Dimension, Girths, Mass};
 use engine::stages::{self, Model};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 use store::cache::{self, Cache};
-use store::{InOrigin, Origin, Result, StageKind, Store, StudyError, SubjectId};
+use store::{InOrigin, Origin, Result, StageKind, Store, SubjectId};
 use wardrobe::catalogue;
 
-/// Room around a body in its picture, m.
+/// Margin around a body in its picture, m.
 const MARGIN_M: f64 = 0.12;
 
 /// A subject's body, ready to be shown.
@@ -20,10 +21,10 @@ pub struct Figure {
     scene: Scene,
 }
 
-/// The body of a revision of a subject, to be shown.
+/// Returns the body of a revision of a subject, to be shown.
 ///
 /// # Errors
-/// When there is none of that number, or no body can be built from its measurements.
+/// When there is no revision of that number, or no body can be built from its measurements.
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     let (_, model) = model(store, id)?;
     let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
@@ -31,10 +32,11 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     Ok(Figure { model, scene })
 }
 
-/// Name and body of a revision of a subject: from the cache, or built now and kept there unless the database is open read-only.
+/// Returns name and body of a revision of a subject. The body comes from the cache; if it is built now, it is kept
+/// there unless the database is open read-only.
 ///
 /// # Errors
-/// When there is none of that number, or no body can be built from its measurements.
+/// When there is no revision of that number, or no body can be built from its measurements.
 pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
     let (name, person) = (catalogue::subject_revision(store, id)?.name, catalogue::person(store, id)?);
     let hash = stages::body_inputs(&name, &person).stage_hash(StageKind::Body);
@@ -48,13 +50,13 @@ pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)
 }
 
 impl Figure {
-    /// What the tape reads on the body.
+    /// Girths that the tape measures on the body.
     #[must_use]
     pub fn girths(&self) -> &Girths {
         &self.model.body.girths
     }
 
-    /// What is read on the body for a key of a subject: the tape, or the weight of its volume.
+    /// Value on the body of a key of a subject: a tape measurement, or the mass of its volume.
     #[must_use]
     pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
         if key == Dimension::Weight.key() {
@@ -63,14 +65,13 @@ impl Figure {
         girths.written(key)
     }
 
-    /// The body from the front and from the side, at one scale, side by side; transparent around it.
+    /// Draws the body from the front and from the side, at one scale, side by side, on transparent ground.
     ///
     /// # Errors
     /// When the picture is too small or too large.
     pub fn picture(&self, width: u32, height: u32) -> Result<RgbaImage> {
         let mesh = &self.model.body.mesh;
-        let (low, high) =
-            mesh.bounds().ok_or_else(|| StudyError::refused(Origin::Render, "the body has no vertices"))?;
+        let (low, high) = mesh.bounds().ok_or(ResultsError::EmptyBody)?;
         let size = high - low;
         // Across: the front, then the side, each with a margin; x points sideways, y to the front, z up.
         let across = [size.x + MARGIN_M, size.y + MARGIN_M];
@@ -80,10 +81,9 @@ impl Figure {
         let frame = Frame { centre: (low + high) / 2.0, height_m };
         let left = ((f64::from(width) * across[0] / all) as u32).clamp(1, width - 1);
         let mut whole = RgbaImage::new(width, height);
-        for (view, at, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
+        for (view, from, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
             let picture = render::cutout(&self.scene, &Camera::new(view, frame), across, height);
-            let picture = picture.origin(Origin::Render)?;
-            whole.copy_from(&picture, at, 0).origin(Origin::Render)?;
+            whole.copy_from(&picture.origin(Origin::Render)?, from, 0).origin(Origin::Render)?;
         }
         Ok(whole)
     }

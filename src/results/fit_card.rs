@@ -1,4 +1,4 @@
-//! Fit cards: which size a subject wears of a garment, and how it and the two beside it sit at every level.
+//! Fit cards: the size that a subject wears of a garment, and the ease of it and of its neighbours at every level.
 
 use rusqlite::Row;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use fit::target::{is_within_reach, weight_m};
 use geom::units::from_mm;
 use store::{Result, Store, StudyError};
 
-/// How one size sits at one level.
+/// Ease of one size at one level, beside its target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelSits {
     /// Level of the body, such as `chest`.
@@ -16,21 +16,22 @@ pub struct LevelSits {
     pub pattern_girth_mm: f64,
     /// Length of the body there, mm.
     pub body_girth_mm: f64,
-    /// Pattern less body, mm.
+    /// Ease: pattern less body, mm.
     pub ease_mm: f64,
-    /// Least and greatest ease that is meant, mm; `None` where none is.
+    /// Least and greatest target ease, mm; `None` where there is no target.
     pub target_mm: Option<[f64; 2]>,
-    /// How far outside that the ease lies, mm: negative where too tight.
+    /// Departure of the ease from that range, mm: below 0 where it is too tight.
     pub off_mm: Option<f64>,
-    /// How far round the body its drape covers the level, degrees, where that is not all round: the hem hangs above it elsewhere.
+    /// Angle round the body over which the drape covers the level, degrees, where that is not all round: elsewhere the
+    /// hem hangs above the level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covered_deg: Option<f64>,
 }
 
-/// Least departure from a target that counts, mm: below it, it is none when it is written.
+/// Least departure from a target that counts, mm: a smaller one is written as 0.
 const DEPARTURE_MM: f64 = 0.5;
 
-/// Where an ease lies beside its target.
+/// Position of an ease relative to its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sits {
     /// Below the target: too little ease.
@@ -42,7 +43,8 @@ pub enum Sits {
 }
 
 impl LevelSits {
-    /// Where its ease lies beside its target; `None` where none is meant, and where the drape does not cover it all round.
+    /// Position of its ease relative to its target; `None` without a target, and where the drape does not cover the
+    /// level all round.
     #[must_use]
     pub fn sits(&self) -> Option<Sits> {
         self.off_mm.filter(|_| self.covered_deg.is_none()).map(|off| match off {
@@ -52,13 +54,13 @@ impl LevelSits {
         })
     }
 
-    /// How far outside its target it lies, mm; never below 0.
+    /// Magnitude of the departure from its target, mm; 0 without a target.
     #[must_use]
     pub fn departure_mm(&self) -> f64 {
         self.off_mm.map_or(0.0, f64::abs)
     }
 
-    /// What is to be said of it.
+    /// Description of the ease relative to its target.
     #[must_use]
     pub fn words(&self) -> String {
         let by_mm = self.departure_mm();
@@ -75,21 +77,22 @@ impl LevelSits {
     }
 }
 
-/// How one size sits.
+/// Ease of one size at all levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeSits {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// 1 of the size to wear, 2 of the next best.
+    /// Rank among the sizes: 1 of the size to wear, 2 of the next best.
     pub place: Option<i64>,
-    /// The level that lies farthest from its target, what is too tight counting double.
+    /// Level with the greatest departure from its target, where too tight counts double.
     pub worst_level: Option<String>,
     /// Every level that it covers, from the neck down.
     pub levels: Vec<LevelSits>,
 }
 
 impl SizeSits {
-    /// What its worst level counts, m, of those that its drape covers all round; none where no such level has a target.
+    /// Finds the worst of the levels that its drape covers all round, and returns its weighted departure, m; `None`
+    /// where none has a target.
     fn judge(&mut self) -> Option<f64> {
         let all = self.levels.iter().filter(|level| level.covered_deg.is_none());
         let weighed = all.filter_map(|level| Some((level, weight_m(from_mm(level.off_mm?)))));
@@ -98,28 +101,28 @@ impl SizeSits {
         worst.map(|(_, weight_m)| weight_m)
     }
 
-    /// The level that is worst, where any has a target.
+    /// The worst level; `None` where no level has a target.
     #[must_use]
     pub fn worst(&self) -> Option<&LevelSits> {
         self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
     }
 
-    /// Whether it may be worn: its worst level lies no farther from its target than a grade step, what is too tight counting
-    /// double. So does a size without any target.
+    /// True if it may be worn: the departure of its worst level, where too tight counts double, is at most a grade
+    /// step. So it is of a size without any target.
     #[must_use]
     pub fn is_within_reach(&self) -> bool {
         let weight_m = self.worst().and_then(|level| level.off_mm).map(|off| weight_m(from_mm(off)));
         weight_m.is_none_or(is_within_reach)
     }
 
-    /// What stands beside its name: `wear`, `nearest` where no size fits; `None` of those that are not to be worn.
+    /// Mark beside the name of the size to wear: `wear`, or `nearest` where no size fits. `None` of all other sizes.
     #[must_use]
     pub fn mark(&self) -> Option<&'static str> {
         let mark = if self.is_within_reach() { "wear" } else { "nearest" };
         (self.place == Some(1)).then_some(mark)
     }
 
-    /// What is worst with it.
+    /// Description of its worst level.
     #[must_use]
     pub fn words(&self) -> String {
         let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
@@ -129,27 +132,28 @@ impl SizeSits {
     }
 }
 
-/// How a garment sits on a subject.
+/// Fit of a garment on a subject in all sizes, by ease.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FitCard {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Who wears it.
+    /// Name of the subject in the study.
     pub subject: String,
-    /// Fit that is meant, as the study file has it; `None` where it says none.
+    /// Intended fit, as the study file has it; `None` where it has none.
     pub intended: Option<String>,
     /// Its sizes, in order.
     pub sizes: Vec<SizeSits>,
 }
 
 impl FitCard {
-    /// Takes in where drapes do not cover a level all round, and judges by the other levels where there are any such.
+    /// Enters the levels that drapes do not cover all round. If there are any, the sizes are ranked anew by their
+    /// other levels.
     fn take(&mut self, bare: &[Bare]) {
         let own = bare.iter().filter(|bare| bare.garment == self.garment && bare.subject == self.subject);
         let mut is_other = false;
         for Bare { size, level, bare_deg, .. } in own {
-            let of_size = self.sizes.iter_mut().filter(|one| one.size == *size).flat_map(|one| &mut one.levels);
-            for known in of_size.filter(|known| known.level == *level) {
+            let sizes = self.sizes.iter_mut().filter(|known| known.size == *size);
+            for known in sizes.flat_map(|known| &mut known.levels).filter(|known| known.level == *level) {
                 known.covered_deg = Some(360.0 - bare_deg);
                 is_other = true;
             }
@@ -175,7 +179,7 @@ impl FitCard {
         self.sizes.iter().find(|size| size.place == Some(1))
     }
 
-    /// The size to wear and the two beside it, at an end of the range the next two; all of them where none is to wear.
+    /// The size to wear and its two neighbours, at an end of the range the next two; all sizes where none is to wear.
     #[must_use]
     pub fn beside(&self) -> &[SizeSits] {
         let last = self.sizes.len().saturating_sub(BESIDE);
@@ -191,14 +195,14 @@ impl FitCard {
     /// The levels that any size covers, from the neck down.
     #[must_use]
     pub fn levels(&self) -> Vec<&str> {
-        let mut found: Vec<&str> =
-            self.sizes.iter().flat_map(|size| &size.levels).map(|one| one.level.as_str()).collect();
+        let levels = self.sizes.iter().flat_map(|size| &size.levels);
+        let mut found: Vec<&str> = levels.map(|level| level.level.as_str()).collect();
         found.sort_by_key(|level| (order(level), *level));
         found.dedup();
         found
     }
 
-    /// What to wear, and what is worst with it; the nearest size, where none fits.
+    /// Sentence on the size to wear and its worst level; on the nearest size, where none fits.
     #[must_use]
     pub fn verdict(&self) -> String {
         let told = |size: &SizeSits| match size.is_within_reach() {
@@ -208,7 +212,7 @@ impl FitCard {
         self.to_wear().map_or("no level has a target".to_owned(), told)
     }
 
-    /// Why the size to wear is the one: what is worst with it, and with those beside it.
+    /// Reasons for the size to wear: its worst level, and that of each of its neighbours.
     #[must_use]
     pub fn reasons(&self) -> String {
         let own = self.to_wear().map(|size| match size.is_within_reach() {
@@ -221,10 +225,10 @@ impl FitCard {
     }
 }
 
-/// What is said where the size to wear is none to wear.
+/// Words for the case that no size is within reach.
 const NONE_FITS: &str = "no size fits";
 
-/// Sizes that stand side by side on a card.
+/// Number of sizes side by side on a card.
 const BESIDE: usize = 3;
 
 /// Levels from the neck down, arms after the trunk.
@@ -248,11 +252,11 @@ fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// Returns how the garments of a study sit on its subjects, and in which size; only a garment or a subject where one is
-/// asked for.
+/// Returns the fit cards of a study: the ease of its garments on its subjects in all sizes, and the size to wear.
+/// `garment` and `subject` restrict it to one.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] when the study has no ease of what is asked for.
+/// [`StudyError::NotFound`] when the study has no ease of the garment or subject.
 pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
     let mut cards = all_fit_cards(store, study)?;
     keep(&mut cards, "garment", garment, |card| &card.garment)?;
@@ -302,15 +306,17 @@ struct Bare {
     subject: String,
     size: String,
     level: String,
-    /// How far round the body there is no cloth, degrees.
+    /// Angle round the body over which there is no cloth, degrees.
     bare_deg: f64,
 }
 
-/// Where a drape leaves so little of a level bare, degrees, it covers it: one direction of a section may lie between two.
+/// Greatest bare angle of a level that still counts as covered, degrees: one direction of a section may lie between
+/// two pieces of cloth.
 const LEAST_BARE_DEG: f64 = 15.0;
 
-/// The levels of a study that a drape does not cover all round, by FEM-GS where it has draped a size: directions of a section
-/// without cloth, where the hem of that side hangs above the level. Elsewhere another limb is in the way.
+/// Levels of a study that a drape does not cover all round: directions of a section without cloth, where the hem of
+/// that side hangs above the level. Where the hem is lower, another limb is in the way. The drape is by FEM-GS, where
+/// that has draped the size.
 fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
     let sql = "WITH drape AS (
             SELECT job_id, garment, subject, size, row_number() OVER (
@@ -338,20 +344,25 @@ fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Keeps the cards of a name, where one is asked for.
-fn keep(cards: &mut Vec<FitCard>, what: &'static str, name: Option<&str>, of: fn(&FitCard) -> &String) -> Result<()> {
+/// Keeps the cards of a name, if one is given.
+fn keep(
+    cards: &mut Vec<FitCard>,
+    what: &'static str,
+    name: Option<&str>,
+    name_of: fn(&FitCard) -> &String,
+) -> Result<()> {
     let Some(name) = name else { return Ok(()) };
-    let mut known: Vec<String> = cards.iter().map(|card| of(card).clone()).collect();
+    let mut known: Vec<String> = cards.iter().map(|card| name_of(card).clone()).collect();
     known.sort();
     known.dedup();
     if !known.iter().any(|known| known == name) {
         return Err(StudyError::NotFound { what, name: name.to_owned(), known });
     }
-    cards.retain(|card| of(card) == name);
+    cards.retain(|card| name_of(card) == name);
     Ok(())
 }
 
-/// A row of the view.
+/// A row of the view `v_fit`.
 struct Found {
     garment: String,
     subject: String,

@@ -1,5 +1,5 @@
-//! A garment seen while its seams are edited: sewn and draped coarsely on a body that is kept ready, in colours that tell its pieces and
-//! seams apart.
+//! Preview of a garment while its seams are edited: sewn and draped coarsely on a body that is kept ready, in colours
+//! that distinguish its pieces and seams.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -27,31 +27,31 @@ use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, Store, StudyError, SubjectId};
 use wardrobe::seams::workpiece::Workpiece;
 
-/// Edge length of the cloth that is looked at, and of cloth that is tried on, m.
+/// Edge length of the mesh for a glance and for a trial, m.
 const EDGE_M: f64 = 0.030;
 const FINE_EDGE_M: f64 = 0.015;
-/// Residual at which a drape can be looked at, and steps after the sewing that end it at the latest.
+/// Residual at which a glance ends, and greatest number of its steps after the sewing.
 const SEEN: f64 = 2.0;
 const MOST_STEPS: u32 = 40;
-/// Greatest displacement of a vertex in a step of sewing and gap at which seams are welded, m, and relative tolerance
-/// of a linear solve. A garment that is looked at may be pulled about, and is sewn in half the time.
+/// Greatest displacement of a vertex in a step of sewing, and gap at which seams are welded, m, and relative tolerance
+/// of a linear solve. For a glance they are coarser than by default, and sewing takes half the time.
 const CLAMP_M: f64 = 0.020;
 const WELD_GAP_M: f64 = 0.010;
 const TOLERANCE: f64 = 0.2;
 /// Size of each view on a sheet, pixels.
 const VIEW: [u32; 2] = [480, 640];
-/// Half the width of the lines along seams and along edges that are in none, m.
+/// Half the width of the lines along seams, and along edges that are in no seam, m.
 const SEAM_M: f64 = 0.004;
 const FREE_M: f64 = 0.007;
 
-/// Cloth of fronts, of backs, and of what is neither.
+/// Colours of fronts, of backs, and of all other pieces.
 const CLOTHS: [Rgb; 3] = [Rgb(0x9c, 0xcf, 0xb5), Rgb(0x58, 0x9a, 0xa8), Rgb(0xd8, 0xc0, 0x8a)];
-/// Seams, over and over, in the order of the workbench's five colours; and edges that are in none.
+/// Colours of seams in turn, in the order of the workbench's five colours; and of edges that are in no seam.
 const SEAMS: [Rgb; 5] =
     [Rgb(0x1f, 0x8a, 0x3c), Rgb(0xa8, 0x3a, 0xa8), Rgb(0x12, 0x9c, 0xac), Rgb(0xb8, 0x4a, 0x2a), Rgb(0x2f, 0x55, 0xc8)];
 const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
 
-/// A body ready to be dressed again and again.
+/// A body that is dressed again and again.
 pub struct Mannequin {
     /// Name of the subject whose body it is.
     pub name: String,
@@ -60,62 +60,64 @@ pub struct Mannequin {
 }
 
 impl Mannequin {
-    /// Of a file: measurements or a mesh, in a unit and of a sex where that cannot be told from it; and what had to be guessed.
+    /// Reads a file of measurements or a mesh, with unit and sex where they cannot be told from it. Returns also notes
+    /// on the guesses that were made.
     ///
     /// # Errors
     /// When the file cannot be used.
     pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
         let (body, notes) = read_body(file, unit, sex)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok((Self::of((name, Arc::new(Model { body })))?, notes))
+        Ok((Self::new(name, Arc::new(Model { body }))?, notes))
     }
 
-    fn of((name, model): (String, Arc<Model>)) -> Result<Self> {
+    fn new(name: String, model: Arc<Model>) -> Result<Self> {
         let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { name, model, field })
     }
 }
 
-/// The body of a revision of a subject, ready to be dressed.
+/// Returns the body of a revision of a subject, ready to be dressed.
 ///
 /// # Errors
-/// When there is none of that number, or no body can be built from its measurements.
+/// When there is no revision of that number, or no body can be built from its measurements.
 pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
-    Mannequin::of(figure::model(store, id)?)
+    let (name, model) = figure::model(store, id)?;
+    Mannequin::new(name, model)
 }
 
-/// How carefully a garment is draped.
+/// Accuracy of a preview.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Care {
-    /// To be looked at: coarsely, and not wholly to rest.
+    /// For a look: coarse, and not wholly at rest.
     Glance,
-    /// To be trusted: as a study does by default.
+    /// For a trial: as a study does by default.
     Trial,
 }
 
-/// How far a garment came.
+/// State in which a preview ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hung {
-    /// It hangs on the body, nearly at rest.
+    /// The garment hangs on the body, nearly at rest.
     Draped,
-    /// It could not be sewn up and draped: as it was when that failed.
+    /// It could not be sewn up and draped, and is shown as it was then.
     Undone,
-    /// Its pieces could not even be placed round the body.
+    /// Its pieces could not be placed round the body.
     Not,
 }
 
-/// A garment on a body, coarsely.
+/// A garment draped coarsely on a body.
 pub struct Preview {
-    /// How far it came.
+    /// State in which it ended.
     pub hung: Hung,
-    /// Why it came no farther, and what is to be seen on it.
+    /// Reason for which it came no farther, and remarks on the drape.
     pub remarks: Vec<String>,
     shown: Vec<TriMesh>,
     scene: Scene,
 }
 
 impl Mannequin {
-    /// Sews a size and drapes it on the body in a cloth. `is_stale` is asked between steps; true ends the work.
+    /// Sews a size and drapes it on the body in a fabric. `is_stale` is asked between steps; true ends the work.
     ///
     /// # Errors
     /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
@@ -132,7 +134,7 @@ impl Mannequin {
             Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
         };
         let garment = meshes.finest()?;
-        let (hung, positions, mut remarks) = hang(&meshes, self, cloth, care, is_stale)?;
+        let Hanging { hung, positions, mut remarks } = hang(&meshes, self, cloth, care, is_stale)?;
         let free = free_edges(garment, &piece.open_edges());
         if !free.is_empty() {
             remarks.push("red edges are in no seam".to_owned());
@@ -157,10 +159,10 @@ impl Mannequin {
 }
 
 impl Preview {
-    /// The garment from four sides, as a PNG file.
+    /// Draws the garment from four sides, as a PNG file.
     ///
     /// # Errors
-    /// When it cannot be drawn.
+    /// When the picture cannot be drawn.
     pub fn sheet(&self) -> Result<Vec<u8>> {
         let camera = |view: View| {
             let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
@@ -169,7 +171,7 @@ impl Preview {
         render::from_all_sides(&self.scene, camera, VIEW).origin(Origin::Render)
     }
 
-    /// The garment from any side, as large as it can be.
+    /// Draws the garment from any side, as large as it can be.
     ///
     /// # Errors
     /// When the picture is too small or too large.
@@ -179,7 +181,7 @@ impl Preview {
     }
 }
 
-/// Looks at a simulation until its cloth can be shown.
+/// Monitor that ends a simulation once its cloth can be shown.
 struct Glance<'a> {
     seen: Option<Vec<V3>>,
     sewn_at: Option<u32>,
@@ -215,14 +217,16 @@ impl Monitor for Glance<'_> {
     }
 }
 
-/// Positions of a garment on a body, how far it came, and what is to be said of it.
-fn hang(
-    meshes: &Meshes,
-    on: &Mannequin,
-    cloth: &Fabric,
-    care: Care,
-    is_stale: &dyn Fn() -> bool,
-) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
+/// Result of draping a garment for a preview.
+struct Hanging {
+    hung: Hung,
+    /// Positions of its vertices, where any are known.
+    positions: Option<Vec<V3>>,
+    remarks: Vec<String>,
+}
+
+/// Drapes a garment on a body as carefully as asked.
+fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Hanging> {
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
     if care == Care::Glance {
@@ -231,10 +235,13 @@ fn hang(
     }
     let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, care, is_stale };
     let body = &on.model.body;
+    let draped = |positions, remarks| Hanging { hung: Hung::Draped, positions, remarks };
     match fem::simulate(body, &on.field, &meshes.0, cloth, &params, &mut glance) {
-        Ok(drape) if care == Care::Trial => Ok((Hung::Draped, Some(drape.positions.clone()), told(garment, &drape))),
-        Ok(drape) => Ok((Hung::Draped, Some(drape.positions), vec![])),
-        Err(SimError::Cancelled) if glance.is_enough => Ok((Hung::Draped, glance.seen, vec![])),
+        Ok(drape) => {
+            let remarks = if care == Care::Trial { told(garment, &drape) } else { vec![] };
+            Ok(draped(Some(drape.positions), remarks))
+        }
+        Err(SimError::Cancelled) if glance.is_enough => Ok(draped(glance.seen, vec![])),
         Err(SimError::Cancelled) => Err(StudyError::Interrupted),
         Err(error) => {
             // What was seen of a coarser mesh has other vertices.
@@ -242,16 +249,16 @@ fn hang(
             let placed = || place(body, garment, &Bend::default()).ok();
             let positions = seen.or_else(placed);
             let hung = if positions.is_some() { Hung::Undone } else { Hung::Not };
-            Ok((hung, positions, vec![error.to_string()]))
+            Ok(Hanging { hung, positions, remarks: vec![error.to_string()] })
         }
     }
 }
 
-/// What a drape that is to be trusted comes to.
+/// Faults and EI of the drape of a trial.
 fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
     let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);
-    let mut told: Vec<String> = faults.into_iter().map(|(fault, _)| fault).collect();
+    let mut told: Vec<String> = faults.into_iter().map(|fault| fault.words).collect();
     if told.is_empty() {
         told.push("at rest".to_owned());
     }
@@ -260,7 +267,7 @@ fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     told
 }
 
-/// Sides of boundary triangles that are in no seam, and of no edge that is meant to be open.
+/// Sides of boundary triangles that are in no seam, and on no edge that is meant to be open.
 fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
     let mut held: BTreeSet<[usize; 2]> = BTreeSet::new();
     let mut hold = |[a, b]: [usize; 2]| held.insert([a.min(b), a.max(b)]);
@@ -268,7 +275,7 @@ fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
         hold(side);
     }
     for piece in &garment.pieces {
-        let is_open = |name: &String| open.iter().any(|one| *one == format!("{}.{name}", piece.id));
+        let is_open = |name: &String| open.iter().any(|edge| *edge == format!("{}.{name}", piece.id));
         for (_, line) in piece.edges.iter().filter(|(name, _)| is_open(name)) {
             for side in line.windows(2) {
                 hold([side[0], side[1]]);
@@ -284,7 +291,7 @@ fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
     faces.into_iter().filter(|(side, count)| *count == 1 && !held.contains(side)).map(|(side, _)| side).collect()
 }
 
-/// Cloth by piece, lines along seams and free edges.
+/// Meshes of the cloth by colour of the pieces, and lines along seams and free edges.
 fn layers(garment: &Garment, positions: &[V3], free: &[[usize; 2]]) -> Vec<(TriMesh, Material)> {
     let mut layers: Vec<(TriMesh, Material)> = Vec::new();
     for (kind, colour) in CLOTHS.into_iter().enumerate() {
@@ -304,7 +311,7 @@ fn layers(garment: &Garment, positions: &[V3], free: &[[usize; 2]]) -> Vec<(TriM
     layers
 }
 
-/// Which cloth a piece is shown in.
+/// Index in [`CLOTHS`] of the colour of a piece.
 fn cloth_of(role: Role) -> usize {
     use Role::{Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight};
     match role {
@@ -314,7 +321,7 @@ fn cloth_of(role: Role) -> usize {
     }
 }
 
-/// Square rods along sides, half as wide as `half_m`.
+/// Square rods along sides of triangles. `half_m` is half their width.
 fn rods(positions: &[V3], sides: impl Iterator<Item = [usize; 2]>, half_m: f64) -> TriMesh {
     let mut mesh = TriMesh { positions: vec![], triangles: vec![] };
     for [a, b] in sides.map(|side| side.map(|v| positions[v])) {

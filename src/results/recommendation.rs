@@ -1,4 +1,4 @@
-//! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
+//! The size that a subject should wear: ease at every level, and the tension of the cloth there.
 
 use crate::fit_card::{FitCard, fit_cards};
 use crate::picture::{self, tension_near};
@@ -14,7 +14,7 @@ pub struct SizeAnswer {
     pub subject: String,
     /// The size to wear.
     pub wear: String,
-    /// Why this one and not the others.
+    /// Reason for this size and against the others.
     pub reason: String,
     /// All sizes, in order of the study file.
     pub sizes: Vec<SizeOn>,
@@ -27,7 +27,7 @@ pub struct SizeOn {
     pub size: String,
     /// Levels of the body at which the garment has a girth.
     pub levels: Vec<LevelFit>,
-    /// Which picture a customer should see.
+    /// Picture that a customer should see.
     pub shown: &'static str,
 }
 
@@ -40,10 +40,10 @@ pub struct LevelFit {
     pub tension_n_m: Option<f64>,
 }
 
-/// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
+/// Returns the size that a subject should wear, for every garment of a study (or one) whose ease on it is known.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
+/// [`StudyError::NotFound`] when the study has no such subject or garment. Others when the database cannot be read.
 pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
     if study == PUBLISHED {
         let known = read::studies(store)?.into_iter().map(|study| study.name).collect();
@@ -68,13 +68,13 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
     let cards = fit_cards(store, study, None, None)?;
     let mut answers = Vec::new();
     for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
-        let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
-        answers.extend(size_answer(store, &of, &jobs, &recommended, &cards)?);
+        let own = eases.iter().filter(|ease| ease.subject == subject && ease.garment == *name);
+        answers.extend(size_answer(store, &own.collect::<Vec<_>>(), &jobs, &recommended, &cards)?);
     }
     Ok(answers)
 }
 
-/// The answer for one garment and subject, given its eases; `None` where there are none.
+/// Answer for one garment and subject, given its eases; `None` where there are none.
 fn size_answer(
     store: &Store,
     eases: &[&EaseRow],
@@ -102,7 +102,7 @@ fn size_answer(
     Ok(worn.map(|(wear, reason)| SizeAnswer { garment, subject, wear, reason, sizes }))
 }
 
-/// Which picture of a size a customer should see, given the eases of that size.
+/// Picture of a size that a customer should see, given the eases of that size.
 fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
     let Some(decides) = of_size.iter().find(|ease| ease.decides).or(of_size.first()) else { return "" };
     let answer = answers.iter().find(|row| row.garment == decides.garment && row.class == decides.fit.class);
@@ -110,7 +110,7 @@ fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
     fit::shown(recommended, decides.fit.undersized).words()
 }
 
-/// The FEM-GS result of an ease's size on its subject.
+/// FEM-GS result of an ease's size on its subject.
 fn drape_of(ease: &EaseRow, jobs: &[JobRow]) -> Option<JobId> {
     let is_it = |job: &&JobRow| {
         (&job.garment, &job.size, &job.subject) == (&ease.garment, &ease.size, &ease.subject)

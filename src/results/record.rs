@@ -1,28 +1,27 @@
-//! One run of a simulation in full: where it came from, what it was made of, its numbers; two of them side by side; and
-//! the same again from what is stored.
+//! The record of one job: provenance, inputs and numbers; two of them side by side; and a job made again from its
+//! stored inputs.
 
 use std::path::Path;
 
 use rusqlite::{OptionalExtension, Row};
 
+use crate::error::ResultsError;
 use engine::{Executor, Outcome, Pipeline, enqueue};
 use geom::units::{from_mm, mm};
 use sim::Silent;
 use spec::{CARRIED_FROM, Change, Inputs, JobSpec, Parameters, Schedule};
 use store::cache::Cache;
-use store::{
-    Access, ChiRow, JobId, JobRow, MetricsRow, Origin, Result, SizeKey, StageRow, Store, StudyError, SubjectId, read,
-};
+use store::{Access, ChiRow, JobId, JobRow, MetricsRow, Result, SizeKey, StageRow, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue::{self, StyleFiles, read_fabric, read_style};
 
-/// Where a result was made.
+/// Provenance of a result.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct ProvenanceRow {
     /// Version of the program.
     pub program_version: String,
-    /// Commit of the repository of its study.
+    /// Commit of the repository in which the study file lies.
     pub git_commit: Option<String>,
-    /// Whether that had uncommitted changes.
+    /// True if that repository had uncommitted changes.
     pub git_dirty: Option<bool>,
     /// Name of the machine that ran the job.
     pub machine: String,
@@ -30,18 +29,18 @@ pub struct ProvenanceRow {
     pub seed: i64,
 }
 
-/// Everything that is stored of one run.
+/// Record of one job: all that is stored of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// The job as lists show it.
     pub job: JobRow,
-    /// Every value it was made from.
+    /// Inputs of the job.
     pub inputs: Inputs,
     /// Products of the stages.
     pub stages: Vec<StageRow>,
-    /// Where it was made; once there is a result.
+    /// Provenance, once there is a result.
     pub provenance: Option<ProvenanceRow>,
-    /// Its numbers; once there is a result.
+    /// Metrics, once there is a result.
     pub metrics: Option<MetricsRow>,
     /// Measurements of the result, at every stage; empty without a result.
     pub chi: Vec<ChiRow>,
@@ -65,7 +64,7 @@ impl ChiPair {
         self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
     }
 
-    /// Whether both are there and no bit of their lengths differs.
+    /// True if both results have it, and all bits of their lengths are equal.
     #[must_use]
     pub fn is_same(&self) -> bool {
         let bits = |lengths: Option<(f64, f64)>| lengths.map(|(l2d, l3d)| [l2d.to_bits(), l3d.to_bits()]);
@@ -84,10 +83,10 @@ pub struct Comparison {
     pub chi: Vec<ChiPair>,
 }
 
-/// A run made again.
+/// Comparison of a stored result with the same job made again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rerun {
-    /// Inputs of today's program that differ from the stored ones: versions of its stages.
+    /// Inputs that differ from the stored ones: versions of this program's stages.
     pub inputs: Vec<Change>,
     /// Measurements as stored and as found now.
     pub chi: Vec<ChiPair>,
@@ -95,7 +94,7 @@ pub struct Rerun {
     pub ei: [f64; 2],
 }
 
-/// Everything that is stored of a run.
+/// Returns all that is stored of a job.
 ///
 /// # Errors
 /// When there is no such job.
@@ -120,7 +119,7 @@ pub fn record(store: &Store, id: JobId) -> Result<Record> {
     })
 }
 
-/// Two runs side by side.
+/// Returns two jobs side by side.
 ///
 /// # Errors
 /// When one of the jobs does not exist.
@@ -133,7 +132,7 @@ pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison>
     })
 }
 
-/// Makes a run again from its stored inputs, nothing of it from the cache. What is stored stays as it is.
+/// Makes a job again from its stored inputs, without the cache. The stored result stays as it is.
 ///
 /// # Errors
 /// When it has no result yet, its body is a scan that was not stored, or a stage refuses.
@@ -155,7 +154,7 @@ pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     })
 }
 
-/// Whether a study's report was last written from this database, as the page that has this time (ms since 1970).
+/// Returns true if `page` with this time (ms since 1970) is the report that this database last wrote of a study.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -166,7 +165,7 @@ pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) ->
     Ok(store.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
 }
 
-/// Remembers the page that a study's report was just written to, and its time (ms since 1970).
+/// Stores path and time (ms since 1970) of the page to which a study's report was just written.
 ///
 /// # Errors
 /// When the database is open read-only.
@@ -177,15 +176,14 @@ pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: 
     Ok(())
 }
 
-/// What a job does, from what the database has of it.
+/// Specification of a job, from its stored inputs.
 pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;
-    let refuse = |message: String| StudyError::refused(Origin::Rerun, message);
     let edge_mm: f64 = inputs
         .iter()
         .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
-        .ok_or_else(|| refuse(format!("job {id} has no mesh.edge_length_mm")))?;
+        .ok_or(ResultsError::NoEdgeLength(id))?;
     let keys = "SELECT subject_id, style_id, size_id, fabric_id FROM job WHERE job_id = ?";
     let keys: [i64; 4] = store
         .reader
@@ -196,13 +194,13 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let person = catalogue::person(store, SubjectId(keys[0]))?;
     let is_scan = |(name, _): (&str, &str)| name.starts_with("subject.") && name.ends_with(".scan");
     if person.scan.is_none() && inputs.iter().any(is_scan) {
-        return Err(refuse("its body is a scan, of which an older program kept nothing; run its study again".into()));
+        return Err(ResultsError::ScanNotKept.into());
     }
     if inputs.iter().any(|(name, _)| name == "outfit.id") {
-        return Err(refuse("it is a layer of an outfit, which is draped as a whole; run its study again".into()));
+        return Err(ResultsError::Layer.into());
     }
     if inputs.iter().any(|(name, _)| name == CARRIED_FROM) {
-        return Err(refuse("its body carried it from another pose; run its study again".into()));
+        return Err(ResultsError::Carried.into());
     }
     let spec = JobSpec {
         garment: job.garment,
@@ -217,7 +215,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
         seams,
         fabric: read_fabric(&store.reader, keys[3])?,
         edge_length_m: from_mm(edge_mm),
-        parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
+        parameters: Parameters::of_inputs(&inputs).map_err(ResultsError::Parameters)?,
         schedule: Schedule::default(),
         outfit: None,
         dressed: None,
@@ -226,7 +224,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     Ok(spec.with_inputs())
 }
 
-/// The measurements of an outcome as they would be read back: millimetres are what is stored.
+/// Measurements of an outcome as they would be read from the database, which stores millimetres.
 fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
     let stored = |length_m: f64| from_mm(mm(length_m));
     let row = |m: &engine::Measured| ChiRow {
@@ -242,14 +240,14 @@ fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
     outcome.measured.iter().map(row).collect()
 }
 
-/// The measurements of two results by number, each at its last stage.
+/// Pairs the measurements of two results by number, each at its last stage.
 fn paired(a: &[ChiRow], b: &[ChiRow]) -> Vec<ChiPair> {
     let mut numbers: Vec<u32> = a.iter().chain(b).map(|row| row.no).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    let of = |rows: &[ChiRow], no: u32| rows.iter().rfind(|row| row.no == no).cloned();
+    let last_of = |rows: &[ChiRow], no: u32| rows.iter().rfind(|row| row.no == no).cloned();
     let pair = |no| {
-        let both = [of(a, no), of(b, no)];
+        let both = [last_of(a, no), last_of(b, no)];
         let name = both.iter().flatten().next().map(|row| row.name.clone()).unwrap_or_default();
         ChiPair { no, name, lengths_m: both.map(|row| row.map(|row| (row.l2d_m, row.l3d_m))) }
     };

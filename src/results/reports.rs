@@ -1,4 +1,4 @@
-//! Reports that were built, and building one: what a screen lists and starts.
+//! Reports that were built, and the building of one: for a screen that lists and starts them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,13 +16,13 @@ pub struct ReportRow {
     pub page: PathBuf,
     /// Size of the page, bytes.
     pub bytes: u64,
-    /// When it was written, ms since 1970 (UTC).
+    /// Time at which it was written, ms since 1970 (UTC).
     pub written_ms: i64,
-    /// Files beside the page, with those in folders.
+    /// Number of files beside the page, with those in folders.
     pub files: usize,
 }
 
-/// The reports in the folders of a folder, by name; none where it cannot be read.
+/// Returns the reports in the folders of a folder, by name; none where it cannot be read.
 #[must_use]
 pub fn reports(folder: &Path) -> Vec<ReportRow> {
     let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
@@ -44,7 +44,7 @@ fn report(folder: &Path) -> Option<ReportRow> {
     })
 }
 
-/// Files below a folder.
+/// Number of files below a folder.
 fn count(folder: &Path) -> usize {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()

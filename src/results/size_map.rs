@@ -1,4 +1,4 @@
-//! Which size fits whom, as a picture: every subject of a study by stature and girth, in the colour of the size that fits.
+//! Scatter plot of the subjects of a study by stature and girth, in the colour of the size to wear.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ pub const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56
 const PANEL: f64 = 420.0;
 const MARGIN: f64 = 56.0;
 
-/// A subject in one garment.
+/// A subject in one garment, with its size to wear.
 struct Dot {
     garment: String,
     subject: String,
@@ -22,8 +22,8 @@ struct Dot {
     fit: String,
 }
 
-/// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size to wear; hollow where even that is tight or
-/// loose somewhere.
+/// Draws an SVG picture of a study with a panel for each garment and a dot for each subject, in the colour of the size
+/// to wear. A dot is hollow where even that size is tight or loose at some level.
 ///
 /// # Errors
 /// When there is no such study.
@@ -47,7 +47,7 @@ pub fn size_map(store: &Store, study: &str) -> Result<String> {
     Ok(svg)
 }
 
-/// Every subject in every garment with its best size, by garment.
+/// Every subject in every garment with its size to wear, by garment.
 fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     let sql = "WITH known AS (
             SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
@@ -71,7 +71,7 @@ fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     Ok(dots.collect::<rusqlite::Result<_>>()?)
 }
 
-/// One garment: axes, dots, and what the colours mean.
+/// Draws one garment: axes, dots, and the legend of the colours.
 fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     let (x, y) = (axis(dots.iter().map(|dot| dot.stature_mm)), axis(dots.iter().map(|dot| dot.girth_mm)));
     let across = |stature_mm: f64| left + (stature_mm - x.0) / (x.1 - x.0) * PANEL;
@@ -129,7 +129,7 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     }
 }
 
-/// Round limits around some values.
+/// Limits around some values, rounded outwards to hundreds.
 pub fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
     if low > high {

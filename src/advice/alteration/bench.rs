@@ -1,4 +1,4 @@
-//! The flat pattern on the bench: what its handles change of the ease, and the least change that gives what is meant.
+//! The flat pattern: the effect of its handles on the ease, and the least change of them that gives the target ease.
 
 use std::collections::BTreeMap;
 
@@ -10,54 +10,56 @@ use fit::target::Target;
 use geom::units::{from_mm, mm};
 use pattern::handle::HandleError;
 use pattern::{Handle, Style};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// How often the change is corrected by what it really does, and its squares weighed anew.
+/// Number of rounds in which the change is corrected by its true effect, and its squares are weighted anew.
 const ROUNDS: usize = 12;
-/// Amount below which a handle is as dear as one that does not move, m.
+/// Amount below which a handle costs as much as one that does not move, m.
 const SMALL_M: f64 = 0.2e-3;
-/// Squared miss of a level that is as meant already for which a metre of handles is moved, m: it is not given up for another.
+/// Squared miss of a level within its target that is accepted for a metre of handle movement, m. It is so small that
+/// no such level is given up for another.
 const KEPT_M: f64 = 1e-9;
-/// Least amount of a handle that goals which give way have chosen, m, and by how much firmer they are met by those.
+/// Least amount of a handle that counts as chosen by soft goals, m, and the factor by which these goals are then met
+/// more firmly.
 const CHOSEN_M: f64 = 1e-3;
 const FIRMER: f64 = 30.0;
-/// Share of its limit that a handle gets which cannot move so far, and the least limit that is made tighter, m.
+/// Share of its limit that is left to a handle that cannot move so far, and the least limit that is reduced so, m.
 const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
-/// Amounts are given in steps of this, as a pattern maker draws them, mm.
+/// Step of amounts, as a pattern maker draws them, mm.
 const DRAWN_MM: f64 = 0.5;
 /// Least amount of a handle that is made, mm: cutting and sewing err by as much.
 const LEAST_MM: f64 = 1.0;
-/// How far inside a band a level is aimed, so that drawn amounts keep it there, m.
+/// Distance inside its band at which an ease is aimed, so that rounded amounts keep it there, m.
 const INSIDE_M: f64 = 0.002;
-/// Least change of an ease per change of a handle for which the handle is taken: one that does less takes more than 5 mm for 1 mm, and
-/// what limits leave of a target would be sought there.
+/// Least change of an ease per change of a handle for which the handle is taken. A handle that does less takes more
+/// than 5 mm for 1 mm, and the rest of a target that limits leave would be sought there.
 const LEAST_EFFECT: f64 = 0.2;
 
-/// An amount of each handle of a bench, m.
+/// Amount of each handle of a bench, m.
 pub type Amounts = Vec<f64>;
-/// What handles make, or the one that cannot.
+/// Result of moving handles, or the handle that cannot be moved.
 type Moved<T> = std::result::Result<T, HandleError>;
 
-/// A style with its handles, the body it is for, and what is meant.
+/// A style with its handles, the body that it is for, and the target ease.
 pub struct Bench<'a> {
-    /// The style as it is.
+    /// The style before the change.
     pub style: &'a Style,
-    /// The handles that may move, or do.
+    /// Handles that may move, or those whose amounts are given.
     pub handles: Vec<Handle>,
-    /// Handles that cannot be moved, and why.
+    /// Handles that cannot be moved, with the reason.
     pub left_out: Vec<String>,
-    /// What is asked.
+    /// Wish for the alteration.
     pub wish: &'a Wish,
     body: &'a Body,
     target: &'a Target,
     before: BTreeMap<String, f64>,
-    /// What each handle changes of every level, m per m; none where amounts are given.
+    /// Sensitivity of every level to each handle, m per m; empty where amounts are given.
     changes: Vec<Sensitivity>,
 }
 
 impl<'a> Bench<'a> {
-    /// Lays a style out, and sees what its handles do.
+    /// Measures the ease of a style, and finds its handles with their effects.
     pub fn new(style: &'a Style, body: &'a Body, target: &'a Target, wish: &'a Wish) -> Self {
         let before = eases(style, body);
         let (handles, changes, left_out) = (Vec::new(), Vec::new(), Vec::new());
@@ -70,7 +72,7 @@ impl<'a> Bench<'a> {
         bench
     }
 
-    /// Whether the style has ease at a level.
+    /// True if the style has ease at a level.
     pub fn has_level(&self, level: &str) -> bool {
         self.before.contains_key(level)
     }
@@ -87,11 +89,12 @@ impl<'a> Bench<'a> {
         own.or_else(|| self.target.band_m(level, is_top))
     }
 
-    /// The amounts that are given; else the least change that brings every level into its band, and meets `goals`, which are linear in
-    /// the amounts. A handle that cannot move as far as it would gets a tighter limit, and at last stays.
+    /// Returns the amounts that are given; else the least change that brings every level into its band, and meets
+    /// `goals`, which are linear in the amounts. A handle that cannot move as far as it would gets a tighter limit,
+    /// and at last stays.
     ///
     /// # Errors
-    /// When what is given cannot be applied.
+    /// When the given amounts cannot be applied.
     pub fn found(&self, goals: &[Goal]) -> Result<Amounts> {
         if !self.wish.moves_mm.is_empty() {
             return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
@@ -113,7 +116,7 @@ impl<'a> Bench<'a> {
             };
             let place = self.handles.iter().position(|handle| Some(*handle) == refused.handle());
             let Some(place) = place.filter(|place| limits_m[*place] > 0.0) else {
-                return Err(StudyError::refused(Origin::Alter, refused));
+                return Err(refused).origin(Origin::Alter);
             };
             limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
         }
@@ -134,8 +137,8 @@ impl<'a> Bench<'a> {
         Ok(least.map(|(_, place)| place))
     }
 
-    /// The least change within a limit of every handle, m. Goals that give way draw all amounts towards nothing; of the handles that they
-    /// have chosen they are then met more firmly.
+    /// Least change within a limit of every handle, m. Soft goals draw all amounts towards 0. They are therefore met
+    /// again, and more firmly, by only those handles that they have chosen.
     fn within(&self, limits_m: &[f64], others: &[Goal]) -> Moved<Amounts> {
         let mut limits: Vec<[f64; 2]> = limits_m.iter().map(|limit_m| [-limit_m, *limit_m]).collect();
         let mut amounts = self.settled(vec![0.0; limits.len()], &limits, others)?;
@@ -159,8 +162,9 @@ impl<'a> Bench<'a> {
         Ok(drawn)
     }
 
-    /// The least change within limits of each handle, m, from `amounts`: the least sum of them, by squares that weigh as the amounts before,
-    /// so that few handles move.
+    /// Least change within limits of each handle, m, started from `amounts`. It minimises the sum of the magnitudes,
+    /// by squares that are weighted by the amounts of the round before (iteratively reweighted least squares), so that
+    /// few handles move.
     fn settled(&self, mut amounts: Amounts, limits: &[[f64; 2]], others: &[Goal]) -> Moved<Amounts> {
         for _ in 0..ROUNDS {
             let now = eases(&self.style.moved(&self.moves(&amounts))?, self.body);
@@ -181,7 +185,8 @@ impl<'a> Bench<'a> {
         Ok(amounts)
     }
 
-    /// By how much all levels together miss their bands once handles have moved, m; what drawn amounts leave does not count.
+    /// Sum over the levels of the departure from their bands once handles have moved, m. Departures within the
+    /// rounding of amounts do not count.
     fn missed_m(&self, amounts: &[f64]) -> Result<f64> {
         let now = eases(&self.moved(amounts)?, self.body);
         let missed = |level: &String| {
@@ -199,15 +204,15 @@ impl<'a> Bench<'a> {
         all.filter(|(_, amount_m)| amount_m.abs() > 1e-6).collect()
     }
 
-    /// The style with handles moved by their amounts, m.
+    /// Returns the style with its handles moved by their amounts, m.
     ///
     /// # Errors
-    /// When one of them cannot be.
+    /// When one of the handles cannot be moved so far.
     pub fn moved(&self, amounts: &[f64]) -> Result<Style> {
         self.style.moved(&self.moves(amounts)).origin(Origin::Alter)
     }
 
-    /// Finds the handles that can be moved, what each changes of every level, and what cannot be moved.
+    /// Finds the handles that can be moved, their sensitivities, and those that cannot be moved.
     fn see_handles(&mut self) {
         let asks_else = self.wish.targets.keys().any(|name| !self.has_level(name));
         for handle in self.style.handles().into_iter().filter(|handle| !self.wish.without.contains(handle)) {
@@ -229,7 +234,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Why levels are missed, a sentence each.
+    /// Reasons for which levels are missed, a sentence each.
     pub fn reasons(&self, amounts: &[f64], levels: &[AlteredLevel]) -> Vec<String> {
         let limit_mm = self.wish.limit_mm;
         let reason = |missed: &AlteredLevel| {
@@ -237,8 +242,8 @@ impl<'a> Bench<'a> {
             let helps = |change: &Sensitivity| change.get(&missed.level).is_some_and(|by| by.abs() >= LEAST_EFFECT);
             let own = self.changes.iter().zip(self.handles.iter().zip(amounts)).filter(|(change, _)| helps(change));
             let own: Vec<(&Handle, f64)> = own.map(|(_, (handle, amount_m))| (handle, mm(*amount_m).abs())).collect();
-            let names = |of: &[(&Handle, f64)]| {
-                of.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
+            let names = |moved: &[(&Handle, f64)]| {
+                moved.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
             };
             let at_limit: Vec<_> = own.iter().copied().filter(|(_, by_mm)| *by_mm >= limit_mm - DRAWN_MM).collect();
             match (own.is_empty(), at_limit.is_empty()) {
@@ -256,7 +261,7 @@ impl<'a> Bench<'a> {
         levels.iter().filter(|level| !level.is_met()).map(reason).collect()
     }
 
-    /// Every level before, as promised, and as achieved by the pattern that is written.
+    /// Ease at every level: before, as promised, and as achieved by the pattern that is written.
     pub fn levels(&self, changed: &Style, again: &Style) -> Vec<AlteredLevel> {
         let (promised, achieved) = (eases(changed, self.body), eases(again, self.body));
         let level = |(level, before_m): (&String, &f64)| {
@@ -272,12 +277,12 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// An amount, m, as a pattern maker draws it, mm.
+/// Rounds an amount, m, to the steps of a pattern maker, mm.
 fn drawn_mm(amount_m: f64) -> f64 {
     (mm(amount_m) / DRAWN_MM).round() * DRAWN_MM
 }
 
-/// The handle with the least amount that would be drawn, though it is less than is made.
+/// Handle with the least amount, of those that would be drawn though they are less than is made.
 fn least_noise(amounts: &[f64]) -> Option<usize> {
     let is_noise = |place: &usize| {
         let drawn_mm = drawn_mm(amounts[*place]).abs();

@@ -1,18 +1,20 @@
-//! Where a changed pattern is tried on: draped by FEM-GS, read off, and how all that is read answers to the handles.
+//! The drape of a changed pattern by FEM-GS: its readings, and their sensitivity to the handles.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::alteration::readings::{Place, Reading, Readings};
 use crate::alteration::{Redraped, STEP_M, Sensitivity};
 use body::Body;
 use engine::Outcome;
 use engine::fitting::Fitting;
-use engine::stages::Meshes;
+use engine::stages::{Garb, Meshes};
 use fit::Simulator;
 use geom::units::mm;
 use geom::{DistanceField, V2, V3};
 use pattern::{Garment, Handle, Style};
 use sim::contact::Skin;
+use sim::dressing::Wearer;
 use sim::fem::response::{Lying, Response, sewn};
 use sim::fem::{self, Params};
 use sim::{Drape, Silent};
@@ -20,16 +22,17 @@ use spec::JobSpec;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result};
 
-/// By how much a handle is moved to see how a drape answers, m: the mesh is taken along, and no longer made anew.
+/// Movement of a handle by which the response of a drape is found, m. It is so small that the mesh can follow without
+/// being made anew.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
 
-/// Seeds of the starts by which scatter is told.
+/// Seeds of the starts from which scatter is estimated.
 const STARTS: [u64; 4] = [0, 1, 2, 3];
 /// Least scatter that is believed of a few starts, mm and degrees, and kPa.
 const LEAST_SCATTER: f64 = 1.0;
 const LEAST_SCATTER_KPA: f64 = 0.02;
 
-/// A body that tries on.
+/// A body with its distance field, on which styles are draped.
 pub struct FittingRoom<'a> {
     spec: &'a JobSpec,
     body: &'a Body,
@@ -37,7 +40,7 @@ pub struct FittingRoom<'a> {
 }
 
 impl<'a> FittingRoom<'a> {
-    /// Of a job's body and cloth.
+    /// Prepares the body of a job.
     ///
     /// # Errors
     /// When the body bounds no solid.
@@ -46,48 +49,47 @@ impl<'a> FittingRoom<'a> {
         Ok(Self { spec, body, field })
     }
 
-    /// Drapes a style as its study does: what it measures, and the ease of the drape at every level, m.
+    /// Drapes a style as its study does. Returns its outcome, and the ease of the drape at every level.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
-        let Draped { meshes, drape, outcome } = self.draped(style)?;
-        Ok((outcome, self.fitting(style, &meshes).eases_on(&drape)?))
+        let Draped { garb, drape, outcome } = self.draped(style)?;
+        Ok((outcome, self.fitting(&garb).eases_on(&drape)?))
     }
 
     fn draped(&self, style: &Style) -> Result<Draped> {
-        let meshes = Meshes::of(style, self.spec.edge_length_m)?;
-        let fitting = self.fitting(style, &meshes);
+        let garb = self.garb(style, Meshes::of(style, self.spec.edge_length_m)?);
+        let fitting = self.fitting(&garb);
         let drape = fitting.simulate(&mut Silent)?;
         let outcome = fitting.outcome(&drape)?;
-        Ok(Draped { meshes, drape, outcome })
+        Ok(Draped { garb, drape, outcome })
     }
 
     /// Drapes a style as its study does, and reads the drape.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
-        let Draped { meshes, drape, outcome } = self.draped(style)?;
-        let garment = meshes.finest()?;
+        let Draped { garb, drape, outcome } = self.draped(style)?;
+        let garment = garb.meshes.finest()?;
         let place = Place::new(self.body, style, garment, &self.spec.fabric)?;
-        let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
         let redraped = Redraped {
             converged: outcome.converged,
             ei: outcome.metrics.ei,
             penetration_max_mm: mm(outcome.penetration_max_m),
-            hem_front_over_back_mm: hem,
-            most_kpa: outcome.worn.pressing.iter().map(|one| one.most_kpa).reduce(f64::max),
+            hem_front_over_back_mm: outcome.worn.hem_front_over_back_m().map(mm),
+            most_kpa: outcome.worn.most_kpa(),
             drag_lines: outcome.worn.folds.iter().filter(|fold| fold.is_drag).count(),
         };
         Ok((redraped, place.readings(garment, &drape.positions)?))
     }
 
-    /// How far readings differ between coarse drapes from starts that differ a little, root mean square, in their units: a drape comes to rest
-    /// in one of many ways that are nearly alike.
+    /// Scatter of readings between coarse drapes from starts that differ a little: standard deviations, in the units
+    /// of the readings. A drape comes to rest in one of many ways that are nearly alike.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn scatter(&self, style: &Style) -> Result<Readings> {
         let meshes = self.coarse(style)?;
         let garment = meshes.finest()?;
@@ -98,18 +100,19 @@ impl<'a> FittingRoom<'a> {
             place.readings(garment, &drape.origin(Origin::Sim)?.positions)
         };
         let all = STARTS.into_iter().map(drape).collect::<Result<Vec<_>>>()?;
-        let of = |(name, reading): (&String, &Reading)| {
-            let values: Vec<f64> = all.iter().map(|one| one.get(name).map(|one| one.value)).collect::<Option<_>>()?;
+        let scatter = |(name, reading): (&String, &Reading)| {
+            let values = all.iter().map(|readings| readings.get(name).map(|reading| reading.value));
+            let values: Vec<f64> = values.collect::<Option<_>>()?;
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
             let least = if reading.unit == "kPa" { LEAST_SCATTER_KPA } else { LEAST_SCATTER };
             let value = (squares / (values.len() - 1) as f64).sqrt().max(least);
             Some((name.clone(), Reading { value, ..*reading }))
         };
-        Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(of).collect()))
+        Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(scatter).collect()))
     }
 
-    /// Meshes of a style up to the one before the last.
+    /// Meshes of a style up to the last but one.
     fn coarse(&self, style: &Style) -> Result<Meshes> {
         let mut meshes = Meshes::of(style, self.spec.edge_length_m)?;
         if meshes.0.len() > 1 {
@@ -118,15 +121,15 @@ impl<'a> FittingRoom<'a> {
         Ok(meshes)
     }
 
-    /// What each handle changes of all that is read off a drape, per metre. It is of a coarser drape than that of the
-    /// study, as it would slide if nothing held it, since that is how a new drape finds its place.
+    /// Sensitivity of all readings of a drape to each handle, per metre. The drape is coarser than that of the study.
+    /// It is taken as sliding without friction, since a new drape finds its place in that way.
     ///
     /// # Errors
-    /// What meshing or the simulator refuses.
+    /// When the style cannot be meshed, or the simulator refuses.
     pub fn answers(&self, style: &Style, handles: &[Handle]) -> Result<Answers> {
-        let meshes = self.coarse(style)?;
-        let drape = self.fitting(style, &meshes).simulate(&mut Silent)?;
-        let (garment, fabric) = (meshes.finest()?, &self.spec.fabric);
+        let garb = self.garb(style, self.coarse(style)?);
+        let drape = self.fitting(&garb).simulate(&mut Silent)?;
+        let (garment, fabric) = (garb.meshes.finest()?, &garb.fabric);
         let skin = Skin::new(&self.body.mesh).ok();
         let params = self.spec.parameters.fem()?;
         let floor_m = fem::floor_m(self.body);
@@ -150,40 +153,44 @@ impl<'a> FittingRoom<'a> {
                 return Ok(Sensitivity::new());
             };
             let rates = response.rates([&less, &more], 2.0 * TAKEN_ALONG_M).origin(Origin::Alter)?;
-            let at = |by_m: f64| {
+            let readings_at = |by_m: f64| {
                 let drawn = along(garment, [&less, &more], by_m);
                 let positions: Vec<V3> = rested.iter().zip(&rates).map(|(p, rate)| p + rate * by_m).collect();
                 place.readings(&drawn, &positions)
             };
-            Ok(changes(&at(STEP_M)?, &at(-STEP_M)?, 2.0 * STEP_M))
+            Ok(changes(&readings_at(STEP_M)?, &readings_at(-STEP_M)?, 2.0 * STEP_M))
         };
         let of_handles = handles.iter().map(|handle| answer(*handle)).collect::<Result<Vec<_>>>()?;
         Ok(Answers { of_handles, is_stable: response.is_stable() })
     }
 
-    fn fitting<'f>(&'f self, style: &'f Style, meshes: &'f Meshes) -> Fitting<'f> {
-        let Self { spec, body, field } = self;
-        let (fabric, parameters) = (&spec.fabric, &spec.parameters);
-        Fitting { body, field, style, meshes, fabric, simulator: Simulator::Fem, parameters }
+    /// A style in the fabric of the job.
+    fn garb(&self, style: &Style, meshes: Meshes) -> Garb {
+        Garb { style: style.clone(), meshes: Arc::new(meshes), fabric: self.spec.fabric.clone() }
+    }
+
+    fn fitting<'f>(&'f self, garb: &'f Garb) -> Fitting<'f> {
+        let wearer = Wearer { body: self.body, field: &self.field };
+        Fitting { wearer, garb, simulator: Simulator::Fem, parameters: &self.spec.parameters }
     }
 }
 
-/// A style, draped.
+/// A style that was draped.
 struct Draped {
-    meshes: Meshes,
+    garb: Garb,
     drape: Drape,
     outcome: Outcome,
 }
 
-/// How a drape answers.
+/// Linear response of a drape to the handles.
 pub struct Answers {
-    /// What each handle changes of each reading, in its unit per metre.
+    /// Sensitivity of the readings to each handle, in their units per metre.
     pub of_handles: Vec<Sensitivity>,
-    /// Whether every displacement of the drape costs energy.
+    /// True if the drape is a stable equilibrium: every displacement costs energy.
     pub is_stable: bool,
 }
 
-/// A mesh that lies between and beyond two that a handle has changed by as much either way.
+/// Mesh at an amount of a handle, extrapolated from two meshes that differ by as much either way.
 fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     let share = by_m / (2.0 * TAKEN_ALONG_M);
     let rest: Vec<V2> =
@@ -191,7 +198,7 @@ fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     garment.with_rest(rest)
 }
 
-/// What changes between readings, per unit of what is between them.
+/// Differences of readings per unit of `between`.
 fn changes(after: &Readings, before: &Readings, between: f64) -> BTreeMap<String, f64> {
     let change =
         |(name, after): (&String, &Reading)| Some((name.clone(), (after.value - before.get(name)?.value) / between));

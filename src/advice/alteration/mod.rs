@@ -1,7 +1,8 @@
-//! What to change of a pattern so that a size fits somebody: the least change of its handles, and the changed pattern.
+//! Alterations: the least change of a pattern's handles so that a size fits somebody, and the changed pattern.
 //!
-//! Ease is told by the flat pattern ([`mod@bench`]). What is asked of a drape, as a level hem or a pressure, is foreseen from how the drape
-//! answers to the handles, and seen by draping again ([`fitting_room`], [`readings`]).
+//! Ease follows from the flat pattern ([`mod@bench`]). Quantities of a drape, such as a level hem or a pressure, are
+//! predicted by the linear response of the drape to the handles, and checked by draping again ([`fitting_room`],
+//! [`readings`]).
 
 mod bench;
 mod fitting_room;
@@ -27,46 +28,47 @@ use results::Sits;
 use spec::{JobSpec, Study};
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// By how much a handle is moved to see what it changes, m.
+/// Movement of a handle by which its effect is found, m.
 const STEP_M: f64 = 0.002;
-/// How far outside its target an ease counts as within, mm: the step of drawn amounts.
+/// Departure of an ease from its target that counts as none, mm: the step of amounts.
 const SLACK_MM: f64 = 0.5;
-/// Drapes at most that a change is found by, the first of the pattern as it is.
+/// Greatest number of drapes by which a change is found. The first is of the pattern as it is.
 const MOST_DRAPES: usize = 3;
 
-/// What a handle changes of every level (m per m) or reading (its unit per m).
+/// Change of every level (m per m) or reading (its unit per m) with a handle.
 type Sensitivity = BTreeMap<String, f64>;
 
-/// Greatest amount of a handle either way where none is said, mm.
+/// Default of the greatest amount of a handle either way, mm.
 pub const ALTER_LIMIT_MM: f64 = 60.0;
 
-/// What is asked.
+/// An alteration as it is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wish {
     /// Garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Who is to wear it; needed where the study has several.
+    /// Subject; needed where the study has several.
     pub subject: Option<String>,
     /// Size that is changed.
     pub size: String,
-    /// Least and greatest ease of levels that are not to have that of the intended fit, mm, and of what is read off the drape, in its unit.
+    /// Least and greatest ease of levels, mm, in place of that of the intended fit; and of readings of the drape, in
+    /// their units.
     pub targets: BTreeMap<String, [f64; 2]>,
     /// Greatest amount of a handle either way, mm.
     pub limit_mm: f64,
     /// Handles that stay.
     pub without: Vec<Handle>,
-    /// Handles with their amounts, mm: then nothing else is changed.
+    /// Handles with given amounts, mm. If there are any, nothing else is changed.
     pub moves_mm: Vec<(Handle, f64)>,
-    /// Whether the changed pattern is draped, though nothing is asked of the drape.
+    /// True if the changed pattern is draped, though no reading of the drape is asked for.
     pub is_draped: bool,
-    /// Whether all sizes of the garment are changed alike and written as a nest: the grade stays.
+    /// True if all sizes of the garment are changed alike and written as a nest. The grade stays.
     pub is_nest: bool,
-    /// By which standard the changed pattern is written.
+    /// Standard of the DXF file of the changed pattern.
     pub standard: Standard,
 }
 
 impl Wish {
-    /// The ease of the intended fit for a subject in a size of a garment, by any handle; nothing of the drape.
+    /// Wish for the ease of the intended fit, of a subject in a size of a garment, by any handle and without a drape.
     #[must_use]
     pub fn of(garment: &str, subject: &str, size: &str) -> Self {
         Self {
@@ -89,11 +91,11 @@ impl Wish {
 pub struct MovedHandle {
     /// Name of the handle.
     pub handle: &'static str,
-    /// By how much, mm.
+    /// Amount by which it moves, mm.
     pub amount_mm: f64,
-    /// What a positive amount does.
+    /// Effect of a positive amount.
     pub does: &'static str,
-    /// Whether that is half of a girth, which changes by twice as much.
+    /// True if the amount is half of a girth, which then changes by twice as much.
     pub is_half_girth: bool,
 }
 
@@ -102,7 +104,7 @@ pub struct MovedHandle {
 pub struct AlteredLevel {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest ease that is meant, mm.
+    /// Least and greatest target ease, mm.
     pub target_mm: Option<[f64; 2]>,
     /// Ease before, mm.
     pub before_mm: f64,
@@ -113,7 +115,7 @@ pub struct AlteredLevel {
 }
 
 impl AlteredLevel {
-    /// Where an ease, mm, lies beside what is meant; `None` where nothing is.
+    /// Position of an ease, mm, relative to the target; `None` where there is no target.
     #[must_use]
     pub fn sits(&self, ease_mm: f64) -> Option<Sits> {
         self.target_mm.map(|[least, most]| match ease_mm {
@@ -123,23 +125,23 @@ impl AlteredLevel {
         })
     }
 
-    /// Whether what is achieved lies within what is meant.
+    /// True if the achieved ease lies within the target, or there is none.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.sits(self.achieved_mm).is_none_or(|sits| sits == Sits::AsMeant)
     }
 }
 
-/// What may be asked, and what it is.
+/// A quantity that may be asked for, with its present value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Standing {
     /// Level or reading.
     pub name: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// What it is, in its unit.
+    /// Present value, in its unit.
     pub value: f64,
-    /// Whether it is the ease of the flat pattern at a level, or read off the drape.
+    /// True of the ease of the flat pattern at a level; false of a reading of the drape.
     pub is_ease: bool,
 }
 
@@ -150,49 +152,49 @@ pub struct AlteredReading {
     pub reading: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// Least and greatest that is asked for.
+    /// Least and greatest value that is asked for.
     pub target: [f64; 2],
     /// Value on the pattern as it was.
     pub before: f64,
-    /// What the change promises.
+    /// Value that the change promises.
     pub promised: f64,
     /// Value on the drape of the changed pattern.
     pub achieved: f64,
 }
 
 impl AlteredReading {
-    /// Whether what is achieved lies within what is asked for.
+    /// True if the achieved value lies within the target.
     #[must_use]
     pub fn is_met(&self) -> bool {
         within(self.target, self.achieved)
     }
 }
 
-/// Whether a value lies in a band, or out of it by less than its twentieth.
+/// True if a value lies in a band, or outside by at most a twentieth of its width.
 fn within([least, most]: [f64; 2], value: f64) -> bool {
     let near = 0.05 * (most - least);
     (least - near..=most + near).contains(&value)
 }
 
-/// The changed pattern on the body.
+/// Drape of the changed pattern on the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Redraped {
-    /// Whether it came to rest.
+    /// True if it came to rest.
     pub converged: bool,
     /// Error indicator of its measurements.
     pub ei: f64,
     /// Deepest penetration into the body, mm.
     pub penetration_max_mm: f64,
-    /// Hem in front less behind, mm.
+    /// Height of the hem in front less that behind, mm.
     pub hem_front_over_back_mm: Option<f64>,
     /// Greatest pressure, kPa.
     pub most_kpa: Option<f64>,
-    /// Folds that cloth under tension makes.
+    /// Number of folds under tension.
     pub drag_lines: usize,
 }
 
 impl Redraped {
-    /// What is to be said of it, in a line.
+    /// Summary of the drape in a line.
     #[must_use]
     pub fn words(&self) -> String {
         let rest = if self.converged { "at rest" } else { "not at rest" };
@@ -219,13 +221,13 @@ pub struct Alteration {
     pub moves: Vec<MovedHandle>,
     /// Ease at every level, from the neck down.
     pub levels: Vec<AlteredLevel>,
-    /// What is asked of the drape.
+    /// Readings of the drape that are asked for.
     pub readings: Vec<AlteredReading>,
-    /// How many times the garment was draped.
+    /// Number of times the garment was draped.
     pub drapes: usize,
-    /// Handles that cannot be moved here, and why; levels that are missed, and why; what else is to be known.
+    /// Handles that cannot be moved here and levels that are missed, with reasons; other remarks.
     pub remarks: Vec<String>,
-    /// The changed pattern on the body, where that is asked.
+    /// Drape of the changed pattern, where one is asked for.
     pub drape: Option<Redraped>,
     /// The changed pattern, its seam file, and a sheet of old and new outlines, by file name.
     #[serde(skip)]
@@ -233,19 +235,19 @@ pub struct Alteration {
 }
 
 impl Alteration {
-    /// Whether everything that is meant and asked for is achieved.
+    /// True if everything that is asked for is achieved.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.levels.iter().all(AlteredLevel::is_met) && self.readings.iter().all(AlteredReading::is_met)
     }
 }
 
-/// Finds the least change that gives every level the ease that is meant and the drape what is asked of it, or applies the one that is
-/// asked for.
+/// Finds the least change that gives every level its target ease and the drape the readings that are asked for, or
+/// applies the given amounts.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and a target that neither ease nor drape has; what
-/// body, pattern or simulator refuse; a handle that cannot move so far.
+/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and for a target that is
+/// neither a level nor a reading. Others when body, pattern or simulator refuse, or a handle cannot move so far.
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
@@ -289,12 +291,14 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     })
 }
 
-/// A style on a body, draped by FEM-GS as its study drapes it: what it measures, and the ease of the drape at every level, m.
+/// Drapes a style on a body by FEM-GS, as its study does. Returns its outcome, and the ease of the drape at every
+/// level.
 pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
     FittingRoom::new(spec, body)?.outcome(style)
 }
 
-/// What may be asked of a size on a subject and what it is now: ease at every level, and what is read off the drape.
+/// Returns the quantities that may be asked for of a size on a subject with their present values: ease at every level,
+/// and readings of the drape.
 ///
 /// # Errors
 /// As [`alter`].
@@ -315,13 +319,13 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
 }
 
-/// What is asked for.
+/// Jobs and target of an alteration, found in the study.
 struct Asked {
     /// Job of the garment's size on the subject.
     spec: JobSpec,
     /// Jobs of the garment's other sizes on the same subject.
     others: Vec<JobSpec>,
-    /// The ease that the garment is to have.
+    /// Target ease of the garment.
     target: Target,
 }
 
@@ -349,8 +353,8 @@ fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
     Ok(Asked { spec, others: on_subject, target })
 }
 
-/// The name that is asked for among those known, whatever its case; the only one where none is asked for. `what` is also the
-/// flag that asks for it.
+/// Returns the name that is asked for among those known, whatever its case, or the only one where none is asked for.
+/// `what` is also the flag that asks for it.
 pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));

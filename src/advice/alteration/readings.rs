@@ -1,10 +1,10 @@
-//! What is read off a drape: how it hangs, the air under it, what it presses, and where its seams lie.
+//! Readings of a drape: balance, gaps, pressure, and positions of its seams.
 
 use std::collections::BTreeMap;
 
 use body::Body;
 use engine::Level;
-use engine::levels::quantities;
+use engine::assessment::{Quantity, hang, quantities};
 use fit::on_body::{self, DIRECTIONS, Section};
 use geom::units::mm;
 use geom::{Surface, V3};
@@ -15,28 +15,29 @@ use sim::Fabric;
 use sim::sewn::Sewn;
 use store::{InOrigin, Origin, Result};
 
-/// Directions either way from front, back, right or left that count to it: a quarter in all.
+/// Number of directions either way of front, back, right or left that count to it: a quarter of all in total.
 const QUARTER: usize = DIRECTIONS / 8;
 
 /// A quantity of a drape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// In its unit.
+    /// Value in its unit.
     pub value: f64,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
 }
 
-/// Quantities of a drape by name.
+/// Readings of a drape by name.
 pub type Readings = BTreeMap<String, Reading>;
 
-/// A style on a body, with a mesh of it.
+/// A style on a body: lines of the style on a mesh, of which readings are taken.
 pub struct Place<'a> {
     body: &'a Body,
     surface: Surface,
     garment: &'a Garment,
     fabric: &'a Fabric,
-    /// Lines of its edges, of the shoulder from the neck outwards and of the inseam from the fork down, on the mesh.
+    /// Lines on the mesh: of the shoulder from the neck outwards, of the inseam from the fork down, and of the centre
+    /// front and back from the neck down.
     shoulder: Vec<MaterialLine>,
     inseam: Vec<MaterialLine>,
     necks: [Vec<MaterialLine>; 2],
@@ -52,7 +53,7 @@ impl<'a> Place<'a> {
         let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let points = style.points_of_measure();
         let named = [Point::Shoulder, Point::Inseam, Point::CentreFrontLength, Point::CentreBackLength];
-        let path = |point: Point| points.iter().find(|one| one.point == point).map(|one| one.path.as_slice());
+        let path = |point: Point| points.iter().find(|found| found.point == point).map(|found| found.path.as_slice());
         let paths: Vec<&[PathPart]> = named.into_iter().map(|point| path(point).unwrap_or_default()).collect();
         let mut laid = style.laid(garment, &paths).into_iter().map(Option::unwrap_or_default);
         let mut next = || laid.next().unwrap_or_default();
@@ -60,16 +61,16 @@ impl<'a> Place<'a> {
         Ok(Self { body, surface, garment, fabric, shoulder, inseam, necks, style })
     }
 
-    /// What is read where the vertices are at `positions`; `drawn` is the mesh as it is cut now, where that is a little other than the
-    /// one of the place.
+    /// Reads a drape with vertices at `positions`. `drawn` is the mesh as it is cut, which may differ a little from
+    /// that on which the lines lie.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
     pub fn readings(&self, drawn: &Garment, positions: &[V3]) -> Result<Readings> {
         let sewn = Sewn::new(drawn, self.fabric, positions).origin(Origin::Measure)?;
         let mut found = Readings::new();
-        let hang = engine::levels::hang(self.style, self.garment, positions);
-        found.extend(quantities(&hang).into_iter().map(|(name, value, unit)| (name, Reading { value, unit })));
+        let balance = quantities(&hang(self.style, self.garment, positions)).into_iter();
+        found.extend(balance.map(|Quantity { name, value, unit }| (name, Reading { value, unit })));
         let mut add = |name: String, value_m: Option<f64>| {
             found.extend(value_m.map(|m| (name, Reading { value: mm(m), unit: "mm" })));
         };
@@ -87,22 +88,22 @@ impl<'a> Place<'a> {
             let points = || lines.iter().flat_map(|line| &line.points);
             Some([points().next()?.at(positions), points().next_back()?.at(positions)])
         };
-        let off = |p: V3| self.surface.signed_distance(&p);
-        add("off_neck_side".to_owned(), ends(&self.shoulder).map(|[neck, _]| off(neck)));
-        add("off_shoulder_point".to_owned(), ends(&self.shoulder).map(|[_, tip]| off(tip)));
+        let gap_at = |p: V3| self.surface.signed_distance(&p);
+        add("off_neck_side".to_owned(), ends(&self.shoulder).map(|[neck, _]| gap_at(neck)));
+        add("off_shoulder_point".to_owned(), ends(&self.shoulder).map(|[_, tip]| gap_at(tip)));
         add("fork_below_crotch".to_owned(), ends(&self.inseam).map(|[fork, _]| self.body.levels.crotch_m - fork.z));
         for (side, lines) in ["neck_front", "neck_back"].into_iter().zip(&self.necks) {
             add(side.to_owned(), ends(lines).map(|[neck, _]| neck.z).filter(|_| !self.shoulder.is_empty()));
         }
-        for one in on_body::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
-            let most = Reading { value: one.most_kpa, unit: "kPa" };
-            found.insert(format!("pressure_{}", one.region.as_str()), most);
+        for pressed in on_body::pressed(self.body, &sewn.mesh, &sewn.welded_pressures_kpa()) {
+            let most = Reading { value: pressed.most_kpa, unit: "kPa" };
+            found.insert(format!("pressure_{}", pressed.region.as_str()), most);
         }
         Ok(found)
     }
 }
 
-/// Mean of the gaps that there are.
+/// Mean of the gaps that are known.
 fn mean<'g>(gaps_m: impl Iterator<Item = &'g Option<f64>>) -> Option<f64> {
     let known: Vec<f64> = gaps_m.flatten().copied().collect();
     (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)

@@ -1,4 +1,4 @@
-//! A change that is tried on: foreseen from how the drape answers, draped, and corrected by what is read there.
+//! The search for an alteration: predicted by the response of the drape, draped, and corrected by the readings.
 
 use crate::alteration::bench::{Amounts, Bench};
 use crate::alteration::fitting_room::{Answers, FittingRoom};
@@ -7,27 +7,27 @@ use crate::alteration::{AlteredReading, MOST_DRAPES, Redraped, Wish, within};
 use fit::alter::Goal;
 use store::{Result, StudyError};
 
-/// Change that is made for a reading that is off by as much as it scatters, m.
+/// Movement of handles that is accepted for a reading that is off by its scatter, m.
 const WORTH_M: f64 = 0.3e-3;
 
-/// A change, and what was seen of it.
+/// An alteration, and the drapes by which it was found.
 pub struct Tried {
-    /// Of each handle of the bench, m.
+    /// Amount of each handle of the bench, m.
     pub amounts: Amounts,
-    /// Readings of the pattern as it is; empty where nothing is asked of the drape.
+    /// Readings of the pattern as it is; empty where no reading is asked for.
     before: Readings,
-    /// What the change promises of them.
+    /// Readings that the change promises.
     promised: Readings,
-    /// The changed pattern, draped.
+    /// Drape of the changed pattern.
     pub after: Option<(Redraped, Readings)>,
-    /// How many times the garment was draped.
+    /// Number of times the garment was draped.
     pub drapes: usize,
-    /// What is to be known of it.
+    /// Remarks on the search.
     pub remarks: Vec<String>,
 }
 
 impl Tried {
-    /// A change that the flat pattern tells by itself.
+    /// Finds the change by the flat pattern alone.
     ///
     /// # Errors
     /// When a handle cannot move.
@@ -37,7 +37,7 @@ impl Tried {
         Ok(Self { amounts, before, promised, after: None, drapes: 0, remarks: Vec::new() })
     }
 
-    /// The same, draped; where that fails the change stays, and it is said.
+    /// As [`Self::flat`], and drapes the changed pattern. If that fails, the change stays, and a remark tells of it.
     ///
     /// # Errors
     /// As [`Self::flat`].
@@ -49,11 +49,11 @@ impl Tried {
         }
     }
 
-    /// A change that meets what is asked of the drape: foreseen, draped, and corrected until it does, or it has been draped often enough;
-    /// of these the one that misses least.
+    /// Finds a change that meets the readings that are asked for. It is predicted, draped, and corrected, until the
+    /// readings are met or [`MOST_DRAPES`] is reached. Of these changes the one that misses least is returned.
     ///
     /// # Errors
-    /// When something is asked that neither ease nor drape has; a handle that cannot move; what the simulator refuses.
+    /// When a target is neither a level nor a reading, a handle cannot move, or the simulator refuses.
     pub fn on(room: &FittingRoom, bench: &Bench) -> Result<Self> {
         let (redraped, before) = room.drape(bench.style)?;
         known(bench, &before)?;
@@ -77,11 +77,9 @@ impl Tried {
             }
             let mut promised = now.clone();
             for (name, reading) in &mut promised {
-                let by = |(answer, change): (&crate::alteration::Sensitivity, f64)| {
-                    answer.get(name).copied().unwrap_or(0.0) * change
-                };
                 let changes = next.iter().zip(&amounts).map(|(next, now)| next - now);
-                reading.value += answers.of_handles.iter().zip(changes).map(by).sum::<f64>();
+                let answers = answers.of_handles.iter().map(|answer| answer.get(name).copied().unwrap_or(0.0));
+                reading.value += answers.zip(changes).map(|(answer, change)| answer * change).sum::<f64>();
             }
             let changed = bench.moved(&next)?;
             let after = room.drape(&changed)?;
@@ -104,7 +102,7 @@ impl Tried {
         self.after.as_ref().map_or(f64::MAX, |(_, readings)| missed(wish, readings))
     }
 
-    /// What was asked of the drape, before and after.
+    /// Readings that were asked for, before and after.
     pub fn readings(&self, wish: &Wish) -> Vec<AlteredReading> {
         let Some((_, after)) = &self.after else { return Vec::new() };
         let reading = |(name, target): (&String, &[f64; 2])| {
@@ -121,11 +119,11 @@ impl Tried {
     }
 }
 
-/// What is said where the drape is no guide.
+/// Remark on a drape that is not stable.
 const UNSTABLE: &str =
     "the coarse drape is about to fold otherwise: what is foreseen of the drape is no guide, what is achieved is seen";
 
-/// Refuses a target that is neither a level nor read off the drape.
+/// Refuses a target that is neither a level nor a reading.
 fn known(bench: &Bench, readings: &Readings) -> Result<()> {
     let unknown = bench.wish.targets.keys().find(|name| !bench.has_level(name) && !readings.contains_key(*name));
     let known = || bench.levels_known().chain(readings.keys()).cloned().collect();
@@ -135,12 +133,13 @@ fn known(bench: &Bench, readings: &Readings) -> Result<()> {
     }
 }
 
-/// What is asked of the drape, from where it is `now` that the handles have moved by `amounts`. A reading counts by what it scatters.
+/// Goals of the readings, linear in the amounts, about the drape `now` with the handles at `amounts`. A reading is
+/// weighted by its scatter.
 fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts: &[f64]) -> Vec<Goal> {
     let goal = |(name, [least, most]): (&String, &[f64; 2])| {
         let value = now.get(name)?.value;
-        let of = |answer: &crate::alteration::Sensitivity| answer.get(name).copied().unwrap_or(0.0);
-        let sensitivity: Vec<f64> = answers.of_handles.iter().map(of).collect();
+        let of_handles = answers.of_handles.iter();
+        let sensitivity: Vec<f64> = of_handles.map(|answer| answer.get(name).copied().unwrap_or(0.0)).collect();
         let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
         let inside = 0.25 * (most - least);
         // What the coarse drape does not have is answered by no handle, and asked for firmly: it is missed, and said so.
@@ -150,13 +149,13 @@ fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts
     wish.targets.iter().filter_map(goal).collect()
 }
 
-/// Sum over what is asked of the drape of how far it is missed, in widths of its band.
+/// Sum over the readings that are asked for of their departures, in widths of their bands.
 fn missed(wish: &Wish, readings: &Readings) -> f64 {
-    let of = |(name, target): (&String, &[f64; 2])| {
+    let departure = |(name, target): (&String, &[f64; 2])| {
         let value = readings.get(name)?.value;
         let [least, most] = *target;
         let off = (least - value).max(value - most).max(0.0);
         Some(if within(*target, value) { 0.0 } else { off / (most - least).max(1e-9) })
     };
-    wish.targets.iter().filter_map(of).sum()
+    wish.targets.iter().filter_map(departure).sum()
 }

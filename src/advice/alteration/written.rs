@@ -1,25 +1,27 @@
-//! The changed pattern as files, and as they are read again.
+//! The changed pattern as files, read again from them.
 
+use crate::error::AdviceError;
 use pattern::dxf::{self, Standard};
 use pattern::handle::{self, Redrawn};
 use pattern::piece::Piece;
 use pattern::{Handle, Style, garmentcode, size_order};
 use spec::{JobSpec, patterns};
 use store::files::SourceFile;
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
 /// A changed pattern in files.
 pub struct Written {
-    /// By file name: the pattern, its seam file where it has one, and a sheet of old and new outlines.
+    /// Files by name: the pattern, its seam file where it has one, and a sheet of old and new outlines.
     pub files: Vec<(String, Vec<u8>)>,
-    /// The style that the files make.
+    /// Style that is read from the files.
     pub again: Style,
 }
 
-/// Writes a job's style as its handles change it into files called `name`: DXF with its seam file, or GarmentCode JSON where the pattern holds its own seams.
+/// Writes a job's style, changed by its handles, into files called `name`: DXF with its seam file, or GarmentCode JSON
+/// where the pattern holds its own seams.
 ///
 /// # Errors
-/// What the handles refuse of the pieces as they are drawn; what cannot be read again.
+/// When the pieces as they are drawn cannot be changed so, or the files cannot be read again.
 pub fn written(
     spec: &JobSpec,
     [style, changed]: [&Style; 2],
@@ -43,10 +45,11 @@ pub fn written(
     Ok(Written { files: files.collect(), again })
 }
 
-/// All sizes of a garment as the handles change them alike, in one DXF called `name`: every piece in every size, read again before it is handed out.
+/// Writes all sizes of a garment, changed alike, into one DXF file called `name` with every piece in every size. The
+/// file is read again before it is returned.
 ///
 /// # Errors
-/// What the handles refuse of a size, and what cannot be read again; a pattern that holds its own seams, of which a nest cannot be made.
+/// When a size cannot be changed so or read again, or the pattern holds its own seams, of which no nest can be made.
 pub fn nest(
     spec: &JobSpec,
     others: &[JobSpec],
@@ -56,11 +59,11 @@ pub fn nest(
 ) -> Result<(String, Vec<u8>)> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut reseamed = None;
-    for of in others.iter().chain([spec]) {
-        let message = format!("{}: holds its own seams; accepted for a nest: DXF with a seam file", of.pattern.name);
-        let seams = of.seams.as_ref().ok_or_else(|| StudyError::refused(Origin::Alter, message))?;
-        let sized = redrawn(of, seams, moves)?;
-        pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(of.size.clone()), ..piece }));
+    for job in others.iter().chain([spec]) {
+        let without_seams = || AdviceError::NestWithoutSeams { pattern: job.pattern.name.clone() };
+        let seams = job.seams.as_ref().ok_or_else(without_seams)?;
+        let sized = redrawn(job, seams, moves)?;
+        pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(job.size.clone()), ..piece }));
         // The seam file beside the nest is that of the asked size, the last.
         reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
     }
@@ -68,8 +71,8 @@ pub fn nest(
     let name = format!("{name}.dxf");
     let bytes = dxf::write_pieces(&pieces, &texts(spec), standard);
     let file = SourceFile { name: name.clone(), bytes: bytes.clone().into() };
-    for of in others.iter().chain([spec]) {
-        patterns::read_style(&file, reseamed.as_ref(), Some(&of.size), None)?;
+    for job in others.iter().chain([spec]) {
+        patterns::read_style(&file, reseamed.as_ref(), Some(&job.size), None)?;
     }
     Ok((name, bytes))
 }
@@ -81,7 +84,7 @@ fn redrawn(spec: &JobSpec, seams: &SourceFile, moves: &[(Handle, f64)]) -> Resul
     handle::redrawn(&drawn, &seams.bytes, &seams.name, moves).origin(Origin::Alter)
 }
 
-/// What a file says of itself.
+/// Texts in the head of a file.
 fn texts(spec: &JobSpec) -> [(String, String); 2] {
     [("Style Name".to_owned(), spec.garment.clone()), ("Units".to_owned(), "METRIC".to_owned())]
 }

@@ -1,4 +1,5 @@
-//! Ease of all sizes on whoever the subject may be: linear about the likeliest body, whose dimensions are moved one by one.
+//! Ease of all sizes on a subject of uncertain dimensions: linear about the median body, whose dimensions are changed
+//! one by one.
 
 use crate::chance::Question;
 use body::{Body, Dimension, Likely, Measurements};
@@ -10,21 +11,24 @@ use pattern::Style;
 use spec::bodies;
 use store::{InOrigin, Origin, Result};
 
-/// Deviations of a normal distribution that its 80 % interval reaches.
+/// Standard deviations from the mean of a normal distribution to either end of its 80 % interval.
 const REACH: f64 = 1.281_551_565_544_6;
 
 /// A level of a size.
 pub(super) struct Level {
     /// Level of the body, such as `chest`.
     pub name: String,
-    /// Least and greatest ease that is meant, m.
+    /// Least and greatest target ease, m.
     pub band_m: Option<[f64; 2]>,
-    /// Ease on the middle person, m.
+    /// Ease on the median person, m.
     middle_m: f64,
-    /// How the ease changes with the logarithm of each dimension, m, in the order of the bench's dimensions.
+    /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of the bench's
+    /// dimensions.
     slopes: Vec<f64>,
-    /// Part of the garment whose seams run through it, and the standard deviation of the garment's length there, m.
-    made: (usize, f64),
+    /// Index of the part of the garment whose seams run through the level.
+    part: usize,
+    /// Standard deviation of the garment's length there, m.
+    made_m: f64,
 }
 
 /// A size on a subject.
@@ -36,21 +40,22 @@ pub(super) struct Sized {
 }
 
 impl Sized {
-    /// What is meant at each level, m.
+    /// Target ease at each level, m.
     pub fn bands(&self) -> Vec<Option<[f64; 2]>> {
         self.levels.iter().map(|level| level.band_m).collect()
     }
 
-    /// What one garment's length at each level is off by how it is made, m: alike along the same seams.
+    /// Draws the errors of one garment's length at each level by the way it is made, m. Levels of the same part have
+    /// the same error.
     pub fn made_m(&self, draw: &mut Draw) -> Vec<f64> {
         let made: [f64; PARTS] = std::array::from_fn(|_| draw.normal());
-        self.levels.iter().map(|level| level.made.1 * made[level.made.0]).collect()
+        self.levels.iter().map(|level| level.made_m * made[level.part]).collect()
     }
 }
 
 /// All sizes of a garment on a subject.
 pub(super) struct Bench {
-    /// What was read of the subject.
+    /// Measurements that were read of the subject.
     pub readings: Measurements,
     /// Its sizes, in order.
     pub sizes: Vec<Sized>,
@@ -64,12 +69,12 @@ pub(super) struct Bench {
 /// Ease by level, m.
 type Eases = Vec<(String, f64)>;
 
-/// Parts of a garment that are sewn each by itself: trunk, sleeves, legs, shoulders, neck.
+/// Number of parts of a garment that are sewn each by itself: trunk, sleeves, legs, shoulders, neck.
 const PARTS: usize = 5;
 
-/// The part that a level belongs to, and the standard deviation of its length over the tolerance of half of a girth. One of twenty
-/// garments lies outside its tolerance, which is two deviations; a whole girth has twice that of its half, and sleeves and legs
-/// three quarters of the trunk's, as makers allow [Proper Cloth].
+/// Part that a level belongs to, and the standard deviation of its length over the tolerance of half of a girth. One
+/// of twenty garments lies outside its tolerance, which is two deviations. A whole girth has twice that of its half,
+/// and sleeves and legs three quarters of the trunk's, as makers allow [Proper Cloth].
 fn part(level: &str) -> (usize, f64) {
     match level {
         "across_shoulder" => (3, 0.5),
@@ -81,8 +86,8 @@ fn part(level: &str) -> (usize, f64) {
 }
 
 impl Bench {
-    /// The sizes of a garment on a subject of whom some readings are known; on a scan, where the subject is one, which then is read
-    /// by a tape of its own.
+    /// Prepares the sizes of a garment for a subject of whom some measurements were read. A subject that is a scan is
+    /// read by the tape on the scan.
     pub fn new(
         styles: &[(String, Style)],
         target: &Target,
@@ -99,7 +104,7 @@ impl Bench {
         let dimensions: Vec<Dimension> = Dimension::ALL.into_iter().filter(is_open).collect();
         let mut bench = Self { readings, sizes: Vec::new(), likely, middle, error_factor, dimensions };
         let built = bodies::build_body(&bench.middle)?;
-        let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|one| bench.moved(*one)).collect();
+        let moved: Vec<[Option<Body>; 2]> = bench.dimensions.iter().map(|dimension| bench.moved(*dimension)).collect();
         let tolerance_m = from_mm(question.tolerance_mm);
         let size = |(size, style): &(String, Style)| Sized {
             size: size.clone(),
@@ -114,30 +119,31 @@ impl Bench {
         self.error_factor * dimension.reading_error()
     }
 
-    /// The 80 % interval of a dimension with its middle, m or kg.
+    /// The 80 % interval of a dimension with its median, m or kg.
     pub fn likely_at(&self, dimension: Dimension) -> Option<[f64; 3]> {
         let (middle, spread) = (self.middle.get(dimension)?, self.likely.spread(dimension));
         Some([-REACH, 0.0, REACH].map(|score| middle * (score * spread).exp()))
     }
 
-    /// Whoever the subject may be.
+    /// Draws a person with the dimensions that the subject may have.
     pub fn person(&self, draw: &mut Draw) -> Measurements {
         self.likely.person(&std::array::from_fn(|_| draw.normal()))
     }
 
-    /// Ease at every level of a size on a person, m, of a garment that is made as exactly as garments are.
+    /// Draws the ease at every level of a size on a person, m, of a garment that is made as exactly as garments are.
     pub fn eases_m(&self, size: &Sized, person: &Measurements, draw: &mut Draw) -> Vec<f64> {
         let off = self.off(&self.middle, person);
         size.levels.iter().zip(size.made_m(draw)).map(|(level, made_m)| level.on(&off) + made_m).collect()
     }
 
-    /// Difference of two people in the logarithms of the dimensions that are not known exactly; what either does not have is none.
+    /// Differences of two people in the logarithms of the dimensions that are not known exactly; 0 where either lacks
+    /// one.
     fn off(&self, from: &Measurements, to: &Measurements) -> Vec<f64> {
-        let one = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
-        self.dimensions.iter().map(|dimension| one(dimension).unwrap_or(0.0)).collect()
+        let difference = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
+        self.dimensions.iter().map(|dimension| difference(dimension).unwrap_or(0.0)).collect()
     }
 
-    /// The middle body with a dimension one deviation less and more; `None` where there is no such body.
+    /// The median body with a dimension one deviation less and more; `None` where there is no such body.
     fn moved(&self, dimension: Dimension) -> [Option<Body>; 2] {
         [-1.0, 1.0].map(|side| {
             let value = self.middle.get(dimension).map(|value| value * (side * self.likely.spread(dimension)).exp());
@@ -145,7 +151,7 @@ impl Bench {
         })
     }
 
-    /// The levels of a size on the middle body, or on a scan.
+    /// Levels of a size on the median body, or on a scan.
     fn levels(
         &self,
         style: &Style,
@@ -155,7 +161,7 @@ impl Bench {
         scanned: Option<&Body>,
         tolerance_m: f64,
     ) -> Vec<Level> {
-        let at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
+        let ease_at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
         let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
         let all: Vec<&Body> = bodies.clone().flatten().collect();
         let mut found = ease::on_all(style, &all).into_iter();
@@ -169,7 +175,7 @@ impl Bench {
         let moved: Vec<[Option<Eases>; 2]> =
             (0..moved.len()).map(|_| [eases.next().flatten(), eases.next().flatten()]).collect();
         let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Eases>; 2])| {
-            let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| at(eases, level)));
+            let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| ease_at(eases, level)));
             let sides = f64::from(u8::from(less.is_some()) + u8::from(more.is_some()));
             let change = more.unwrap_or(here) - less.unwrap_or(here);
             if sides > 0.0 { change / (sides * self.likely.spread(*dimension)) } else { 0.0 }
@@ -183,10 +189,11 @@ impl Bench {
                 band_m: target.band_m(name, is_top),
                 middle_m: *here,
                 slopes,
-                made: (part, share * tolerance_m),
+                part,
+                made_m: share * tolerance_m,
             };
             // A scan has a shape of its own: its ease where it was read, moved to the middle person.
-            let own = own.as_ref().and_then(|eases| at(eases, name));
+            let own = own.as_ref().and_then(|eases| ease_at(eases, name));
             let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
             Level { middle_m, ..found }
         };
@@ -195,13 +202,13 @@ impl Bench {
 }
 
 impl Level {
-    /// Ease on a person that is so far off the middle one, m.
+    /// Ease on a person with these differences from the median one, m.
     fn on(&self, off: &[f64]) -> f64 {
         self.middle_m + self.slopes.iter().zip(off).map(|(slope, off)| slope * off).sum::<f64>()
     }
 }
 
-/// What a tape reads on a scanned body.
+/// Tape measurements of a scanned body.
 fn read_on(body: &Body, measurements: &Measurements) -> Measurements {
     let mut read = measurements.clone();
     for dimension in Dimension::ALL {

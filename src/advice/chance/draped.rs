@@ -1,47 +1,50 @@
-//! The same draws draped: body, cloth and start drawn, and what the drapes say.
+//! Draws of one size, draped: body, cloth and start are drawn, and the drapes are measured.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::json;
 
 use crate::chance::Question;
-use crate::chance::bench::{Bench, Sized};
+use crate::chance::bench::{Bench, Level, Sized};
+use crate::error::AdviceError;
 use engine::Outcome;
 use engine::fitting::Fitting;
-use engine::stages::{self, Meshes};
+use engine::stages::{self, Garb, Meshes};
 use fit::chance::{self, Share, Sitting};
 use fit::{Draw, Simulator};
 use geom::DistanceField;
 use geom::units::mm;
-use pattern::Style;
+use sim::dressing::Wearer;
 use sim::fabric::{Kind, weights};
 use sim::{Fabric, Silent};
 use spec::versions::FIELD_SPACING_M;
 use spec::{JobSpec, bodies};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// Where pieces begin before the body: from as near as they usually do to as far as the thesis had them [T 4.4.2], of the body's depth.
+/// Range of the distance at which pieces start from the body, in body depths: from the usual one to that of the thesis
+/// [T 4.4.2].
 const OFFSET_MU: [f64; 2] = [2.1, 4.1];
 
 /// Some draws of one size, draped by FEM-GS.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedChance {
-    /// How many were draped.
+    /// Number of draws that were draped.
     pub draws: usize,
-    /// How many of them came to rest.
+    /// Number of drapes that came to rest.
     pub at_rest: usize,
-    /// That every level is as meant, by the lengths that the garment has on the drape.
+    /// Probability that every level is within its target, by the lengths of the garment on the drape.
     pub fits: Share,
     /// Lower end, middle and upper end of the 80 % interval of the ease on the drape, mm, by level.
     pub ease_mm: BTreeMap<String, [f64; 3]>,
-    /// Of the hem's height in front less that behind, mm.
+    /// Hem's height in front less that behind, mm: its 80 % interval, likewise.
     pub hem_front_over_back_mm: Option<[f64; 3]>,
-    /// Of the greatest pressure, kPa.
+    /// Greatest pressure, kPa, likewise.
     pub most_kpa: Option<[f64; 3]>,
-    /// Of the cantilever's bending length along the grain line, mm.
+    /// Cantilever's bending length along the grain line, mm, likewise.
     pub bending_length_mm: [f64; 3],
-    /// Draws that could not be draped, and why.
+    /// Draws that could not be draped, with the reason.
     pub refused: Vec<String>,
 }
 
@@ -55,64 +58,58 @@ struct Drawn {
 /// Drapes draws of a size.
 ///
 /// # Errors
-/// What the pattern refuses; a draw that cannot be draped is told.
+/// When the pattern cannot be read or meshed. A draw that cannot be draped is no error.
 pub(super) fn draped(job: &JobSpec, bench: &Bench, question: &Question) -> Result<DrapedChance> {
     let style = stages::style(job)?;
-    let meshes = Meshes::of(&style, job.edge_length_m)?;
-    let size = bench.sizes.iter().find(|size| size.size == job.size);
-    let size = size.ok_or_else(|| StudyError::refused(Origin::Chance, "no such size"))?;
+    let meshes = Arc::new(Meshes::of(&style, job.edge_length_m)?);
+    let garb = Garb { style, meshes, fabric: job.fabric.clone() };
+    let size = bench.sizes.iter().find(|size| size.size == job.size).ok_or(AdviceError::UnknownSize)?;
     let mut draw = Draw::new(question.seed);
     let (mut drawn, mut refused) = (Vec::new(), Vec::new());
     for number in 1..=question.fem {
-        match one(job, bench, size, (&style, &meshes), &mut draw) {
-            Ok(one) => drawn.push(one),
+        match drawn_and_draped(job, bench, size, &garb, &mut draw) {
+            Ok(draped) => drawn.push(draped),
             Err(error) => refused.push(format!("draw {number}: {error}")),
         }
     }
     let bands = size.bands();
-    let fit = |one: &&Drawn| chance::verdict(&one.eases_m, &bands).sitting == Sitting::Fits && one.outcome.converged;
-    let of = |value: &dyn Fn(&Drawn) -> Option<f64>| -> Vec<f64> { drawn.iter().filter_map(value).collect() };
-    let some = |values: Vec<f64>| (!values.is_empty()).then(|| chance::interval(&values));
-    let level = |at: usize| chance::interval(&of(&|one| one.eases_m.get(at).copied())).map(mm);
-    let hem = |one: &Drawn| one.outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
-    let pressed = |one: &Drawn| one.outcome.worn.pressing.iter().map(|one| one.most_kpa).reduce(f64::max);
+    let fits =
+        |draw: &&Drawn| chance::verdict(&draw.eases_m, &bands).sitting == Sitting::Fits && draw.outcome.converged;
+    let values = |value: &dyn Fn(&Drawn) -> Option<f64>| -> Vec<f64> { drawn.iter().filter_map(value).collect() };
+    let known = |values: Vec<f64>| (!values.is_empty()).then(|| chance::interval(&values));
+    let level = |number: usize| chance::interval(&values(&|draw| draw.eases_m.get(number).copied())).map(mm);
     Ok(DrapedChance {
         draws: drawn.len(),
-        at_rest: drawn.iter().filter(|one| one.outcome.converged).count(),
-        fits: Share::of(drawn.iter().filter(fit).count(), drawn.len()),
-        ease_mm: size.levels.iter().enumerate().map(|(at, one)| (one.name.clone(), level(at))).collect(),
-        hem_front_over_back_mm: some(of(&hem)),
-        most_kpa: some(of(&pressed)),
-        bending_length_mm: chance::interval(&of(&|one| Some(one.bending_m))).map(mm),
+        at_rest: drawn.iter().filter(|draw| draw.outcome.converged).count(),
+        fits: Share::of(drawn.iter().filter(fits).count(), drawn.len()),
+        ease_mm: size.levels.iter().enumerate().map(|(number, known)| (known.name.clone(), level(number))).collect(),
+        hem_front_over_back_mm: known(values(&|draw| draw.outcome.worn.hem_front_over_back_m().map(mm))),
+        most_kpa: known(values(&|draw| draw.outcome.worn.most_kpa())),
+        bending_length_mm: chance::interval(&values(&|draw| Some(draw.bending_m))).map(mm),
         refused,
     })
 }
 
-fn one(
-    job: &JobSpec,
-    bench: &Bench,
-    size: &Sized,
-    (style, meshes): (&Style, &Meshes),
-    draw: &mut Draw,
-) -> Result<Drawn> {
+/// Draws body, cloth and start, and drapes a size.
+fn drawn_and_draped(job: &JobSpec, bench: &Bench, size: &Sized, garb: &Garb, draw: &mut Draw) -> Result<Drawn> {
     let person = bench.person(draw);
     let made_m = size.made_m(draw);
-    let fabric = drawn_fabric(&job.fabric, draw);
+    let garb = Garb { fabric: drawn_fabric(&garb.fabric, draw), ..garb.clone() };
     let [near, far] = OFFSET_MU;
     let mut parameters = job.parameters.clone();
     parameters.set("fem.offset_mu", json!(near + (far - near) * draw.share())).origin(Origin::Chance)?;
     let body = bodies::build_body(&person)?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
-    let simulator = Simulator::Fem;
-    let fitting =
-        Fitting { body: &body, field: &field, style, meshes, fabric: &fabric, simulator, parameters: &parameters };
+    let wearer = Wearer { body: &body, field: &field };
+    let fitting = Fitting { wearer, garb: &garb, simulator: Simulator::Fem, parameters: &parameters };
     let outcome = fitting.outcome(&fitting.simulate(&mut Silent)?)?;
-    let on = |(level, made_m): (&crate::chance::bench::Level, f64)| worn_ease_m(&outcome, &level.name) + made_m;
-    let eases_m = size.levels.iter().zip(made_m).map(on).collect();
-    Ok(Drawn { eases_m, bending_m: fabric.bending_lengths_m()[0], outcome })
+    let ease_m = |(level, made_m): (&Level, f64)| worn_ease_m(&outcome, &level.name) + made_m;
+    let eases_m = size.levels.iter().zip(made_m).map(ease_m).collect();
+    Ok(Drawn { eases_m, bending_m: garb.fabric.bending_lengths_m()[0], outcome })
 }
 
-/// A cloth of a class: as stiff as one of the known cloths of its weight. What is one cloth stays as it is.
+/// Draws a cloth of a class, as stiff as one of the known cloths of its weight. A fabric that is one measured cloth
+/// stays as it is.
 fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     let percentile = 100.0 * draw.share();
     let is_class = fabric.known().is_some_and(|known| known.kind == Kind::Class);
@@ -123,8 +120,8 @@ fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     Fabric { bending_warp_nm, bending_weft_nm, ..fabric.clone() }
 }
 
-/// Ease at a level by the length that the garment has there on the drape, m: its flat length, stretched as the point of
-/// measure nearest to the level is. It is not a number where the garment has no such level on this body.
+/// Ease at a level by the garment's length on the drape, m: its flat length, stretched as the point of measure nearest
+/// to the level is. Not a number where the garment has no such level on this body.
 fn worn_ease_m(outcome: &Outcome, level: &str) -> f64 {
     let points: &[&str] = match level {
         "chest" | "bust" | "underbust" => &["half_chest"],

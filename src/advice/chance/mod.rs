@@ -1,4 +1,5 @@
-//! How probable it is that a garment fits: what is not known of body, garment, cloth and start is drawn, and every draw is judged.
+//! Probability that a garment fits: the unknowns of body, garment, cloth and start are drawn, and every draw is
+//! judged.
 
 mod bench;
 mod draped;
@@ -12,6 +13,7 @@ pub use planted::{PlantedLevel, PlantedTally, Reliability, planted};
 use serde::Serialize;
 
 use crate::alteration::one;
+use crate::error::AdviceError;
 use bench::{Bench, Sized};
 use body::Dimension;
 use engine::stages;
@@ -22,26 +24,26 @@ use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 use spec::{JobSpec, Study};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// Whose fit is asked for, and what is drawn.
+/// A question after a probability of fit, and the draws that answer it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Who is to wear it; needed where the study has several.
+    /// Subject; needed where the study has several.
     pub subject: Option<String>,
     /// Size whose levels are told; by default the one that is worn most often.
     pub size: Option<String>,
-    /// How often what is not known is drawn.
+    /// Number of draws.
     pub draws: usize,
     /// Seed of the draws.
     pub seed: u64,
-    /// Errors of readings over those of somebody trained.
+    /// Factor on the errors of a trained measurer.
     pub error_factor: f64,
-    /// How far half of a girth of the garment may be off, mm; one of twenty garments is off by more.
+    /// Tolerance of half of a girth of the garment, mm: one of twenty garments is off by more.
     pub tolerance_mm: f64,
-    /// How many draws are draped by FEM-GS.
+    /// Number of draws that are draped by FEM-GS.
     pub fem: usize,
 }
 
@@ -50,9 +52,9 @@ pub struct Question {
 pub struct LikelyDimension {
     /// Key, with its unit.
     pub dimension: &'static str,
-    /// What was read, and the standard deviation of its error; `None` where nothing was.
+    /// Value that was read, and the standard deviation of its error; `None` where nothing was read.
     pub read: Option<[f64; 2]>,
-    /// Lower end, middle and upper end of the 80 % interval of the true value.
+    /// Lower end, median and upper end of the 80 % interval of the true value.
     pub likely: [f64; 3],
 }
 
@@ -61,47 +63,48 @@ pub struct LikelyDimension {
 pub struct LevelChance {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest ease that is meant, mm; `None` where none is.
+    /// Least and greatest target ease, mm; `None` where there is no target.
     pub target_mm: Option<[f64; 2]>,
-    /// Lower end, middle and upper end of the 80 % interval of the ease, mm.
+    /// Lower end, median and upper end of the 80 % interval of the ease, mm.
     pub ease_mm: [f64; 3],
     /// Share of draws in which it is too tight.
     pub tight: f64,
     /// Share in which it is too loose.
     pub loose: f64,
-    /// Share in which it is the worst level, and not as meant.
+    /// Share in which it is the worst level, and outside its target.
     pub decides: f64,
 }
 
 impl LevelChance {
-    /// Share of draws in which it is as meant.
+    /// Share of draws in which it is within its target.
     #[must_use]
     pub fn as_meant(&self) -> f64 {
         1.0 - self.tight - self.loose
     }
 }
 
-/// How probable it is that a size is to wear, and that it fits.
+/// Probabilities that a size is the one to wear, and that it fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeChance {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// That it is the size to wear.
+    /// Probability that it is the size to wear.
     pub wear: Share,
-    /// That every level is as meant.
+    /// Probability that every level is within its target.
     pub fits: Share,
     /// Share of draws in which its worst level is too tight.
     pub tight: f64,
     /// Share in which its worst level is too loose.
     pub loose: f64,
-    /// Share in which that counts more than a grade step.
+    /// Share in which its worst level is farther from its target than a grade step, too tight counting double.
     pub out_of_reach: f64,
     /// Each level of the size, from the neck down.
     pub levels: Vec<LevelChance>,
 }
 
 impl SizeChance {
-    /// What it probably is among the sizes: the one to wear, or only the nearest where more often than not it is out of reach.
+    /// Words for its place: the size to wear, or only the nearest one, where it is out of reach in more than half of
+    /// the draws.
     #[must_use]
     pub fn place(&self) -> &'static str {
         if self.out_of_reach > 0.5 { "the nearest, though none fits," } else { "the one to wear" }
@@ -115,26 +118,26 @@ impl SizeChance {
     }
 }
 
-/// How probable it is that a garment fits somebody.
+/// Probabilities that the sizes of a garment fit a subject.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chance {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Fit that is meant, as study files name it.
+    /// Intended fit, as study files name it.
     pub intended: &'static str,
     /// Number of draws that shares are counted over.
     pub draws: usize,
     /// Seed of the draws: the same seed gives the same answer.
     pub seed: u64,
-    /// What is known of the subject.
+    /// Dimensions of the subject.
     pub body: Vec<LikelyDimension>,
     /// Its sizes, in order.
     pub sizes: Vec<SizeChance>,
     /// The size whose levels are told.
     pub told: String,
-    /// That size draped, where that is asked.
+    /// Drapes of that size, where they are asked for.
     pub drape: Option<DrapedChance>,
 }
 
@@ -145,10 +148,10 @@ impl Chance {
         self.sizes.iter().find(|size| size.size == self.told)
     }
 
-    /// The ease of every size, level by level, beside its targets.
+    /// Chart of the ease of every size, level by level, beside its targets.
     ///
     /// # Errors
-    /// When it cannot be drawn.
+    /// When the chart cannot be drawn.
     pub fn chart(&self) -> Result<Chart> {
         let title = format!("{} on {}", self.garment, self.subject);
         let row = |size: &SizeChance, level: &LevelChance| Probable {
@@ -164,13 +167,14 @@ impl Chance {
     }
 }
 
-/// How probable it is that the sizes of a garment fit a subject.
+/// Estimates the probabilities that the sizes of a garment fit a subject.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have; what body or pattern refuse.
+/// [`store::StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or pattern
+/// refuse.
 pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
-    let first = jobs.first().ok_or_else(|| StudyError::refused(Origin::Chance, "the garment has no size"))?;
+    let first = jobs.first().ok_or(AdviceError::NoSize)?;
     let asked_size = question.size.as_deref().map(|size| one("size", Some(size), sizes_of(&jobs))).transpose()?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?)));
     let styles = styles.collect::<Result<Vec<_>>>()?;
@@ -197,7 +201,7 @@ fn sizes_of(jobs: &[JobSpec]) -> Vec<String> {
     jobs.iter().map(|job| job.size.clone()).collect()
 }
 
-/// A job of each size of what is asked, and the ease that the garment is to have.
+/// A job of each size of the garment on the subject, and the target ease.
 fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     let garments = study.garments.iter().map(|garment| garment.name.clone()).collect();
     let name = one("garment", question.garment.as_deref(), garments)?;
@@ -209,10 +213,10 @@ fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     Ok((jobs, garment.map_or_else(Target::default, |garment| garment.target.clone())))
 }
 
-/// Every dimension as it is likely to be.
+/// Every dimension of the subject with its interval.
 fn known(bench: &Bench) -> Vec<LikelyDimension> {
     let scale = |dimension: Dimension, value: f64| (value * dimension.per_si() * 10.0).round() / 10.0;
-    let of = |dimension: Dimension| {
+    let likely_dimension = |dimension: Dimension| {
         let likely = bench.likely_at(dimension)?;
         let read = bench.readings.get(dimension).map(|value| [value, bench.error(dimension)]);
         Some(LikelyDimension {
@@ -221,10 +225,10 @@ fn known(bench: &Bench) -> Vec<LikelyDimension> {
             likely: likely.map(|value| scale(dimension, value)),
         })
     };
-    Dimension::ALL.into_iter().filter_map(of).collect()
+    Dimension::ALL.into_iter().filter_map(likely_dimension).collect()
 }
 
-/// Draws bodies and garments, and counts.
+/// Draws bodies and garments, and counts their verdicts.
 fn tallied(bench: &Bench, question: &Question) -> Vec<SizeChance> {
     let mut draw = Draw::new(question.seed);
     let mut drawn: Vec<Vec<Vec<f64>>> = vec![Vec::with_capacity(question.draws); bench.sizes.len()];
@@ -251,8 +255,8 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
     let draws = verdicts.len();
     let count = |is: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count();
     let share = |count: usize| Share::of(count, draws).share;
-    let level = |(at, level): (usize, &bench::Level)| {
-        let eases: Vec<f64> = drawn.iter().map(|eases| eases[at]).collect();
+    let level = |(number, level): (usize, &bench::Level)| {
+        let eases: Vec<f64> = drawn.iter().map(|eases| eases[number]).collect();
         let sits = |wanted: Sitting| {
             let is = |ease: &&f64| level.band_m.is_some_and(|band| chance::sitting(**ease, band) == wanted);
             share(eases.iter().filter(is).count())
@@ -263,7 +267,7 @@ fn size_chance(size: &Sized, drawn: &[Vec<f64>], verdicts: &[Verdict], worn: usi
             ease_mm: chance::interval(&eases).map(mm),
             tight: sits(Sitting::Tight),
             loose: sits(Sitting::Loose),
-            decides: share(count(&|verdict| verdict.decides == Some(at))),
+            decides: share(count(&|verdict| verdict.decides == Some(number))),
         }
     };
     SizeChance {

@@ -1,4 +1,5 @@
-//! Whether what is told comes true: people are planted whose bodies are known, measured with errors, and judged from the readings.
+//! Calibration of the probabilities: people of known bodies are measured with errors and judged by the readings, and
+//! the truth is counted.
 
 use std::thread;
 
@@ -6,22 +7,23 @@ use serde::Serialize;
 
 use crate::chance::bench::Bench;
 use crate::chance::{Question, asked, tallied};
+use crate::error::AdviceError;
 use body::{Body, Dimension, Likely, Measurements, Sex};
 use engine::{ease, stages};
-use fit::Draw;
 use fit::chance::{self, Share, Sitting};
 use fit::target::Target;
+use fit::{Draw, Ease};
 use geom::units::mm;
 use pattern::Style;
 use spec::{Study, bodies};
-use store::{Origin, Result, StudyError};
+use store::Result;
 
 /// A level over all people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedLevel {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// People who have it.
+    /// Number of people who have it.
     pub people: usize,
     /// Share of them whose true ease lies in the 80 % interval that was told.
     pub held: Share,
@@ -29,51 +31,73 @@ pub struct PlantedLevel {
     pub width_mm: f64,
 }
 
-/// Cases whose probability was told within a range.
+/// Reliability of probabilities within a range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reliability {
-    /// Least and greatest probability that was told.
+    /// Least and greatest probability of the range.
     pub told: [f64; 2],
     /// Number of cases, each a size on a person.
     pub cases: usize,
-    /// Mean of what was told.
+    /// Mean probability.
     pub mean: f64,
-    /// Share that came true.
+    /// Share of cases that came true.
     pub came_true: Share,
 }
 
-/// What became of planted people.
+/// Calibration over simulated people of known bodies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedTally {
-    /// People, half of them women.
+    /// Number of people, half of them women.
     pub people: usize,
-    /// What was read of each.
+    /// Dimensions that were read of each.
     pub read: Vec<&'static str>,
-    /// Over all levels that have a target.
+    /// Share of true eases within the 80 % interval, over all levels that have a target.
     pub held: Share,
     /// The same by level, over the people who have it.
     pub levels: Vec<PlantedLevel>,
-    /// That a size fits, over all sizes.
+    /// Reliability of the probability that a size fits, over all sizes.
     pub fits: Vec<Reliability>,
-    /// That a size is the one to wear, over all sizes.
+    /// Reliability of the probability that a size is the one to wear, over all sizes.
     pub wear: Vec<Reliability>,
 }
 
-/// Bounds of the ranges of told probabilities.
+/// Bounds of the ranges of probabilities.
 const RANGES: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
 
-/// What was told of one person, and what is so.
+/// Probabilities and intervals for one person, with the truth.
 #[derive(Default)]
 struct Case {
-    /// Level, whether it has a target, the 80 % interval told, and the true ease; mm.
-    levels: Vec<(String, bool, [f64; 3], f64)>,
-    /// Probability told that a size fits, and whether it does.
-    fits: Vec<(f64, bool)>,
-    wear: Vec<(f64, bool)>,
+    levels: Vec<CaseLevel>,
+    /// That a size fits.
+    fits: Vec<Told>,
+    /// That a size is the one to wear.
+    wear: Vec<Told>,
 }
 
-/// Plants people of both sexes as the survey has them, reads of each what is read of the subject that is asked for, with errors of
-/// `error_factor`, and counts how often the truth lies where [`chance`](crate::chance::chance()) says.
+/// Ease of the size to wear at a level.
+struct CaseLevel {
+    level: String,
+    has_target: bool,
+    /// The 80 % interval that was told, mm.
+    told_mm: [f64; 3],
+    true_mm: f64,
+}
+
+impl CaseLevel {
+    /// True if the interval holds the true ease.
+    fn is_held(&self) -> bool {
+        (self.told_mm[0]..=self.told_mm[2]).contains(&self.true_mm)
+    }
+}
+
+/// A probability that was told, with the truth.
+struct Told {
+    probability: f64,
+    came_true: bool,
+}
+
+/// Draws people of both sexes from the survey, and reads of each the dimensions that are known of the subject, with
+/// errors of `error_factor`. Counts how often the truth lies where [`chance`](crate::chance::chance()) says.
 ///
 /// # Errors
 /// As [`chance`](crate::chance::chance()).
@@ -87,7 +111,7 @@ pub fn planted(study: &Study, question: &Question, people: usize, error_factor: 
     let cases: Vec<Result<Vec<Case>>> = thread::scope(|scope| {
         let work = |worker: usize| move || (worker..people).step_by(workers).map(|number| plot.case(number)).collect();
         let threads: Vec<_> = (0..workers).map(|worker| scope.spawn(work(worker))).collect();
-        let lost = |_| Err(StudyError::refused(Origin::Chance, "a thread ended early"));
+        let lost = |_| Err(AdviceError::LostThread.into());
         threads.into_iter().map(|thread| thread.join().unwrap_or_else(lost)).collect()
     });
     let cases: Vec<Case> = cases.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
@@ -104,7 +128,7 @@ struct Plot<'a> {
 }
 
 impl Plot<'_> {
-    /// Plants a person, measures them with errors, and compares what is told with the truth.
+    /// Draws a person, measures them with errors, and compares the probabilities with the truth.
     fn case(&self, number: usize) -> Result<Case> {
         let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
         let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };
@@ -124,24 +148,33 @@ impl Plot<'_> {
         for ((size, chance), (_, style)) in bench.sizes.iter().zip(&told).zip(self.styles) {
             let eases = ease::on(style, &body);
             let made_m = size.made_m(&mut draw);
-            let of = |level: &str| eases.iter().find(|ease| ease.level == level).map_or(f64::NAN, |ease| ease.ease_m());
-            let truth: Vec<f64> = size.levels.iter().zip(made_m).map(|(level, made)| of(&level.name) + made).collect();
+            let ease_m = |level: &str| eases.iter().find(|ease| ease.level == level).map_or(f64::NAN, Ease::ease_m);
+            let levels = size.levels.iter().zip(made_m);
+            let truth: Vec<f64> = levels.map(|(level, made_m)| ease_m(&level.name) + made_m).collect();
             let verdict = chance::verdict(&truth, &size.bands());
-            case.fits.push((chance.fits.share, verdict.sitting == Sitting::Fits));
+            case.fits.push(Told { probability: chance.fits.share, came_true: verdict.sitting == Sitting::Fits });
             verdicts.push(verdict);
             if chance.size == worn.size {
                 let levels = chance.levels.iter().zip(truth).filter(|(_, ease_m)| ease_m.is_finite());
-                case.levels.extend(
-                    levels.map(|(one, ease_m)| (one.level.clone(), one.target_mm.is_some(), one.ease_mm, mm(ease_m))),
-                );
+                case.levels.extend(levels.map(|(level, ease_m)| CaseLevel {
+                    level: level.level.clone(),
+                    has_target: level.target_mm.is_some(),
+                    told_mm: level.ease_mm,
+                    true_mm: mm(ease_m),
+                }));
             }
         }
         let to_wear = chance::to_wear(&verdicts);
-        case.wear = told.iter().enumerate().map(|(at, size)| (size.wear.share, to_wear == Some(at))).collect();
+        let wear = told
+            .iter()
+            .enumerate()
+            .map(|(number, size)| Told { probability: size.wear.share, came_true: to_wear == Some(number) });
+        case.wear = wear.collect();
         Ok(case)
     }
 
-    /// Somebody's body, and the sizes on whoever was read there.
+    /// Body of a person, and the bench of the readings of it; `None` where the body cannot be built or the readings
+    /// are of nobody.
     fn planted(&self, sex: Sex, draw: &mut Draw) -> Option<(Body, Bench)> {
         let person = Likely::anybody(sex).person(&std::array::from_fn(|_| draw.normal()));
         let body = bodies::build_body(&person).ok()?;
@@ -156,47 +189,45 @@ impl Plot<'_> {
 }
 
 fn tally(cases: &[Case], read: &[Dimension]) -> PlantedTally {
-    let is_held = |told: &[f64; 3], truth: f64| (told[0]..=told[2]).contains(&truth);
     let all = || cases.iter().flat_map(|case| &case.levels);
+    let held = |of: &[&CaseLevel]| Share::of(of.iter().filter(|level| level.is_held()).count(), of.len());
     let mut names: Vec<&str> = Vec::new();
-    for (name, ..) in all() {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
+    for CaseLevel { level, .. } in all() {
+        if !names.contains(&level.as_str()) {
+            names.push(level);
         }
     }
     let level = |name: &&str| {
-        let own: Vec<_> = all().filter(|(level, ..)| level == name).collect();
-        let held = own.iter().filter(|(_, _, told, truth)| is_held(told, *truth)).count();
-        let width = own.iter().map(|(_, _, told, _)| told[2] - told[0]).sum::<f64>() / own.len() as f64;
+        let own: Vec<_> = all().filter(|case| case.level == *name).collect();
+        let width = own.iter().map(|case| case.told_mm[2] - case.told_mm[0]).sum::<f64>() / own.len() as f64;
         PlantedLevel {
             level: (*name).to_owned(),
             people: own.len(),
-            held: Share::of(held, own.len()),
+            held: held(&own),
             width_mm: (width * 10.0).round() / 10.0,
         }
     };
-    let meant: Vec<_> = all().filter(|(_, is_meant, ..)| *is_meant).collect();
-    let held = meant.iter().filter(|(_, _, told, truth)| is_held(told, *truth)).count();
     PlantedTally {
         people: cases.len(),
         read: read.iter().map(|dimension| dimension.key()).collect(),
-        held: Share::of(held, meant.len()),
+        held: held(&all().filter(|case| case.has_target).collect::<Vec<_>>()),
         levels: names.iter().map(level).collect(),
         fits: reliability(cases.iter().flat_map(|case| &case.fits)),
         wear: reliability(cases.iter().flat_map(|case| &case.wear)),
     }
 }
 
-/// Told probabilities in ranges, beside how often they came true.
-fn reliability<'a>(told: impl Iterator<Item = &'a (f64, bool)>) -> Vec<Reliability> {
-    let told: Vec<&(f64, bool)> = told.collect();
+/// Probabilities in ranges, with the shares that came true.
+fn reliability<'a>(told: impl Iterator<Item = &'a Told>) -> Vec<Reliability> {
+    let told: Vec<&Told> = told.collect();
     let last = RANGES.len() - 2;
-    let of = |at: usize| {
-        let [low, high] = [RANGES[at], RANGES[at + 1]];
-        let own: Vec<_> = told.iter().filter(|(p, _)| *p >= low && (*p < high || at == last)).collect();
-        let mean = own.iter().map(|(p, _)| p).sum::<f64>() / own.len() as f64;
-        let came_true = Share::of(own.iter().filter(|(_, is_so)| *is_so).count(), own.len());
+    let within = |number: usize| {
+        let [low, high] = [RANGES[number], RANGES[number + 1]];
+        let is_within = |p: f64| p >= low && (p < high || number == last);
+        let own: Vec<_> = told.iter().filter(|told| is_within(told.probability)).collect();
+        let mean = own.iter().map(|told| told.probability).sum::<f64>() / own.len() as f64;
+        let came_true = Share::of(own.iter().filter(|told| told.came_true).count(), own.len());
         Reliability { told: [low, high], cases: own.len(), mean, came_true }
     };
-    (0..=last).map(of).filter(|one| one.cases > 0).collect()
+    (0..=last).map(within).filter(|range| range.cases > 0).collect()
 }

@@ -1,40 +1,30 @@
-//! Some of those whom a size fits, dressed by FEM-GS: whether the drape agrees that it fits.
+//! Check of a grading by FEM-GS: some of the people whom a size fits are dressed.
 
 use crate::alteration;
-use crate::grading::DrapedAgain;
 use crate::grading::knobs::Band;
-use crate::grading::people::{self, Figure};
-use crate::grading::tally::Tally;
+use crate::grading::{Crowd, DrapedAgain, Judged, people};
 use engine::Outcome;
 use geom::units::mm;
-use pattern::Style;
-use spec::JobSpec;
+use spec::{JobSpec, bodies};
 use store::Result;
 
-/// How far outside its band an ease on a drape counts as within, m: nothing, when it is written.
+/// Departure of an ease on a drape from its band that counts as none, m: it is written as 0.
 const SLACK_M: f64 = 0.5e-3;
-/// Deepest that cloth may lie inside the body, m.
+/// Greatest penetration of the cloth into the body that counts as none, m.
 const INSIDE_M: f64 = 1e-3;
 
-/// Drapes a share of those whom a size fits, evenly among them, each in the size to wear.
+/// Drapes a share of the people whom a size fits, evenly among them, each in the size to wear.
 ///
 /// # Errors
-/// What body or simulator refuse.
-pub fn agree(
-    spec: &JobSpec,
-    styles: &[Style],
-    names: &[String],
-    figures: &[Figure],
-    tally: &Tally,
-    bands: &[Band],
-    share: f64,
-) -> Result<DrapedAgain> {
+/// When a body cannot be built, or the simulator refuses.
+pub(super) fn agree(spec: &JobSpec, sizes: &Judged<'_>, crowd: Crowd<'_>, share: f64) -> Result<DrapedAgain> {
+    let (Judged { styles, names, tally, .. }, Crowd { figures, bands }) = (sizes, crowd);
     let fitted: Vec<usize> = (0..figures.len()).filter(|person| tally.is_fitted(*person)).collect();
     let count = ((fitted.len() as f64 * share).ceil() as usize).min(fitted.len());
     let chosen: Vec<usize> = (0..count).map(|k| fitted[(2 * k + 1) * fitted.len() / (2 * count)]).collect();
     let dressed = |person: &usize| -> Result<Option<String>> {
         let size = tally.wears(*person);
-        let body = people::body(&figures[*person])?;
+        let body = bodies::build_body(&figures[*person].measurements)?;
         let (outcome, eases) = alteration::outcome(spec, &styles[size], &body)?;
         let against = against(&outcome, &eases, bands);
         Ok((!against.is_empty()).then(|| format!("person {} in {}: {}", person + 1, names[size], against.join(", "))))
@@ -44,7 +34,7 @@ pub fn agree(
     Ok(DrapedAgain { people: count, agree: count - against.len(), against })
 }
 
-/// What a drape says against a fit.
+/// Objections of a drape to a fit.
 fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<String> {
     let mut against = Vec::new();
     if !outcome.converged {

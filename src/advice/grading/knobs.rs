@@ -1,23 +1,25 @@
-//! What a pattern is graded by: a handle for each level that has a band, and what goes with the first of them as in the pattern's own
-//! grade.
+//! Handles by which a pattern is graded: one for each level that has a band, and those that follow the first of them
+//! as in the pattern's own grade.
 
+use crate::error::AdviceError;
 use crate::grading::people::{self, Figure};
 use fit::coverage::{Asked, Asks};
 use pattern::{Handle, Style};
-use store::{InOrigin, Origin, Result, StudyError};
+use store::{InOrigin, Origin, Result};
 
-/// Sizes are drawn in steps of this, m.
+/// Step in which sizes are drawn, m.
 pub const STEP_M: f64 = 1e-3;
-/// By how much a knob is turned to see what it changes, m.
+/// Movement of a handle by which its effect is found, m.
 const TRIED_M: f64 = 5e-3;
-/// Change of a level, m per m, from which on a handle may be the one for it.
+/// Least change of a level, m per m, of a handle that may be the one for it.
 const STRONG: f64 = 0.3;
-/// Shares of the greatest turn that are tried in turn, where a handle cannot move so far.
+/// Shares of the greatest amount that are tried in turn, where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
 
-/// Slope below which nothing follows: it would be less than a step over the whole range.
+/// Slope below which no handle follows: over the whole range it would move by less than a step.
 const SLIGHT: f64 = 0.01;
-/// Handles that make something wider: what may be turned for a level. A length is never shortened so that a level is not reached.
+/// Handles that change a width, and so may be chosen for a level. A length is never shortened so that a level is not
+/// reached.
 const WIDTHS: [Handle; 10] = [
     Handle::Chest,
     Handle::Waist,
@@ -30,12 +32,12 @@ const WIDTHS: [Handle; 10] = [
     Handle::Bicep,
     Handle::Cuff,
 ];
-/// Girths of the trunk.
+/// Handles of girths of the trunk.
 const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
-/// Ease that is as good as any, m.
+/// Bound of an ease without limits, m.
 const ANY_M: f64 = 1e3;
 
-/// A level with the ease that is meant there.
+/// A level with its target ease.
 #[derive(Clone, Debug)]
 pub struct Band {
     /// Level of the body, such as `chest`.
@@ -44,35 +46,35 @@ pub struct Band {
     pub band_m: [f64; 2],
 }
 
-/// A pattern with all that changes from size to size.
+/// A pattern with the handles that change from size to size.
 pub struct Knobs<'a> {
     style: &'a Style,
-    /// The handles that are turned.
+    /// Handles that are turned.
     pub handles: Vec<Handle>,
-    /// What follows the first of them, m per m.
+    /// Handles that follow the first of them, with their slopes, m per m.
     pub followers: Vec<(Handle, f64)>,
-    /// How far each is turned with the first in the pattern's own grade, m per m.
+    /// Amount of each handle per amount of the first in the pattern's own grade, m per m.
     pub habits: Vec<f64>,
-    /// Least and greatest turn of each, steps.
+    /// Least and greatest amount of each handle, steps.
     pub limits: Vec<[i32; 2]>,
 }
 
 impl<'a> Knobs<'a> {
-    /// The knobs of a style by which the levels of somebody change; `own` are the pattern's own sizes, the style among them.
+    /// Chooses the handles of a style that change the levels of somebody. `own` are the pattern's own sizes, the style
+    /// among them.
     ///
     /// # Errors
-    /// [`StudyError::Stage`] where no handle changes a level.
+    /// When no handle changes a level.
     pub fn of(style: &'a Style, own: &[Style], somebody: &Figure, bands: &[Band], limit_m: f64) -> Result<Self> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let all = style.handles();
         let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
         let handles = chosen(&all, &changes);
-        let Some(lead) = handles.first() else {
-            let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
-            let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
-            return Err(StudyError::refused(Origin::Grade, message));
+        let no_handle = || AdviceError::NoHandle {
+            style: style.name.clone(),
+            handles: all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", "),
         };
-        let lead = *lead;
+        let lead = *handles.first().ok_or_else(no_handle)?;
         let slope = |handle: Handle| slope(own, lead, handle);
         let others = all.iter().copied().filter(|handle| !handles.contains(handle));
         let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
@@ -85,7 +87,7 @@ impl<'a> Knobs<'a> {
         Ok(knobs)
     }
 
-    /// How far a knob can be turned either way, steps.
+    /// Greatest amounts of a handle either way, steps.
     fn limit(&self, knob: usize, limit_m: f64) -> [i32; 2] {
         let steps = |sign: f64| {
             let turned = |share: &f64| {
@@ -99,7 +101,7 @@ impl<'a> Knobs<'a> {
         [steps(-1.0), steps(1.0)]
     }
 
-    /// Handles with their amounts, m, of a size, in the order in which they are moved: all of whole steps.
+    /// Handles of a size with their amounts, m, in the order in which they are moved. All amounts are whole steps.
     pub fn moves(&self, turns: &[i32]) -> Vec<(Handle, f64)> {
         let amounts_m: Vec<f64> = turns.iter().map(|turn| f64::from(*turn) * STEP_M).collect();
         let mut moves = self.moves_by(&amounts_m);
@@ -108,7 +110,7 @@ impl<'a> Knobs<'a> {
         moves
     }
 
-    /// The same for amounts of the knobs, m, and what follows by just what it follows.
+    /// As [`Self::moves`] for amounts of the knobs in m, without rounding.
     fn moves_by(&self, amounts_m: &[f64]) -> Vec<(Handle, f64)> {
         let lead_m = amounts_m.first().copied().unwrap_or(0.0);
         let followers = self.followers.iter().map(|(handle, slope)| (*handle, slope * lead_m));
@@ -119,7 +121,7 @@ impl<'a> Knobs<'a> {
         moves
     }
 
-    /// The style in a size.
+    /// Returns the style in a size.
     ///
     /// # Errors
     /// When a handle cannot be moved so far.
@@ -127,8 +129,8 @@ impl<'a> Knobs<'a> {
         self.style.moved(&self.moves(turns)).origin(Origin::Grade)
     }
 
-    /// What everybody asks of a size at each level, from their ease on the base and what each knob changes of it. Where the base does not
-    /// cover a level of somebody any length will do.
+    /// Requirements of every person on a size at each level, linear in the turns: from the ease on the base and the
+    /// effect of each knob. Where the base does not cover a level of somebody, any length will do.
     ///
     /// # Errors
     /// When a knob cannot be turned at all.
@@ -159,8 +161,9 @@ impl<'a> Knobs<'a> {
     }
 }
 
-/// Sets what everybody asks of a size right by their ease on it as it is drawn with some turns: what the knobs change beside what was
-/// foreseen. A level that the base covers and the size does not makes it one that does not fit.
+/// Corrects the requirements of every person by their ease on a size as it is drawn with some turns, which differs
+/// from the linear prediction. A level that the base covers and the size does not makes the size one that does not
+/// fit.
 pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], bands: &[Band]) {
     for (asks, eases) in asks.iter_mut().zip(eases) {
         for ((asked, ease_m), band) in asks.iter_mut().zip(eases).zip(bands) {
@@ -177,7 +180,7 @@ pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], ban
     }
 }
 
-/// A handle for each level, as far as there are any: the strongest pairs first, and no handle for two levels.
+/// Chooses a handle for each level, as far as there are any: the strongest pairs first, and no handle for two levels.
 fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     let levels = changes.first().map_or(0, Vec::len);
     let wide = (0..all.len()).filter(|k| WIDTHS.contains(&all[*k]));
@@ -187,7 +190,7 @@ fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     pairs.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (k, level) in pairs {
-        if taken.iter().all(|(handle, of)| *handle != k && *of != level) {
+        if taken.iter().all(|(handle, taken_level)| *handle != k && *taken_level != level) {
             taken.push((k, level));
         }
     }
@@ -195,7 +198,7 @@ fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     taken.into_iter().map(|(k, _)| all[k]).collect()
 }
 
-/// What a handle changes of each level of somebody, m per m; nothing where it cannot be moved.
+/// Change of each level of somebody with a handle, m per m; 0 where the handle cannot be moved.
 fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
     let moved = |by_m: f64| style.moved(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels));
     match (moved(-TRIED_M), moved(TRIED_M)) {
@@ -209,14 +212,15 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
     }
 }
 
-/// By how much the point of measure of a handle changes with that of the first, in the pattern's own grade: least squares over its sizes;
-/// `None` where the grade does not tell.
+/// Change of the point of measure of a handle per change of that of the first, in the pattern's own grade, by least
+/// squares over its sizes. `None` where the grade does not tell.
 fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
-        let of =
-            |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
-        let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
+        let length_m = |style: &Style| {
+            style.points_of_measure().iter().find(|found| found.point == point).map(|found| found.length_m)
+        };
+        let lengths = own.iter().map(length_m).collect::<Option<Vec<f64>>>()?;
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         Some(lengths.iter().map(|length| length - mean).collect())
     };

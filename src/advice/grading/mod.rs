@@ -1,9 +1,9 @@
-//! Which grade steps fit a population: the sizes that fit the most people, as a nest with its rules, a size chart and a specification
-//! sheet, beside the pattern's own sizes on people who were held out.
+//! Grading for a population: the sizes that fit the most people, as a nest with its rules, a size chart and a
+//! specification sheet, beside the pattern's own sizes on people who were held out.
 //!
-//! `people` draws and builds the people, `knobs` finds what the pattern is graded by, and `fit::coverage` seeks the
-//! sizes. `tally` counts whom they fit, `nest` draws them and reads them again. `drape` dresses some of those that they
-//! fit, `picture` draws the people.
+//! `people` draws and builds the people, `knobs` chooses the handles by which the pattern is graded, and
+//! `fit::coverage` seeks the sizes. `tally` counts the people whom they fit, `nest` draws the sizes and reads them
+//! again, `drape` dresses some of the people whom they fit, and `picture` draws the people.
 
 mod drape;
 mod knobs;
@@ -15,8 +15,9 @@ mod tally;
 use serde::Serialize;
 
 use crate::alteration::one;
+use crate::error::AdviceError;
 use crate::grading::knobs::{Band, Knobs};
-use crate::grading::people::Figure;
+use crate::grading::people::{Covered, Figure};
 use crate::grading::tally::Tally;
 use body::Sex;
 use engine::stages;
@@ -26,41 +27,41 @@ use pattern::Style;
 use report::file_part;
 use spec::file::GarmentEntry;
 use spec::{JobSpec, Study, patterns};
-use store::{Origin, Result, StudyError};
+use store::{Result, StudyError};
 use wardrobe::seams::Specification;
 
-/// Greatest turn of a knob either way, m.
+/// Greatest amount of a handle either way, m.
 const LIMIT_M: f64 = 0.150;
-/// Share of the people that must be won for each step that a size departs from the pattern's own way of grading.
+/// Share of the people that must be won for each step by which a size departs from the pattern's own grade.
 const PRICE: f64 = 5e-5;
-/// Shares of the greatest turns that are tried in turn, where a size cannot be drawn.
+/// Shares of the greatest amounts that are tried in turn, where a size cannot be drawn.
 const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
-/// How often the sizes are measured again as drawn, and sought anew.
+/// Greatest number of times the sizes are measured as drawn, and sought anew.
 const ROUNDS: usize = 4;
 /// Accepted counts of sizes and of people.
 const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
-/// For whom a grade is sought, and from what.
+/// A grading as it is asked for: population and garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeWish {
     /// Garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Sizes; as many as the pattern has where it is not said.
+    /// Number of sizes; by default that of the pattern.
     pub sizes: Option<usize>,
-    /// People whom the sizes are sought for.
+    /// Number of people for whom the sizes are sought.
     pub people: usize,
-    /// People on whom they are judged.
+    /// Number of other people on whom they are judged.
     pub held_out: usize,
     /// Seed of the draw.
     pub seed: u64,
-    /// Size of the pattern that the others are made of; the middle one where it is not said.
+    /// Size of the pattern that the others are made of; by default the middle one.
     pub base: Option<String>,
-    /// Whether the steps between sizes are all the same.
+    /// True if the steps between sizes are all the same.
     pub is_even: bool,
-    /// Levels that are not asked for.
+    /// Levels that are not to be considered.
     pub without: Vec<String>,
-    /// Share of those whom a size fits who are draped.
+    /// Share of the people whom a size fits who are draped.
     pub draped: f64,
 }
 
@@ -105,11 +106,11 @@ pub struct SizeShare {
     pub size: String,
     /// Share of the people held out whom it fits, %.
     pub fits_percent: f64,
-    /// Share of them who wear it: it fits, and no smaller one does, %.
+    /// Share of the people held out who wear it: it fits, and no smaller one does, %.
     pub worn_percent: f64,
-    /// What changes of the base pattern; nothing of the pattern's own sizes.
+    /// Amounts of handles beside the base pattern; empty of the pattern's own sizes.
     pub turns: Vec<Turn>,
-    /// Dimensions of the people held out who wear it; none where nobody does.
+    /// Dimensions of the people held out who wear it; empty where nobody does.
     pub wearers: Vec<Range>,
 }
 
@@ -118,46 +119,47 @@ pub struct SizeShare {
 pub struct SizeSet {
     /// `own` or `new`.
     pub set: &'static str,
-    /// Share of the people for whom the sizes were sought whom one fits, %.
+    /// Share of the people for whom the sizes were sought whom a size fits, %.
     pub sought_percent: f64,
-    /// Share of the people held out whom one fits, %.
+    /// Share of the people held out whom a size fits, %.
     pub held_out_percent: f64,
-    /// Half of its 95 % interval, percentage points.
+    /// Half of the 95 % interval of that share, percentage points.
     pub within_percent: f64,
     /// Its sizes, the smallest first.
     pub sizes: Vec<SizeShare>,
 }
 
-/// What sets do at a level.
+/// Results of both sets at a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelShare {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest ease that is meant, mm.
+    /// Least and greatest target ease, mm.
     pub target_mm: [f64; 2],
-    /// Share of the people held out of whom the size to wear lies within it, %, of the pattern's own sizes and of the new ones.
+    /// Share of the people held out whose size to wear is within the target, %, of the pattern's own sizes and of the
+    /// new ones.
     pub within_percent: [f64; 2],
-    /// Share of those whom no size fits who fail by it most, %, likewise.
+    /// Share of the people whom no size fits for whom this level is the worst, %, likewise.
     pub fails_percent: [f64; 2],
 }
 
 /// A part of the people held out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartShare {
-    /// Least and greatest of what the body has at the first level of the girths, mm.
+    /// Least and greatest girth of the body at the first level, mm.
     pub from_to_mm: [f64; 2],
-    /// Share of them whom a size fits, %, of the pattern's own sizes and of the new ones.
+    /// Share of the part whom a size fits, %, of the pattern's own sizes and of the new ones.
     pub fits_percent: [f64; 2],
 }
 
-/// What some of those whom a size fits look like by FEM-GS.
+/// Result of draping some of the people whom a size fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedAgain {
-    /// How many were draped.
+    /// Number of people who were draped.
     pub people: usize,
-    /// How many of them fit on the drape too.
+    /// Number of people whom the size fits on the drape too.
     pub agree: usize,
-    /// What is against each that does not.
+    /// Objections of each of the other drapes.
     pub against: Vec<String>,
 }
 
@@ -168,11 +170,11 @@ pub struct Grading {
     pub garment: String,
     /// Name of the size that the grade starts from.
     pub base: String,
-    /// Fit that is meant, as study files name it.
+    /// Intended fit, as study files name it.
     pub intended: &'static str,
     /// Sex of the people.
     pub sex: Sex,
-    /// People for whom the sizes were sought, and people held out, as far as they could be built.
+    /// Number of people for whom the sizes were sought, and of people held out, without those who could not be built.
     pub people: [usize; 2],
     /// Handles that are turned for a level each, and handles that follow the first of them.
     pub handles: [Vec<&'static str>; 2],
@@ -184,11 +186,11 @@ pub struct Grading {
     pub parts: (String, Vec<PartShare>),
     /// Greatest distance between a size as drawn and as the rules make it, mm.
     pub apart_mm: f64,
-    /// What drapes say, where that is asked.
+    /// Result of drapes, where they are asked for.
     pub drapes: Option<DrapedAgain>,
     /// Points of measure of the new sizes.
     pub sheet: Specification,
-    /// The pattern in all new sizes, and the picture, by file name.
+    /// Files by name: the pattern in all new sizes, and the picture.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -196,28 +198,28 @@ pub struct Grading {
 /// Finds the sizes that fit the most people.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range; a garment that
-/// women and men wear; a pattern that holds its own seams; what body or pattern refuse; rules that do not make the
-/// sizes again.
+/// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range, a
+/// garment that women and men wear, a pattern that holds its own seams, when body or pattern refuse, and when the
+/// rules do not make the sizes again.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
-    let seams = asked.spec.seams.as_ref().ok_or_else(|| {
-        refused(format!("{}: holds its own seams; accepted: DXF with a seam file", asked.spec.pattern.name))
-    })?;
+    let without_seams = || AdviceError::GradeWithoutSeams { pattern: asked.spec.pattern.name.clone() };
+    let seams = asked.spec.seams.as_ref().ok_or_else(without_seams)?;
     let own = asked.own()?;
     let base = &own[asked.base];
     let drawn = people::drawn(asked.sex, [wish.people, wish.held_out], wish.seed);
     // Somebody alone tells the levels, and whether one is measured at a height of its own.
     let first = people::figures(&drawn[0][..1], false);
-    let somebody = first.first().ok_or_else(|| refused("the first of the people cannot be built".to_owned()))?;
+    let somebody = first.first().ok_or(AdviceError::NoFirstPerson)?;
     let covered = somebody.covered(base);
     let bands = bands(asked.entry, &covered, &wish.without)?;
-    let has_trunk = covered.iter().any(|(_, has_height)| *has_height);
+    let has_trunk = covered.iter().any(|level| level.has_own_height);
     let [sought, held_out] = drawn.map(|people| people::figures(&people, has_trunk));
     let middle = in_the_middle(&sought, &bands[0].level).unwrap_or(somebody);
     let knobs = Knobs::of(base, &own, middle, &bands, LIMIT_M)?;
     let series = if wish.is_even { Series::Even } else { Series::Rising };
-    let turns = sizes(&knobs, &sought, &bands, asked.count, series, wish.seed)?;
+    let crowd = Crowd { figures: &sought, bands: &bands };
+    let turns = sizes(&knobs, crowd, asked.count, series, wish.seed)?;
     let names = asked.names();
     let nest = nest::drawn(&asked, seams, &names, &knobs, &turns)?;
     let new: Vec<Style> = nest.styles;
@@ -235,8 +237,8 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     };
     let judged = [&tallies[0][1], &tallies[1][1]];
     let pictured = [
-        picture::Drawn { title: "own sizes", styles: &own, names: &own_names, tally: judged[0] },
-        picture::Drawn { title: "new sizes", styles: &new, names: &names, tally: judged[1] },
+        Judged { title: "own sizes", styles: &own, names: &own_names, tally: judged[0] },
+        Judged { title: "new sizes", styles: &new, names: &names, tally: judged[1] },
     ];
     let picture = picture::svg(&held_out, &bands, &pictured, &asked.entry.name);
     let mut files = nest.files;
@@ -256,25 +258,38 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
         parts: tally::parts(&held_out, &bands, judged),
         apart_mm: mm(nest.apart_m),
         drapes: (wish.draped > 0.0)
-            .then(|| drape::agree(&asked.spec, &new, &names, &held_out, judged[1], &bands, wish.draped))
+            .then(|| drape::agree(&asked.spec, &pictured[1], Crowd { figures: &held_out, bands: &bands }, wish.draped))
             .transpose()?,
         sheet: Specification::of(asked.entry.name.clone(), names, &new),
         files,
     })
 }
 
-fn refused(message: String) -> StudyError {
-    StudyError::refused(Origin::Grade, message)
+/// People, with the levels at which a garment is to fit them.
+#[derive(Clone, Copy)]
+struct Crowd<'a> {
+    figures: &'a [Figure],
+    bands: &'a [Band],
 }
 
-/// What is asked for, found in the study.
+/// A set of sizes, judged on people.
+struct Judged<'a> {
+    title: &'static str,
+    /// Pattern of each size, in order.
+    styles: &'a [Style],
+    /// Name of each size, in the same order.
+    names: &'a [String],
+    tally: &'a Tally,
+}
+
+/// A grading as it is asked for, found in the study.
 struct Asked<'a> {
     entry: &'a GarmentEntry,
     /// A job of the base size.
     spec: JobSpec,
     /// The base among the pattern's own sizes.
     base: usize,
-    /// How many sizes are sought.
+    /// Number of sizes that are sought.
     count: usize,
     sex: Sex,
 }
@@ -283,7 +298,7 @@ impl<'a> Asked<'a> {
     fn of(study: &'a Study, wish: &GradeWish) -> Result<Self> {
         let names = study.garments.iter().map(|garment| garment.name.clone()).collect();
         let name = one("garment", wish.garment.as_deref(), names)?;
-        let missing = || refused(format!("{name}: nobody wears it; accepted: a garment with subjects and sizes"));
+        let missing = || AdviceError::NotWorn { garment: name.clone() };
         let entry = study.garments.iter().find(|entry| entry.name == name).ok_or_else(missing)?;
         let names: Vec<String> = entry.sizes.iter().map(|size| size.name.clone()).collect();
         // The lower one of two in the middle.
@@ -300,17 +315,17 @@ impl<'a> Asked<'a> {
             .collect();
         let sex = *sexes.first().ok_or_else(missing)?;
         if sexes.iter().any(|other| *other != sex) {
-            return Err(refused(format!("{name}: women and men wear it; accepted: a garment of one sex")));
+            return Err(AdviceError::BothSexes { garment: name }.into());
         }
         let count = wish.sizes.unwrap_or(names.len());
         if !SIZES.contains(&count) {
-            return Err(refused(format!("{count} sizes; accepted: {} to {}", SIZES.start(), SIZES.end())));
+            return Err(AdviceError::Count { count, of: "sizes", accepted: SIZES }.into());
         }
-        if let Some(people) = [wish.people, wish.held_out].iter().find(|people| !PEOPLE.contains(people)) {
-            return Err(refused(format!("{people} people; accepted: {} to {}", PEOPLE.start(), PEOPLE.end())));
+        if let Some(count) = [wish.people, wish.held_out].into_iter().find(|people| !PEOPLE.contains(people)) {
+            return Err(AdviceError::Count { count, of: "people", accepted: PEOPLE }.into());
         }
         if !(0.0..=1.0).contains(&wish.draped) {
-            return Err(refused(format!("a share of {} draped; accepted: 0 to 1", wish.draped)));
+            return Err(AdviceError::Share { share: wish.draped }.into());
         }
         let index = names.iter().position(|size| *size == base).unwrap_or(middle);
         let spec = spec::jobs(study).into_iter().find(|job| job.garment == name && job.size == base);
@@ -329,7 +344,7 @@ impl<'a> Asked<'a> {
         self.entry.sizes.iter().map(style).collect()
     }
 
-    /// Names of the new sizes: those of the pattern where they are as many.
+    /// Names of the new sizes: those of the pattern where there are as many.
     fn names(&self) -> Vec<String> {
         if self.entry.sizes.len() == self.count {
             return self.entry.sizes.iter().map(|size| size.name.clone()).collect();
@@ -339,25 +354,21 @@ impl<'a> Asked<'a> {
 }
 
 /// The levels that a base covers and that have a band, girths of the trunk first.
-fn bands(entry: &GarmentEntry, covered: &[(String, bool)], without: &[String]) -> Result<Vec<Band>> {
-    if let Some(other) = without.iter().find(|level| !covered.iter().any(|(known, _)| known == *level)) {
-        let known = covered.iter().map(|(level, _)| level.clone()).collect();
+fn bands(entry: &GarmentEntry, covered: &[Covered], without: &[String]) -> Result<Vec<Band>> {
+    let is_covered = |level: &str| covered.iter().any(|known| known.level == level);
+    if let Some(other) = without.iter().find(|level| !is_covered(level)) {
+        let known = covered.iter().map(|known| known.level.clone()).collect();
         return Err(StudyError::NotFound { what: "level", name: other.clone(), known });
     }
-    let is_top = ["chest", "bust"].iter().any(|chest| covered.iter().any(|(level, _)| level == chest));
-    let band = |(level, _): &(String, bool)| {
-        entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m })
-    };
-    let is_asked = |(level, _): &&(String, bool)| !without.contains(level);
-    let mut bands: Vec<Band> = covered.iter().filter(is_asked).filter_map(band).collect();
+    let is_top = ["chest", "bust"].into_iter().any(is_covered);
+    let band = |level: &String| entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m });
+    let asked = covered.iter().map(|known| &known.level).filter(|level| !without.contains(level));
+    let mut bands: Vec<Band> = asked.filter_map(band).collect();
     bands.sort_by_key(|band| tally::order(&band.level));
-    match bands.is_empty() {
-        true => Err(refused(format!("{}: no level has a target; accepted: target_ease_mm of a level", entry.name))),
-        false => Ok(bands),
-    }
+    if bands.is_empty() { Err(AdviceError::NoTarget { garment: entry.name.clone() }.into()) } else { Ok(bands) }
 }
 
-/// The one whose body is the middle of all at a level.
+/// The person whose body is the median of all at a level.
 fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
     let mut all: Vec<&Figure> = figures.iter().collect();
     all.sort_by(|a, b| a.girth_m(level).unwrap_or(0.0).total_cmp(&b.girth_m(level).unwrap_or(0.0)));
@@ -365,22 +376,15 @@ fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
 }
 
 /// Seeks sizes. Where one cannot be drawn, since its handles do not go so far together, all get tighter limits.
-fn sizes(
-    knobs: &Knobs<'_>,
-    figures: &[Figure],
-    bands: &[Band],
-    count: usize,
-    series: Series,
-    seed: u64,
-) -> Result<Turns> {
-    let asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
+fn sizes(knobs: &Knobs<'_>, crowd: Crowd<'_>, count: usize, series: Series, seed: u64) -> Result<Turns> {
+    let asks: Vec<Vec<Asks>> = vec![knobs.asks(crowd.figures, crowd.bands)?; count];
     let mut refused = None;
     for share in LIMITS {
         let limits: Vec<[i32; 2]> =
             knobs.limits.iter().map(|limit| limit.map(|turn| (f64::from(turn) * share).round() as i32)).collect();
-        let price = PRICE * figures.len() as f64;
+        let price = PRICE * crowd.figures.len() as f64;
         let search = Search { asks: &asks, limits: &limits, habits: &knobs.habits, price, series };
-        match as_drawn(knobs, figures, bands, &search, seed) {
+        match as_drawn(knobs, crowd, &search, seed) {
             Ok(turns) => return Ok(turns),
             Err(error) => refused = Some(error),
         }
@@ -388,8 +392,10 @@ fn sizes(
     refused.map_or(Ok(Vec::new()), Err)
 }
 
-/// Seeks sizes, measures them as they are drawn, and seeks again near them with what was measured; the best as drawn counts.
-fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Search<'_>, seed: u64) -> Result<Turns> {
+/// Seeks sizes, measures them as they are drawn, and seeks again near them by the measured eases. Returns the best
+/// sizes as drawn.
+fn as_drawn(knobs: &Knobs<'_>, crowd: Crowd<'_>, search: &Search<'_>, seed: u64) -> Result<Turns> {
+    let Crowd { figures, bands } = crowd;
     let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
     let mut asks = search.asks.to_vec();
     let mut turns = search.best(seed);
@@ -414,7 +420,7 @@ fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Sear
     Ok(best.map_or(turns, |(_, turns)| turns))
 }
 
-/// What changes of the base in a size.
+/// Amounts of the handles of a size.
 fn turned(knobs: &Knobs<'_>, turns: &[i32]) -> Vec<Turn> {
     let turn = |(handle, amount_m): &(pattern::Handle, f64)| Turn {
         handle: handle.as_str(),

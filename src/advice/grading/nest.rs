@@ -1,7 +1,9 @@
-//! The sizes as files: a DXF file each, and the base size of the nest with its rules, read again and held against what was drawn.
+//! The sizes as files: a DXF file each, and the base size of the nest with its rules, read again and compared with the
+//! sizes as drawn.
 
+use crate::error::AdviceError;
+use crate::grading::Asked;
 use crate::grading::knobs::Knobs;
-use crate::grading::{Asked, refused};
 use fit::coverage::Turns;
 use geom::V2;
 use geom::polyline::segment_distance;
@@ -14,7 +16,7 @@ use spec::patterns;
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// How far a size that the rules make may lie from the size as drawn, m.
+/// Greatest distance of a size that the rules make from the size as drawn, m.
 const APART_M: f64 = 0.1e-3;
 
 /// The sizes as they are written.
@@ -23,7 +25,7 @@ pub struct Nest {
     pub styles: Vec<Style>,
     /// Greatest distance between a size as drawn and as the rules make it, m.
     pub apart_m: f64,
-    /// Files by name.
+    /// Files by name: patterns, rules and seam file.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
@@ -63,7 +65,7 @@ pub fn drawn(
             None => nest = Some(read),
         }
     }
-    let nest = nest.ok_or_else(|| refused("no size".to_owned()))?;
+    let nest = nest.ok_or(AdviceError::EmptyNest)?;
     // The sample is the size in the middle, as pattern makers have it.
     let sample = &names[names.len().saturating_sub(1) / 2];
     let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).origin(Origin::Grade)?;
@@ -81,7 +83,7 @@ pub fn drawn(
     Ok(Nest { styles, apart_m, files })
 }
 
-/// What the written sample size and rules make, and the greatest distance of it from the nest, m.
+/// Sizes that the written sample size and rules make, and their greatest distance from the nest, m.
 fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result<(PatternFile, f64)> {
     let sample = dxf::read(written, &format!("{name}.dxf"), None).origin(Origin::Grade)?;
     let table = grade::read(rules, &format!("{name}.rul")).origin(Origin::Grade)?;
@@ -90,16 +92,12 @@ fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result
     for piece in &nest.pieces {
         let is_it = |other: &&Piece| other.name == piece.name && other.size == piece.size;
         let other = again.pieces.iter().find(is_it);
-        let other = other.ok_or_else(|| refused(format!("the rules make no piece `{}`", piece.name)))?;
+        let other = other.ok_or_else(|| AdviceError::NoPiece { piece: piece.name.clone() })?;
         let apart = away(&piece.outline, &other.outline).max(away(&other.outline, &piece.outline));
         if apart > APART_M {
-            let size = piece.size.as_deref().unwrap_or_default();
-            return Err(refused(format!(
-                "piece `{}` of size {size}: the rules make it {:.2} mm off; accepted: {} mm",
-                piece.name,
-                mm(apart),
-                mm(APART_M)
-            )));
+            let size = piece.size.clone().unwrap_or_default();
+            let (apart_mm, accepted_mm) = (mm(apart), mm(APART_M));
+            return Err(AdviceError::OtherPiece { piece: piece.name.clone(), size, apart_mm, accepted_mm }.into());
         }
         apart_m = apart_m.max(apart);
     }

@@ -1,4 +1,4 @@
-//! The people whom sizes are to fit: drawn from the survey, built, and kept as what ease needs of them.
+//! The people of a population: drawn from the survey, built, and reduced to the measurements that ease needs.
 
 use std::num::NonZero;
 use std::thread;
@@ -10,27 +10,34 @@ use fit::Draw;
 use pattern::Style;
 use pattern::pom::Stand;
 use spec::bodies;
-use store::Result;
 
-/// What makes the draw of those held out another one.
+/// Change of the seed for the people held out.
 const HELD_OUT: u64 = 0x68_656c_646f_7574;
-/// Distance of the heights at which the girth of a trunk is kept, and how far they reach beyond waist and hip, m.
+/// Spacing of the heights at which the girth of a trunk is kept, and distance that they reach beyond waist and hip, m.
 const APART_M: f64 = 0.010;
 const BEYOND_M: f64 = 0.100;
 
-/// Somebody, as far as ease asks.
+/// A person, reduced to the measurements that ease needs.
 pub struct Figure {
-    /// What they were drawn with.
+    /// Measurements with which the person was drawn.
     pub measurements: Measurements,
     stand: Stand,
     girths: Girths,
-    /// Height above the floor and girth of the trunk, m, upwards; empty where no level of the garment is measured at a height of
-    /// its own.
+    /// Height above the floor and girth of the trunk, m, upwards. Empty where no level of the garment is measured at a
+    /// height of its own.
     trunk: Vec<[f64; 2]>,
 }
 
+/// A level that a style covers.
+pub struct Covered {
+    /// Level of the body, such as `chest`.
+    pub level: String,
+    /// True if the body is measured there at a height of its own.
+    pub has_own_height: bool,
+}
+
 impl Figure {
-    /// Of a built body.
+    /// Reduces a built body.
     pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
         let stand = ease::stand(body);
         let (from_m, to_m) = (stand.hip_m.min(stand.waist_m) - BEYOND_M, stand.hip_m.max(stand.waist_m) + BEYOND_M);
@@ -44,21 +51,21 @@ impl Figure {
     /// Ease of a style at each of some levels, m: `None` where the style does not cover it.
     pub fn eases(&self, style: &Style, levels: &[String]) -> Vec<Option<f64>> {
         let found = ease::lengths(style, &self.stand);
-        let of = |level: &String| {
-            let one = found.iter().find(|one| one.level == *level)?;
-            Some(one.length_m - self.body_m(one)?)
+        let ease_at = |level: &String| {
+            let length = found.iter().find(|length| length.level == *level)?;
+            Some(length.length_m - self.body_m(length)?)
         };
-        levels.iter().map(of).collect()
+        levels.iter().map(ease_at).collect()
     }
 
-    /// Every level that a style covers, from the neck down, and whether it is measured at a height of its own.
-    pub fn covered(&self, style: &Style) -> Vec<(String, bool)> {
-        let is_known = |one: &Length| one.height_m.is_some() || ease::body_length_m(&self.girths, &one.level).is_some();
-        let found = ease::lengths(style, &self.stand).into_iter().filter(is_known);
-        found.map(|one| (one.level, one.height_m.is_some())).collect()
+    /// Every level that a style covers, from the neck down.
+    pub fn covered(&self, style: &Style) -> Vec<Covered> {
+        let found = ease::lengths(style, &self.stand).into_iter();
+        let covered = found.map(|length| Covered { has_own_height: length.height_m.is_some(), level: length.level });
+        covered.filter(|known| known.has_own_height || self.girth_m(&known.level).is_some()).collect()
     }
 
-    /// What the body has at a level, m.
+    /// Girth or length of the body at a level, m.
     pub fn girth_m(&self, level: &str) -> Option<f64> {
         ease::body_length_m(&self.girths, level)
     }
@@ -74,27 +81,27 @@ impl Figure {
     }
 }
 
-/// People of a sex, and as drawn from another seed those who are held out.
+/// Draws people of a sex, and people held out from another seed.
 pub fn drawn(sex: Sex, counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] {
     let seeds = [seed, seed ^ HELD_OUT];
     [0, 1].map(|k| population::people(sex, counts[k], &mut Draw::new(seeds[k])))
 }
 
-/// The figures of people, in their order. Who cannot be built is left out.
+/// Builds the figures of people, in their order. People who cannot be built are left out.
 pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
-    let figure = |one: &Measurements| {
-        let body = bodies::build_body(one).ok()?;
-        Some(Figure::of(one, &body, has_trunk))
+    let figure = |person: &Measurements| {
+        let body = bodies::build_body(person).ok()?;
+        Some(Figure::of(person, &body, has_trunk))
     };
     of_all(people, figure).into_iter().flatten().collect()
 }
 
-/// Ease of a style on everybody at some levels, m.
+/// Ease of a style on every person at some levels, m.
 pub fn eases(style: &Style, figures: &[Figure], levels: &[String]) -> Vec<Vec<Option<f64>>> {
     of_all(figures, |figure| figure.eases(style, levels))
 }
 
-/// What something makes of each, on all cores, in their order.
+/// Maps all items on all cores, in their order.
 pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec<U> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let share = all.len().div_ceil(threads).max(1);
@@ -109,11 +116,6 @@ pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec
     })
 }
 
-/// The body of somebody who was drawn.
-pub fn body(figure: &Figure) -> Result<Body> {
-    bodies::build_body(&figure.measurements)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,8 +128,8 @@ mod tests {
             let style = Style::read(&draft.pieces, model.seams(), "drafted.seams.toml").expect("our own");
             let [people, others] = drawn(Sex::Male, [3, 1], 4);
             assert_ne!(people[0], others[0], "those held out are others");
-            for (one, figure) in people.iter().zip(figures(&people, true)) {
-                let body = bodies::build_body(one).expect("a person that can be");
+            for (person, figure) in people.iter().zip(figures(&people, true)) {
+                let body = bodies::build_body(person).expect("a person that can be");
                 let eases = ease::on(&style, &body);
                 assert!(eases.len() > 3);
                 for ease in eases {

@@ -1,10 +1,11 @@
-//! People by two girths with the boxes of the sizes: the pattern's own beside the new ones.
+//! Scatter plot of people by two girths with the boxes of the sizes: the pattern's own beside the new ones.
 
 use std::fmt::Write;
 
+use crate::grading::Judged;
 use crate::grading::knobs::Band;
 use crate::grading::people::Figure;
-use crate::grading::tally::Tally;
+use crate::grading::tally::{Tally, order};
 use geom::units::mm;
 use pattern::Style;
 use results::size_map::{COLOURS, axis, escaped};
@@ -12,25 +13,13 @@ use results::size_map::{COLOURS, axis, escaped};
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 460.0;
 const MARGIN: f64 = 60.0;
-/// Most people that are drawn.
+/// Greatest number of people that are drawn.
 const MOST: usize = 800;
 
-/// A set of sizes as it is drawn.
-pub struct Drawn<'a> {
-    /// What it is called.
-    pub title: &'static str,
-    /// Pattern of each size, in order.
-    pub styles: &'a [Style],
-    /// Name of each size, in the same order.
-    pub names: &'a [String],
-    /// Whom they fit.
-    pub tally: &'a Tally,
-}
-
-/// A picture of people held out by the first girth that has a band and the last: in the colour of the size that fits, grey where none
-/// does. A box is what a size fits at both levels.
-pub fn svg(figures: &[Figure], bands: &[Band], sets: &[Drawn<'_>], garment: &str) -> String {
-    let girths: Vec<&Band> = bands.iter().filter(|band| crate::grading::tally::order(&band.level) < GIRTHS).collect();
+/// Draws people held out by the first and the last girth that has a band, in the colour of the size that fits, grey
+/// where none does. A box is the range of girths that a size fits at both levels.
+pub(super) fn svg(figures: &[Figure], bands: &[Band], sets: &[Judged<'_>], garment: &str) -> String {
+    let girths: Vec<&Band> = bands.iter().filter(|band| order(&band.level) < GIRTHS).collect();
     let across = girths.first().copied().or(bands.first());
     let up = girths.last().copied().or(bands.last());
     let (Some(across), Some(up)) = (across, up) else { return String::new() };
@@ -68,10 +57,10 @@ pub fn svg(figures: &[Figure], bands: &[Band], sets: &[Drawn<'_>], garment: &str
     svg
 }
 
-/// How many levels are girths of the trunk.
+/// Number of levels that are girths of the trunk.
 const GIRTHS: usize = 5;
 
-/// Least and greatest girth of a body that a style fits at two levels, of somebody of that stature, mm.
+/// Least and greatest girth of a body that a style fits at two levels, for somebody of that stature, mm.
 fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f64; 2]; 2]> {
     let levels = bands.map(|band| band.level.clone());
     let eases = somebody.eases(style, &levels);
@@ -83,7 +72,7 @@ fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f6
     Some([fitted(0)?, fitted(1)?])
 }
 
-/// Where a panel stands, and its axes.
+/// Position of a panel, and its axes.
 struct Panel {
     left: f64,
     x: (f64, f64),
@@ -123,14 +112,14 @@ impl Panel {
         let _ = writeln!(svg, "<text x=\"{left}\" y=\"{}\">{}, mm</text>", MARGIN - 8.0, named(up));
     }
 
-    /// Somebody in the colour of a size.
+    /// Draws a person in the colour of a size.
     fn dot(&self, svg: &mut String, at: [f64; 2], size: Option<usize>) {
         let (x, y) = (self.across(at[0]), self.up(at[1]));
         let colour = size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>");
     }
 
-    /// The girths that a size fits.
+    /// Draws the range of girths that a size fits.
     fn size(&self, svg: &mut String, [across, up]: [[f64; 2]; 2], size: usize) {
         let right = self.left + PANEL;
         let [from, to] = across.map(|x| self.across(x).clamp(self.left, right));
@@ -145,20 +134,19 @@ impl Panel {
         );
     }
 
-    /// What the colours mean.
+    /// Draws the legend of the colours, with shares.
     fn legend(&self, svg: &mut String, names: &[String], tally: &Tally, people: usize) {
-        let share = |of: Option<usize>| {
-            let wears = |person: &usize| tally.is_fitted(*person).then(|| tally.wears(*person)) == of;
+        let share = |size: Option<usize>| {
+            let wears = |person: &usize| tally.is_fitted(*person).then(|| tally.wears(*person)) == size;
             100.0 * (0..people).filter(wears).count() as f64 / people.max(1) as f64
         };
         let sizes = names.iter().enumerate().map(|(size, name)| (name.as_str(), Some(size)));
-        for (k, (name, of)) in sizes.chain([("none", None)]).enumerate() {
-            let at = MARGIN + 18.0 + 18.0 * k as f64;
-            let colour = of.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
-            let _ =
-                writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, at - 4.0);
-            let text = format!("{}: {:.1} %", escaped(name), share(of));
-            let _ = writeln!(svg, "<text x=\"{}\" y=\"{at}\">{text}</text>", self.left + 24.0);
+        for (k, (name, size)) in sizes.chain([("none", None)]).enumerate() {
+            let y = MARGIN + 18.0 + 18.0 * k as f64;
+            let colour = size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
+            let _ = writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, y - 4.0);
+            let text = format!("{}: {:.1} %", escaped(name), share(size));
+            let _ = writeln!(svg, "<text x=\"{}\" y=\"{y}\">{text}</text>", self.left + 24.0);
         }
     }
 }

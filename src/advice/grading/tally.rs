@@ -1,4 +1,5 @@
-//! Whom sizes fit: counted as `v_size` counts, every level that has a band within it.
+//! Tally of the people whom sizes fit, by the rule of the view `v_size`: a size fits if every level that has a band is
+//! within it.
 
 use crate::grading::knobs::Band;
 use crate::grading::people::{self, Figure};
@@ -8,76 +9,78 @@ use body::Dimension;
 use geom::units::mm;
 use pattern::Style;
 
-/// Weight of what is too tight beside what is too loose, as in `v_fit`.
+/// Weight of an ease that is too tight, relative to one that is too loose, as in `v_fit`.
 const TIGHT: f64 = 2.0;
 /// Weight of a level that a size does not cover and the base does, m.
 const UNCOVERED_M: f64 = 1.0;
-/// Parts that people are divided into.
+/// Number of parts that people are divided into.
 const PARTS: usize = 5;
-/// Standard errors of half a 95 % interval.
+/// Standard errors in half of a 95 % interval.
 const NORMAL_95: f64 = 1.96;
-/// Percentiles that a size chart says.
+/// Percentiles of a size chart.
 const PERCENTILES: [f64; 3] = [0.05, 0.5, 0.95];
 /// Girths of the trunk before others, from the top down.
 const ORDER: [&str; 5] = ["chest", "bust", "underbust", "waist", "hip"];
 
-/// Where a level stands in lists.
+/// Position of a level in lists.
 pub fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// How a size sits on somebody.
+/// Worst level of a size on a person.
 #[derive(Clone, Copy, Debug)]
-pub struct Sits {
-    /// The level that is worst, and its weight, m: 0 where all levels lie in their bands.
-    pub worst: (usize, f64),
+struct Worst {
+    level: usize,
+    /// Weighted departure from its band, m: 0 where all levels lie in their bands.
+    weight_m: f64,
 }
 
-/// How every size of a set sits on everybody.
+/// Fit of every size of a set on every person.
 pub struct Tally {
     /// By size and person.
-    sits: Vec<Vec<Sits>>,
-    /// Which levels are off on the size to wear, by person.
+    worst: Vec<Vec<Worst>>,
+    /// Levels that are outside their bands on the size to wear, by person.
     off: Vec<Vec<bool>>,
 }
 
 impl Tally {
-    /// Of sizes on people. A level that the base does not cover of somebody is not asked for.
+    /// Judges sizes on people. A level of a person that the base does not cover is not considered.
     pub fn of(styles: &[Style], base: &Style, figures: &[Figure], bands: &[Band]) -> Self {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let asked = people::eases(base, figures, &levels);
         let weights = |style: &Style| -> Vec<Vec<f64>> {
             let eases = people::eases(style, figures, &levels);
-            let of = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
+            let weights = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
                 (0..bands.len()).map(|level| weight(eases[level], asked[level], bands[level].band_m)).collect()
             };
-            eases.iter().zip(&asked).map(of).collect()
+            eases.iter().zip(&asked).map(weights).collect()
         };
         Self::of_weights(&styles.iter().map(weights).collect::<Vec<_>>())
     }
 
-    /// Of weights by size, person and level.
+    /// Judges by weighted departures, by size, person and level.
     fn of_weights(weights: &[Vec<Vec<f64>>]) -> Self {
-        let worst = |weights: &Vec<f64>| {
-            let all = weights.iter().copied().enumerate();
-            Sits { worst: all.fold((0, 0.0), |worst, one| if one.1 > worst.1 { one } else { worst }) }
+        let worst_of = |weights: &Vec<f64>| {
+            let all = weights.iter().enumerate().map(|(level, weight_m)| Worst { level, weight_m: *weight_m });
+            let none = Worst { level: 0, weight_m: 0.0 };
+            all.fold(none, |worst, next| if next.weight_m > worst.weight_m { next } else { worst })
         };
-        let sits: Vec<Vec<Sits>> = weights.iter().map(|people| people.iter().map(worst).collect()).collect();
-        let people = sits.first().map_or(0, Vec::len);
+        let worst: Vec<Vec<Worst>> = weights.iter().map(|people| people.iter().map(worst_of).collect()).collect();
+        let people = worst.first().map_or(0, Vec::len);
         let off = (0..people)
-            .map(|person| weights[to_wear(&sits, person)][person].iter().map(|weight| *weight > 0.0).collect())
+            .map(|person| weights[to_wear(&worst, person)][person].iter().map(|weight| *weight > 0.0).collect())
             .collect();
-        Self { sits, off }
+        Self { worst, off }
     }
 
-    /// The size to wear: whose worst level is the least, of equals the smaller.
+    /// Index of the size to wear: the one whose worst level is best, of equals the smaller.
     pub fn wears(&self, person: usize) -> usize {
-        to_wear(&self.sits, person)
+        to_wear(&self.worst, person)
     }
 
-    /// Whether some size fits.
+    /// True if some size fits.
     pub fn is_fitted(&self, person: usize) -> bool {
-        self.sits[self.wears(person)][person].worst.1 == 0.0
+        self.worst[self.wears(person)][person].weight_m == 0.0
     }
 
     fn people(&self) -> usize {
@@ -88,13 +91,13 @@ impl Tally {
         percent((0..self.people()).filter(|person| self.is_fitted(*person)).count(), self.people())
     }
 
-    /// The set of sizes on people held out; `sought` is how it sits on the others.
+    /// Summary of the set on the people held out. `sought` is its tally on the others.
     pub fn set(&self, set: &'static str, names: &[String], sought: &Self, figures: &[Figure]) -> SizeSet {
         let held_out_percent = self.fitted_percent();
         let share = held_out_percent / 100.0;
         let within = NORMAL_95 * (share * (1.0 - share) / self.people().max(1) as f64).sqrt();
         let sizes = names.iter().enumerate().map(|(size, name)| {
-            let fits = self.sits[size].iter().filter(|sits| sits.worst.1 == 0.0).count();
+            let fits = self.worst[size].iter().filter(|worst| worst.weight_m == 0.0).count();
             let wearers: Vec<usize> =
                 (0..self.people()).filter(|person| self.is_fitted(*person) && self.wears(*person) == size).collect();
             SizeShare {
@@ -118,15 +121,16 @@ impl Tally {
         percent(self.off.iter().filter(|off| !off[level]).count(), self.people())
     }
 
-    /// Share of those whom no size fits who fail by a level most, %.
+    /// Share of the people whom no size fits for whom a level is the worst, %.
     fn fails_percent(&self, level: usize) -> f64 {
         let unfitted = || (0..self.people()).filter(|person| !self.is_fitted(*person));
-        let fails = unfitted().filter(|person| self.sits[self.wears(*person)][*person].worst.0 == level).count();
+        let fails = unfitted().filter(|person| self.worst[self.wears(*person)][*person].level == level).count();
         percent(fails, unfitted().count())
     }
 }
 
-/// How much an ease counts against a size, m; `asked` is that of the base, which tells whether the level is asked for.
+/// Weighted departure of an ease, m. `asked` is the ease on the base: the level is considered only where the base
+/// covers it.
 fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f64 {
     match (ease_m, asked) {
         (_, None) => 0.0,
@@ -135,30 +139,30 @@ fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f
     }
 }
 
-fn to_wear(sits: &[Vec<Sits>], person: usize) -> usize {
-    let weight = |size: &usize| sits[*size][person].worst.1;
-    (0..sits.len()).min_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0)
+fn to_wear(worst: &[Vec<Worst>], person: usize) -> usize {
+    let weight_m = |size: &usize| worst[*size][person].weight_m;
+    (0..worst.len()).min_by(|a, b| weight_m(a).total_cmp(&weight_m(b))).unwrap_or(0)
 }
 
 fn percent(count: usize, of: usize) -> f64 {
     100.0 * count as f64 / of.max(1) as f64
 }
 
-/// Dimensions of those who wear a size.
+/// Ranges of the dimensions of the people who wear a size.
 fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
     let range = |dimension: Dimension| {
         let figures = wearers.iter().filter_map(|person| figures.get(*person));
         let values = figures.filter_map(|figure| figure.measurements.get(dimension));
         let mut values: Vec<f64> = values.map(|value| value * dimension.per_si()).collect();
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
-        let [low, middle, high] = PERCENTILES.map(at);
+        let percentile = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
+        let [low, middle, high] = PERCENTILES.map(percentile);
         Some(Range { dimension: dimension.key(), values: [low?, middle?, high?] })
     };
     DIMENSIONS.into_iter().filter_map(range).collect()
 }
 
-/// What both sets do at each level.
+/// Results of both sets at each level.
 pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     let level = |(number, band): (usize, &Band)| LevelShare {
         level: band.level.clone(),
@@ -169,7 +173,7 @@ pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     bands.iter().enumerate().map(level).collect()
 }
 
-/// Whom both sets fit, in parts by what the body has at the first level.
+/// Shares of both sets in parts of the people, by their girth at the first level.
 pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, Vec<PartShare>) {
     let level = bands.first().map_or_else(String::new, |band| band.level.clone());
     let girth_mm = |person: &usize| figures[*person].girth_m(&level).map_or(0.0, mm);

@@ -1,7 +1,7 @@
 //! Ease, the size to wear, and how a drape sits, as views tell them.
 
 use super::*;
-use crate::levels::{Level, Pressing};
+use crate::assessment::{Level, Pressing};
 use fit::on_body::{Hang, Sides};
 use store::sql;
 
@@ -33,7 +33,7 @@ fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
     let pressing = Pressing { region: "chest".to_owned(), area_m2: 0.01, mean_kpa: 0.4, most_kpa: 1.0 };
     let hem = Sides { front_m: Some(0.8), back_m: Some(0.83), right_m: None, left_m: None };
     let hang = Hang { hem: Some(hem), waist: None, lean_rad: [Some(0.1), None] };
-    let worn = WornOn { levels: vec![level], hang, folds: vec![], pressing: vec![pressing], drawn: vec![] };
+    let worn = Assessment { levels: vec![level], hang, folds: vec![], pressing: vec![pressing], drawn: vec![] };
     Ok(Outcome { eases: eases_mm.iter().map(ease).collect(), points, worn, ..outcome(spec) })
 }
 

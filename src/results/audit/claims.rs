@@ -1,26 +1,26 @@
-//! Statements of the text, held against the tables they speak of.
+//! Statements of the thesis's text, checked against its tables.
 
 use crate::audit::rounding::{mean, variance};
 use crate::audit::tables::{SUBJECTS, Sized, Tables};
-use crate::audit::{Finding, three};
+use crate::audit::{Audit, Finding, three};
 use fit::Simulator::{self, Fem, Hybrid};
 
-/// How far a printed limit of a range may be from the number it rounds.
+/// Greatest difference of a printed limit of a range from the number that it rounds: half of its last digit.
 const ROUNDING: f64 = 0.0005;
-/// EI within which two results are called equivalent: a fifth of the thesis's mean EI.
+/// Greatest difference of two EI that are called equivalent: a fifth of the thesis's mean EI.
 const EQUIVALENT: f64 = 0.01;
 
-/// What the tables give instead of a statement; `None` where it holds.
+/// Result by the tables that contradicts a statement; `None` where the statement holds.
 type Refuted = Option<String>;
 
-/// A statement of the text.
+/// A statement of the text about the tables.
 struct Claim {
     section: &'static str,
     says: &'static str,
     refute: fn(&Tables) -> Refuted,
 }
 
-/// A figure of one garment by one simulator on one subject; the lesser, the better.
+/// A statistic of chi of one garment by one simulator on one subject; the lesser, the better.
 type Figure = fn(&Tables, &Sized, Simulator, usize) -> f64;
 
 const EI: Figure = |tables, of, simulator, subject| tables.ei(of, simulator, subject);
@@ -94,8 +94,8 @@ const CLAIMS: [Claim; 15] = [
     },
 ];
 
-/// Holds every statement against the tables.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+/// Checks every statement against the tables.
+pub(super) fn check(tables: &Tables) -> Audit {
     let refuted = |claim: &Claim| {
         Some(Finding {
             kind: "statement",
@@ -105,21 +105,21 @@ pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
             says: "the tables do not bear it out".into(),
         })
     };
-    (CLAIMS.len(), CLAIMS.iter().filter_map(refuted).collect())
+    Audit { recomputed: CLAIMS.len(), findings: CLAIMS.iter().filter_map(refuted).collect() }
 }
 
 fn sized((garment, size): (&str, &str)) -> Sized {
     Sized { garment: garment.into(), size: size.into() }
 }
 
-/// Whether chi of a garment stays within stated limits.
+/// Range of chi of a garment, where it exceeds the stated limits.
 fn range(tables: &Tables, of: (&str, &str), simulator: Simulator, low: f64, high: f64) -> Refuted {
     let chis: Vec<f64> = (0..6).flat_map(|subject| tables.chis(&sized(of), simulator, subject)).collect();
     let (least, most) = chis.iter().fold((f64::MAX, f64::MIN), |(l, m), &chi| (l.min(chi), m.max(chi)));
     (least < low - ROUNDING || most > high + ROUNDING).then(|| format!("chi from {} to {}", three(least), three(most)))
 }
 
-/// Whether a figure is lower for a simulator on every one of some subjects.
+/// Subjects on whom a statistic is not lower for the simulator that is said to be better.
 fn favours(tables: &Tables, of: (&str, &str), simulator: Simulator, subjects: &[usize], figure: Figure) -> Refuted {
     let of = sized(of);
     let other = if simulator == Fem { Hybrid } else { Fem };
@@ -133,7 +133,7 @@ fn favours(tables: &Tables, of: (&str, &str), simulator: Simulator, subjects: &[
     (!cells.is_empty()).then(|| format!("not on {}", cells.join(", ")))
 }
 
-/// Accuracy against the bending angle (Table 4-1).
+/// Accuracy by bending angle (Table 4-1), where bent is not more accurate than flat.
 fn bending(tables: &Tables) -> Refuted {
     let error = |degrees: f64| {
         let cells = tables.prepositions.iter().filter(|cell| cell.bend_deg == degrees);
@@ -144,7 +144,7 @@ fn bending(tables: &Tables) -> Refuted {
         .then(|| format!("mean |chi - 1|: 180 degrees {more:.4}, flat {flat:.4}, 120 degrees {less:.4}"))
 }
 
-/// Mean |chi - 1| over all subjects of each measurement of the trousers S but the crotch's.
+/// Measurements of the trousers S but the crotch whose mean |chi - 1| over all subjects is greater with Hybrid-GS.
 fn legs(tables: &Tables) -> Refuted {
     let of = sized(("male_trousers", "s"));
     let errors = |simulator| {
@@ -161,7 +161,7 @@ fn legs(tables: &Tables) -> Refuted {
     (!worse.is_empty()).then(|| format!("not {}", worse.join(", ")))
 }
 
-/// Whether the two simulators' EI of trousers M are about the same on ii, iii and iv.
+/// Subjects on whom the EI of trousers M differs between the simulators by more than [`EQUIVALENT`].
 fn equivalence(tables: &Tables) -> Refuted {
     let of = sized(("male_trousers", "m"));
     let apart: Vec<String> = [1, 2, 3]

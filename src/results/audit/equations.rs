@@ -1,26 +1,25 @@
-//! Equations of the text that cannot be what they are said to be, tried on numbers.
+//! Equations of the text that cannot be right, evaluated on numbers.
 
-use nalgebra::{Unit, Vector3};
+use crate::audit::{Audit, Finding};
+use geom::V3;
 
-use crate::audit::Finding;
-
-/// Equality up to rounding.
+/// Greatest difference that is rounding.
 const EXACT: f64 = 1e-9;
 
-/// Tries the printed equations (4.8), (4.9) and (4.20).
-pub(super) fn check() -> (usize, Vec<Finding>) {
-    (3, [rotation(), axis(), average()].into_iter().flatten().collect())
+/// Evaluates the printed equations (4.8), (4.9) and (4.20).
+pub(super) fn check() -> Audit {
+    Audit { recomputed: 3, findings: [rotation(), axis(), average()].into_iter().flatten().collect() }
 }
 
-/// (4.8) turns a vector about an axis: the turned vector must be as long as the vector.
+/// (4.8) turns a vector about an axis, and so must keep its length.
 fn rotation() -> Option<Finding> {
-    let axis = Vector3::z_axis();
-    let v = Vector3::new(1.0, 0.0, 1.0);
+    let axis = V3::z_axis();
+    let v = V3::new(1.0, 0.0, 1.0);
     let angle: f64 = 0.5;
     let (sin, cos) = angle.sin_cos();
     let printed = v * cos + axis.cross(&v) * sin + axis.into_inner() * (axis.dot(&v) * sin * (1.0 - cos));
     let rodrigues = v * cos + axis.cross(&v) * sin + axis.into_inner() * (axis.dot(&v) * (1.0 - cos));
-    let grows = |turned: &Vector3<f64>| turned.norm() / v.norm();
+    let grows = |turned: &V3| turned.norm() / v.norm();
     ((grows(&printed) - 1.0).abs() > EXACT).then(|| Finding {
         kind: "equation",
         place: "equation (4.8)".into(),
@@ -30,9 +29,9 @@ fn rotation() -> Option<Finding> {
     })
 }
 
-/// (4.9) is the axis of that rotation: it must have length 1.
+/// (4.9) is the axis of that rotation, and so must have length 1.
 fn axis() -> Option<Finding> {
-    let (from, to): (Vector3<f64>, _) = (Vector3::x(), Unit::new_normalize(Vector3::new(1.0, 1.0, 0.0)).into_inner());
+    let (from, to) = (V3::x(), V3::new(1.0, 1.0, 0.0).normalize());
     let cross = from.cross(&to);
     let sine = cross.norm() / (from.norm() * to.norm());
     let printed = cross / (cross.norm() * sine);
@@ -45,7 +44,7 @@ fn axis() -> Option<Finding> {
     })
 }
 
-/// (4.20) is a mean of n numbers: of equal numbers it must be that number.
+/// (4.20) is a mean of n numbers, and so must be 1 of ones.
 fn average() -> Option<Finding> {
     let n = 6_u32;
     let printed = (0..=n).map(|_| 1.0).sum::<f64>() / f64::from(n);

@@ -3,29 +3,29 @@
 use crate::audit::ratios::as_computed;
 use crate::audit::rounding::{mean, prints_as, variance};
 use crate::audit::tables::{Metric, SUBJECTS, Sized, Summary, Tables};
-use crate::audit::{Finding, three};
+use crate::audit::{Audit, Finding, three};
 use fit::Simulator;
 
-/// More measurements than any style of the thesis has.
+/// Upper bound of the number of measurements of a style of the thesis.
 const MOST_MEASUREMENTS: usize = 16;
-/// What the roundings of the lengths add to a metric.
+/// Error of a metric by the rounding of the lengths it is computed from.
 const BLUR: f64 = 1e-4;
 
 /// Checks every printed E, SD, EI and their averages.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let instead = stand_in(tables);
     let mut findings: Vec<Finding> = tables.metrics.iter().flat_map(|metric| row(tables, metric, instead)).collect();
     findings.extend(deviation(tables));
     findings.extend(missing(tables));
-    (tables.metrics.len() * 7, findings)
+    Audit { recomputed: tables.metrics.len() * 7, findings }
 }
 
-/// The ratios of a metric's garment on a subject, as they were computed.
+/// Ratios of a metric's garment on a subject, as they were computed for the tables.
 fn ratios(tables: &Tables, metric: &Metric, subject: usize) -> Vec<f64> {
     tables.table(&metric.of, metric.simulator).into_iter().map(|row| as_computed(row, subject)).collect()
 }
 
-/// A metric by its definition (6.2), (6.3) with root and divisor n - 1, (6.4).
+/// A metric by its definition: (6.2); (6.3) with root and divisor n - 1; (6.4).
 fn value(metric: &str, chis: &[f64]) -> f64 {
     match metric {
         "E" => mean(chis),
@@ -75,7 +75,7 @@ fn row(tables: &Tables, metric: &Metric, instead: Option<usize>) -> Vec<Finding>
     findings
 }
 
-/// The measurement whose error alone stands for most wrong EI, as an index.
+/// Index of the measurement whose error alone is printed in place of most of the wrong EI.
 fn stand_in(tables: &Tables) -> Option<usize> {
     let mut votes = [0; MOST_MEASUREMENTS];
     for metric in tables.metrics.iter().filter(|metric| metric.metric == "EI") {
@@ -97,7 +97,7 @@ fn errors(chis: &[f64]) -> Vec<f64> {
     chis.iter().map(|chi| (chi - 1.0).abs()).collect()
 }
 
-/// What a wrong metric is instead.
+/// Explanation of a wrong metric.
 fn explain(metric: &Metric, chis: &[f64], printed: f64, instead: Option<usize>) -> String {
     let errors = errors(chis);
     if metric.metric == "EI" {
@@ -131,7 +131,7 @@ fn deviation(tables: &Tables) -> Option<Finding> {
     })
 }
 
-/// Metrics that the text says are in its tables and are not.
+/// Metrics that the text says are in its tables, and that are not.
 fn missing(tables: &Tables) -> Vec<Finding> {
     let mut findings = Vec::new();
     for of in tables.garments() {
@@ -154,8 +154,8 @@ fn missing(tables: &Tables) -> Vec<Finding> {
     findings
 }
 
-/// Checks mean and SD of the subjects (Tables 6-3, 6-4), and whom their captions name.
-pub(super) fn subjects(tables: &Tables) -> (usize, Vec<Finding>) {
+/// Checks mean and SD of the subjects (Tables 6-3, 6-4), and the sex that their captions name.
+pub(super) fn subjects(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> = tables.summaries.iter().flat_map(|summary| statistics(tables, summary)).collect();
     let miscaptioned = tables.summaries.iter().filter(|s| s.captioned != s.sex && s.statistic == "mean");
     findings.extend(miscaptioned.map(|summary| Finding {
@@ -166,10 +166,10 @@ pub(super) fn subjects(tables: &Tables) -> (usize, Vec<Finding>) {
         says: "the caption names the other sex: the numbers are those of these subjects".into(),
     }));
     findings.extend(heading(tables));
-    (tables.summaries.len() * 5, findings)
+    Audit { recomputed: tables.summaries.len() * 5, findings }
 }
 
-/// Table 6-13 is headed as the T-shirt's size S: whose E it prints shows in the numbers.
+/// Table 6-13 is headed as the T-shirt's size S. The numbers tell the size whose E it prints.
 fn heading(tables: &Tables) -> Option<Finding> {
     let printed: Vec<&Metric> = tables.metrics.iter().filter(|m| m.table == "6-13" && m.metric == "E").collect();
     let fits = |size: &str| {
@@ -194,7 +194,8 @@ fn statistics(tables: &Tables, summary: &Summary) -> Vec<Finding> {
     let names = ["chest", "waist", "hip", "across shoulder", "neck"];
     let wrong = (0..5).filter_map(|k| {
         let sex = summary.sex.as_str();
-        let values: Vec<f64> = tables.subjects.iter().filter(|(of, _)| of == sex).map(|(_, v)| v[k]).collect();
+        let own = tables.subjects.iter().filter(|(known, _)| known == sex);
+        let values: Vec<f64> = own.map(|(_, numbers)| numbers[k]).collect();
         let recomputed = if summary.statistic == "mean" { mean(&values) } else { variance(&values, 1.0).sqrt() };
         ((recomputed - summary.numbers[k]).abs() > 0.0051).then(|| Finding {
             kind: "metric",

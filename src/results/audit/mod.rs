@@ -1,7 +1,6 @@
-//! Audits: every number recomputed from the ones it was made of, and what does not add up.
+//! Audits: every number recomputed from those that it was made of, and the contradictions that are found.
 //!
-//! [`audit_thesis`] does this for the thesis's own printed tables,
-//! [`audit_study`] for the results of a study of ours.
+//! [`audit_thesis`] audits the printed tables of the thesis, [`audit_study`] the results of a study.
 
 mod claims;
 mod equations;
@@ -18,18 +17,18 @@ mod tests;
 
 use store::{Result, Store, Table, Value};
 
-/// Something that does not add up.
+/// A contradiction that an audit found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// Kind of finding (`ratio`, `metric`, `copy`, ...).
     pub kind: &'static str,
-    /// Where it stands: table, row, subject; or the job.
+    /// Place of the number: table, row and subject; or the job.
     pub place: String,
-    /// What is stated there.
+    /// Number or statement as it stands there.
     pub stated: String,
-    /// What comes out when it is recomputed.
+    /// Number as it is recomputed.
     pub recomputed: String,
-    /// What is wrong with it, in words.
+    /// Contradiction in words.
     pub says: String,
 }
 
@@ -46,12 +45,12 @@ impl Finding {
     }
 }
 
-/// What an audit looked at and what it found.
+/// Result of an audit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// How many numbers were recomputed.
+    /// Number of numbers that were recomputed.
     pub recomputed: usize,
-    /// What does not add up.
+    /// Contradictions that were found.
     pub findings: Vec<Finding>,
 }
 
@@ -63,7 +62,7 @@ pub fn audit_thesis(store: &Store) -> Result<Audit> {
     Ok(published::audit(&tables::Tables::read(&store.reader)?))
 }
 
-/// Measures the stored meshes of a study's results again and compares them with what the tables say.
+/// Measures the stored meshes of a study's results again, and compares them with the stored numbers.
 ///
 /// # Errors
 /// When there is no such study or the database cannot be read.

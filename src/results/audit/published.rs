@@ -1,10 +1,10 @@
 //! The audit of the thesis's tables: each kind of check over all of them.
 
 use crate::audit::tables::Tables;
-use crate::audit::{Audit, Finding, claims, equations, metrics, ratios, references, structure};
+use crate::audit::{Audit, claims, equations, metrics, ratios, references, structure};
 
-/// One kind of check: how many numbers it recomputed, and what it found.
-type Check = fn(&Tables) -> (usize, Vec<Finding>);
+/// One kind of check of the tables.
+type Check = fn(&Tables) -> Audit;
 
 /// Every kind of check, in the order of its findings.
 const CHECKS: [Check; 7] =
@@ -16,7 +16,7 @@ const CHECKS: [Check; 7] =
 pub(super) fn audit(tables: &Tables) -> Audit {
     let mut audit = Audit { recomputed: 0, findings: Vec::new() };
     for check in CHECKS {
-        let (recomputed, findings) = check(tables);
+        let Audit { recomputed, findings } = check(tables);
         audit.recomputed += recomputed;
         audit.findings.extend(findings);
     }

@@ -2,37 +2,37 @@
 
 use crate::audit::rounding::{blur, mean, prints_as, variance};
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
-use crate::audit::{Finding, three, threes};
+use crate::audit::{Audit, Finding, three, threes};
 use fit::Simulator;
 
 /// Checks every ratio, row mean and row SD.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> =
         tables.rows.iter().flat_map(|row| ratios(row).into_iter().chain(summary(row))).collect();
     findings.extend(winners(tables));
     findings.extend(shifts(tables));
-    (tables.rows.len() * 8, findings)
+    Audit { recomputed: tables.rows.len() * 8, findings }
 }
 
-/// The ratio that a printed one was computed as: to the pattern or, in a row that is chained, to the subject before.
+/// Ratio that a printed one was computed as: to the pattern or, in a chained row, to the subject before.
 pub(super) fn as_computed(row: &Row, subject: usize) -> f64 {
     let chained = if is_chained(row) { chained(row, subject) } else { None };
     chained.unwrap_or_else(|| row.ratio(subject))
 }
 
-/// L3D over the L3D of the subject before.
+/// L3D of a subject over the L3D of the subject before.
 fn chained(row: &Row, subject: usize) -> Option<f64> {
     let before = row.l3d_mm[subject.checked_sub(1)?];
     Some(row.l3d_mm[subject] / before)
 }
 
-/// Whether a printed ratio is that of the lengths beside it.
+/// True if a printed ratio is that of the lengths beside it.
 fn holds(row: &Row, subject: usize) -> bool {
     let ratio = row.ratio(subject);
     prints_as(ratio, row.chi[subject], blur(ratio, row.l2d_mm))
 }
 
-/// Whether some ratios of a row do not hold and all later ones are taken to the subject before.
+/// True if some ratios of a row are not to the pattern and all but the first are to the subject before.
 fn is_chained(row: &Row) -> bool {
     let fits = |subject: usize| {
         let blur = blur(row.chi[subject], row.l3d_mm[subject - 1]);
@@ -75,7 +75,7 @@ fn summary(row: &Row) -> Option<Finding> {
     })
 }
 
-/// What the wrong ratios do to E and EI where they do most.
+/// Greatest changes of E and of EI by the wrong ratios.
 fn shifts(tables: &Tables) -> Vec<Finding> {
     let of_garment = |of: Sized| {
         let cells =

@@ -1,11 +1,11 @@
-//! Captions, references and words: what the text calls its tables and figures, held against what those contain.
+//! Captions, references and words of the text, checked against the tables and figures that they speak of.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::audit::Finding;
 use crate::audit::tables::{Row, Tables};
+use crate::audit::{Audit, Finding};
 
-/// A table or figure of chapter 6, and what it shows: garment, size where it is one of several, and simulator.
+/// A table or figure of chapter 6 with its garment, size (`one` where there is only one) and simulator.
 type Label = (&'static str, [&'static str; 3]);
 
 /// Size that the captions of the measurement tables name; empty where they name none.
@@ -30,7 +30,7 @@ const CAPTIONED: [(&str, &str); 18] = [
     ("6-30", ""),
 ];
 
-/// The figures that chart those tables. They stand with them: the size of the trousers is that of the section.
+/// Figures that chart those tables. They stand beside them; the size of the trousers is that of the section.
 const FIGURES: [Label; 18] = [
     ("Figure 6-7", ["male_tshirt", "s", "fem"]),
     ("Figure 6-9", ["male_tshirt", "s", "hybrid"]),
@@ -52,7 +52,7 @@ const FIGURES: [Label; 18] = [
     ("Figure 6-68", ["female_dress", "one", "hybrid"]),
 ];
 
-/// Sentences that speak of the numbers of one table: what they refer to first, and the chart of it.
+/// Sentences on the numbers of one table: the table or figure that they refer to first, and the chart of the numbers.
 const SENTENCES: [(&str, &str); 9] = [
     ("Table 6-9", "Figure 6-16"),
     ("Table 6-14", "Figure 6-29"),
@@ -73,18 +73,18 @@ const DRAPE_RANGES: [(&str, [f64; 2]); 2] = [("t-shirt", [20.0, 40.0]), ("loose 
 const CUT_SHORT: (&str, &str) = ("Tim cost", "Time cost");
 
 /// Checks captions, references and words.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     if tables.rows.is_empty() {
-        return (0, Vec::new());
+        return Audit { recomputed: 0, findings: Vec::new() };
     }
     let mut findings = captions(tables);
     findings.extend(references(tables));
     findings.extend(iterations());
     findings.extend(words(tables));
-    (CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings)
+    Audit { recomputed: CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings }
 }
 
-/// Captions without the size, of garments that come in several.
+/// Captions that name no size, of garments in several sizes.
 fn captions(tables: &Tables) -> Vec<Finding> {
     let mut bare: BTreeMap<&str, Vec<(&str, &str)>> = BTreeMap::new();
     for (table, size) in CAPTIONED {
@@ -105,7 +105,7 @@ fn captions(tables: &Tables) -> Vec<Finding> {
     bare.into_iter().map(finding).collect()
 }
 
-/// References to a table or figure of something else than the one they stand with.
+/// References to a table or figure of something else than the numbers that the sentence speaks of.
 fn references(tables: &Tables) -> Vec<Finding> {
     let shows = |label: &str| -> Option<[&str; 3]> {
         if let Some(table) = label.strip_prefix("Table ") {
@@ -131,7 +131,7 @@ fn references(tables: &Tables) -> Vec<Finding> {
     wrong.collect()
 }
 
-/// A number of iterations that another section gives otherwise.
+/// Numbers of iterations of Hybrid-GS that two sections state differently.
 fn iterations() -> Vec<Finding> {
     let outside = DRAPE_RANGES.iter().filter(|(_, [low, high])| !(*low..=*high).contains(&DRAPE_STEPS));
     let finding = |(garment, [low, high]): &(&str, [f64; 2])| Finding {
@@ -144,7 +144,7 @@ fn iterations() -> Vec<Finding> {
     outside.map(finding).collect()
 }
 
-/// Words that stand for others.
+/// Words that stand in place of others.
 fn words(tables: &Tables) -> Vec<Finding> {
     let rows: Vec<&Row> = tables.rows.iter().filter(|row| row.name.contains("Circumstance")).collect();
     let finding = |place: String, stated: &str, meant: &str, says: &str| Finding {
@@ -155,8 +155,8 @@ fn words(tables: &Tables) -> Vec<Finding> {
         says: says.into(),
     };
     let first = (!rows.is_empty()).then(|| {
-        let of: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
-        let place = format!("{} rows of {} tables", rows.len(), of.len());
+        let tables: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
+        let place = format!("{} rows of {} tables", rows.len(), tables.len());
         finding(place, "Circumstance", "Circumference", "the names of these measurements mean another word")
     });
     let (stated, meant) = CUT_SHORT;

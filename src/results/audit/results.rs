@@ -1,4 +1,4 @@
-//! The audit of our own results: the stored meshes measured again.
+//! Audit of the results of a study: the stored meshes measured again.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use geom::units::mm;
 use sim::{Drape, quality};
 use store::{ChiRow, JobFilter, JobRow, MetricsRow, Result, StageKind, Status, Store, Value, read, sql};
 
-/// Lengths are stored as they were measured: they must come out the same but for the last digits, m.
+/// Greatest difference of a stored and a measured length, m: lengths are stored as they were measured.
 const SAME_M: f64 = 1e-9;
-/// Likewise for ratios.
+/// Greatest difference of a stored and a recomputed metric.
 const SAME: f64 = 1e-9;
-/// Deepest penetration that is no defect, m.
+/// Greatest penetration that is no defect, m.
 const PENETRATION_M: f64 = 0.5e-3;
 
 /// Audits the current results of a study.
@@ -38,7 +38,7 @@ pub(super) fn audit(store: &Store, study: &str) -> Result<Audit> {
     Ok(audit)
 }
 
-/// The job's cell, for people.
+/// Description of the job's cell.
 fn place(job: &JobRow) -> String {
     format!("job {}: {} {} on {}, {}", job.id, job.garment, job.size, job.subject, job.simulator.as_str())
 }
@@ -62,7 +62,7 @@ fn state(job: &JobRow) -> Option<Finding> {
     })
 }
 
-/// Measures a result's mesh again; returns how many numbers were recomputed.
+/// Measures a result's mesh again; returns the number of numbers that were recomputed.
 fn remeasure(store: &Store, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Finding>) -> Result<usize> {
     let stored = read::metrics(store, job.id)?;
     let read = || -> Result<_> {
@@ -149,7 +149,7 @@ fn copy(job: &JobRow, chis: &[ChiRow], known: &mut BTreeMap<Vec<u64>, (String, S
     (subject != job.subject).then(|| finding("copy", job, "two subjects", &first, "all lengths are equal"))
 }
 
-/// Results whose program is not a commit that others can check out.
+/// Results of a program with changes that are not committed, which nobody else can check out.
 fn provenance(store: &Store, study: &str) -> Result<Vec<Finding>> {
     let table = sql::query(
         store,

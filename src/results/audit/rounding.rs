@@ -1,17 +1,17 @@
-//! How recomputed numbers agree with printed ones.
+//! Agreement of recomputed numbers with printed ones.
 
-/// How far a recomputed number may lie from one printed with three decimals: half of the last digit.
+/// Greatest difference of a recomputed number from one printed with three decimals: half of the last digit.
 const HALF_DIGIT: f64 = 0.0005 + 1e-6;
 
 /// Half of the last digit of a printed length, mm.
 const HALF_DIGIT_MM: f64 = 0.005;
 
-/// Whether a printed number is a recomputed one, rounded; `blur` is what the roundings of its parts add.
+/// True if a printed number is the recomputed one, rounded. `blur` is the error by the rounding of its parts.
 pub(super) fn prints_as(recomputed: f64, printed: f64, blur: f64) -> bool {
     (recomputed - printed).abs() <= HALF_DIGIT + blur
 }
 
-/// How far a ratio of two printed lengths may be from that of the lengths themselves: `ratio` over `below_mm`.
+/// Error of a ratio of two printed lengths by their rounding. `ratio` is to the length `below_mm`.
 pub(super) fn blur(ratio: f64, below_mm: f64) -> f64 {
     HALF_DIGIT_MM * (1.0 + ratio) / below_mm
 }
@@ -21,7 +21,7 @@ pub(super) fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// Variance of numbers with divisor `n - less`.
+/// Variance of numbers, with divisor `n - less`.
 pub(super) fn variance(numbers: &[f64], less: f64) -> f64 {
     let mean = mean(numbers);
     numbers.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (numbers.len() as f64 - less)

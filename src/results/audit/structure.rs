@@ -1,18 +1,18 @@
-//! Rows and columns that cannot be what they are called: sums, copies, patterns that change with the simulator.
+//! Contradictions within the tables: rows that are sums of others, copied columns, patterns that differ by simulator.
 
-use crate::audit::Finding;
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
+use crate::audit::{Audit, Finding};
 use fit::Simulator;
 
-/// Lengths are printed to 0.01 mm; sums of two may be off by as much.
+/// Greatest difference of a printed length from the sum of two, mm: lengths are printed to 0.01 mm.
 const PRINTED_MM: f64 = 0.0101;
 /// Least difference of one pattern's length between two simulators that is no rounding, mm.
 const SAME_PATTERN_MM: f64 = 0.011;
-/// A size step under this share of the next one is no grading.
+/// Ratio of a size step to the next one below which the step is no grading.
 const UNEVEN_GRADE: f64 = 0.02;
 
 /// Checks the tables as wholes.
-pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
+pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings = Vec::new();
     for of in tables.garments() {
         for simulator in [Simulator::Fem, Simulator::Hybrid] {
@@ -24,7 +24,7 @@ pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
     }
     findings.extend(grading(tables));
     findings.extend(waists(tables));
-    (tables.rows.len(), findings)
+    Audit { recomputed: tables.rows.len(), findings }
 }
 
 /// Rows whose six lengths are the sums of two other rows'.
@@ -51,7 +51,7 @@ fn sums(rows: &[&Row]) -> Vec<Finding> {
     findings
 }
 
-/// Subjects with the same lengths throughout.
+/// Pairs of subjects with the same lengths in all rows.
 fn copies(rows: &[&Row], of: &Sized, simulator: Simulator) -> Vec<Finding> {
     let mut findings = Vec::new();
     for a in 0..6 {
@@ -71,7 +71,7 @@ fn copies(rows: &[&Row], of: &Sized, simulator: Simulator) -> Vec<Finding> {
     findings
 }
 
-/// L2D of one pattern that differs between the simulators' tables.
+/// Pattern lengths that differ between the simulators' tables.
 fn patterns(tables: &Tables, of: &Sized) -> Vec<Finding> {
     let hybrid = tables.table(of, Simulator::Hybrid);
     let differs = |fem: &Row| {
@@ -87,7 +87,7 @@ fn patterns(tables: &Tables, of: &Sized) -> Vec<Finding> {
     tables.table(of, Simulator::Fem).into_iter().filter_map(differs).collect()
 }
 
-/// Lengths that shrink from a size to the next while the garment grows, or that hardly move in one step of two.
+/// Lengths that shrink from one size to the next, or that hardly change in the first of two steps.
 fn grading(tables: &Tables) -> Vec<Finding> {
     let order = ["s", "m", "l"];
     let mut findings = Vec::new();

@@ -1,4 +1,4 @@
-//! The thesis's printed tables as plain values.
+//! The printed tables of the thesis as plain values.
 
 use rusqlite::{Connection, Row as SqlRow};
 
@@ -44,7 +44,7 @@ impl Row {
         self.l3d_mm[subject] / self.l2d_mm
     }
 
-    /// Where the row stands in the thesis, in words.
+    /// Place of the row in the thesis, in words.
     pub fn place(&self) -> String {
         format!("table {}, row #{} {}", self.table, self.no, self.name)
     }
@@ -76,7 +76,7 @@ pub(super) struct Summary {
     pub numbers: [f64; 5],
 }
 
-/// A cell of Table 4-1: accuracy after a preposition.
+/// A cell of Table 4-1: chi after pre-positioning with a bending angle.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Preposition {
     pub bend_deg: f64,
@@ -89,7 +89,7 @@ pub(super) struct Tables {
     pub rows: Vec<Row>,
     pub metrics: Vec<Metric>,
     pub summaries: Vec<Summary>,
-    /// Sex with chest, waist, hip, across-shoulder and neck of each of the twelve subjects, cm.
+    /// Sex of each of the twelve subjects, with chest, waist, hip, across-shoulder and neck, cm.
     pub subjects: Vec<(String, [f64; 5])>,
     pub prepositions: Vec<Preposition>,
 }

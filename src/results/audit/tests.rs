@@ -68,6 +68,6 @@ fn tables_without_errors_have_no_findings() {
     let tables =
         Tables { rows: rows.collect(), metrics: vec![], summaries: vec![], subjects: vec![], prepositions: vec![] };
     for check in [ratios::check, structure::check] {
-        assert_eq!(check(&tables).1, vec![]);
+        assert_eq!(check(&tables).findings, vec![]);
     }
 }

@@ -1,23 +1,24 @@
-//! What a garment is cut from in a picture: weaves at true scale, a check, image files, piece by piece.
+//! Cloths of a garment in a picture: weaves at true scale, a check, image files, piece by piece.
 
 use std::path::PathBuf;
 
 use image::{Rgba, RgbaImage};
 
+use crate::error::ResultsError;
 use geom::units::from_mm;
 use pattern::Garment;
 use render::{self, Mapping, Print, Rgb, Texture, Weave};
 use sim::Fabric;
-use store::{Origin, Result, StudyError};
+use store::{Result, StudyError};
 
-/// One repeat of the check: squares of 20 mm, m.
+/// Repeat of the check, m: two squares of 20 mm.
 const CHECK_M: f64 = 0.04;
-/// Longest repeat that can be asked for, mm.
+/// Greatest repeat that is accepted, mm.
 const LONGEST_MM: f64 = 5000.0;
 /// Colour of undyed yarn.
 const UNDYED: Rgb = Rgb(0xe9, 0xe4, 0xd8);
 
-/// What is on a cloth.
+/// Pattern on a cloth.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     /// The weave or knit of the garment's own fabric.
@@ -27,10 +28,10 @@ enum Kind {
     Image(PathBuf),
 }
 
-/// A cloth that some or all pieces of a garment are cut from, written `[PIECE=]WHAT[#RRGGBB][@MM]`.
+/// A cloth of some or all pieces of a garment, written `[PIECE=]WHAT[#RRGGBB][@MM]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cloth {
-    /// The piece; all that no other cloth names.
+    /// Piece that is cut from it; without one, all pieces that no other cloth names.
     piece: Option<String>,
     kind: Kind,
     colour: Option<Rgb>,
@@ -42,9 +43,9 @@ impl Cloth {
     /// The check in the simulator's colour.
     pub(super) const CHECK: Self = Self { piece: None, kind: Kind::Check, colour: None, repeat_mm: None };
 
-    /// Reads `[PIECE=]WHAT[#RRGGBB][@MM]`: WHAT is `fabric` (what the garment's fabric is woven like), `plain`, `twill`,
-    /// `jersey`, `rib`, `check` or an image file; MM the length of one repeat. Without MM yarns have their true size and an
-    /// image comes once on each piece.
+    /// Reads `[PIECE=]WHAT[#RRGGBB][@MM]`. WHAT is `fabric` (the weave of the garment's own fabric), `plain`, `twill`,
+    /// `jersey`, `rib`, `check` or an image file, and MM the length of one repeat. Without MM yarns have their true
+    /// size, and an image comes once on each piece.
     ///
     /// # Errors
     /// [`StudyError::Refused`] for an empty name or a repeat that no cloth has.
@@ -79,7 +80,7 @@ impl Cloth {
         Ok(Self { piece, kind, colour, repeat_mm })
     }
 
-    /// The picture of one repeat, and how it lies on the pieces.
+    /// Picture of one repeat, and its mapping onto the pieces.
     fn texture(&self, fabric: &Fabric, own: Rgb) -> Result<(Texture, Mapping)> {
         let colour = self.colour.unwrap_or(own);
         let woven = |weave: Weave| {
@@ -97,9 +98,8 @@ impl Cloth {
             }
             Kind::Image(path) => {
                 let bytes = std::fs::read(path).map_err(|source| StudyError::Io { path: path.clone(), source })?;
-                let picture = image::load_from_memory(&bytes).map_err(|error| {
-                    StudyError::refused(Origin::Render, format!("{}: {error}; accepted: PNG and JPEG", path.display()))
-                })?;
+                let picture = image::load_from_memory(&bytes)
+                    .map_err(|reason| ResultsError::NoImage { file: path.clone(), reason })?;
                 let texture = Texture::new(&picture.to_rgba8());
                 let repeat = self.repeat_mm.map(|mm| [from_mm(mm), from_mm(mm) * texture.aspect()]);
                 let mapping = repeat.map_or(Mapping::Piece, |repeat_m| Mapping::Fabric { repeat_m });
@@ -109,7 +109,7 @@ impl Cloth {
     }
 }
 
-/// What a fabric is woven or knitted like, told from the words of its name and from whether it stretches like a knit.
+/// Weave or knit of a fabric, told from the words of its name and from whether it has the stretch of a knit.
 fn weave(fabric: &Fabric) -> Weave {
     let name = fabric.name.to_lowercase();
     let has = |wanted: &[&str]| name.split(|c: char| !c.is_alphanumeric()).any(|word| wanted.contains(&word));
@@ -124,7 +124,7 @@ fn weave(fabric: &Fabric) -> Weave {
     }
 }
 
-/// The cloths on a garment; a piece that none of them names keeps its simulator's colour.
+/// Texture of a garment that is cut from some cloths. A piece that none of them names keeps its simulator's colour.
 pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: Rgb) -> Result<Print> {
     let bare = RgbaImage::from_pixel(1, 1, Rgba([own.0, own.1, own.2, 255]));
     let mut drawn = vec![(Texture::new(&bare), Mapping::Piece)];
@@ -137,17 +137,17 @@ pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: R
         }
         drawn.push(cloth.texture(fabric, own)?);
     }
-    let mut of = vec![0; garment.triangles.len()];
+    let mut texture_of = vec![0; garment.triangles.len()];
     let mut mapped = Vec::new();
     for piece in &garment.pieces {
         let is_of = |cloth: &Cloth| cloth.piece.as_ref().is_some_and(|name| piece.id.eq_ignore_ascii_case(name));
         let named = cloths.iter().rposition(is_of);
         let chosen = named.or_else(|| cloths.iter().rposition(|cloth| cloth.piece.is_none())).map_or(0, |k| k + 1);
-        of[piece.triangles.clone()].fill(chosen);
+        texture_of[piece.triangles.clone()].fill(chosen);
         mapped.push((piece.vertices.clone(), piece.grain, drawn[chosen].1));
     }
     let places = render::texture_coordinates(&garment.rest, &mapped);
-    Ok(Print { textures: drawn.into_iter().map(|(texture, _)| texture).collect(), of, places })
+    Ok(Print { textures: drawn.into_iter().map(|(texture, _)| texture).collect(), of: texture_of, places })
 }
 
 #[cfg(test)]

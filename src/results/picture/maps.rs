@@ -1,10 +1,11 @@
-//! What colours the cloth: stretch, tension, pressure, gap and chi, each on one fixed scale so that all pictures compare.
+//! Fields that colour the cloth: stretch, tension, pressure, gap and chi. Each has one fixed scale, so that all
+//! pictures compare.
 
 use geom::V3;
 use pattern::Garment;
 use render::Scale;
 
-/// What colours the cloth.
+/// Field or pattern that colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Map {
     /// The simulator's own colour.
@@ -15,21 +16,22 @@ pub enum Map {
     Stretch,
     /// Tension: the greatest principal membrane force, N/m.
     Tension,
-    /// Pressure of the cloth on the body, kPa; of FEM-GS, which alone brings the two into balance.
+    /// Pressure of the cloth on the body, kPa, of FEM-GS only: it alone brings the two into equilibrium.
     Pressure,
     /// Gap between cloth and body, mm.
     Gap,
-    /// chi of each measurement, along where it is measured.
+    /// chi of each measurement, along its path.
     Chi,
 }
 
 /// Stretch at the ends of its colour scale, %.
 const STRETCH_REACH: f64 = 8.0;
-/// Tension at the end of its colour scale, N/m: a strip 1 cm wide that carries 100 g.
+/// Tension at the end of its colour scale, N/m. A strip 1 cm wide then carries 100 g.
 const TENSION_REACH: f64 = 100.0;
-/// Pressure at the end of its colour scale, kPa: where clothes begin to be felt as tight; compression stockings press 2 to 4.
+/// Pressure at the end of its colour scale, kPa. From there on clothes are felt as tight; compression stockings press
+/// with 2 to 4.
 const PRESSURE_REACH_KPA: f64 = 2.0;
-/// chi at the ends of its colour scale, to both sides of 1, as in the report's tables.
+/// Departure of chi from 1 at the ends of its colour scale, as in the report's tables.
 const CHI_REACH: f64 = 0.15;
 /// Gap at the ends of its colour scale, mm; below 0 the cloth lies within the body.
 const GAP_REACH_MM: f64 = 100.0;
@@ -53,7 +55,7 @@ impl Map {
         }
     }
 
-    /// What its colours mean; `None` where they mean nothing.
+    /// Colour scale of its values; `None` of a map without values.
     #[must_use]
     pub fn scale(self) -> Option<Scale> {
         match self {
@@ -67,7 +69,7 @@ impl Map {
     }
 }
 
-/// chi of the measurements at the vertices of the triangles they run through; no number elsewhere.
+/// chi of the measurements at the vertices of the triangles that they run through; not a number elsewhere.
 pub(super) fn chis(garment: &Garment, positions: &[V3]) -> Vec<f64> {
     let mut chis = vec![f64::NAN; positions.len()];
     for measurement in &garment.measurements {

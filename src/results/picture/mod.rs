@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 
 use image::RgbaImage;
 
+use crate::error::ResultsError;
+use body::Levels;
 use engine::stages::{Meshes, Model};
 use fit::Simulator;
 use geom::units::mm;
@@ -25,40 +27,39 @@ use sim::{self, Drape, Fabric};
 use store::{InOrigin, JobId, Origin, Result, StageKind, Store, StudyError, Value, cache, read, sql};
 use wardrobe::catalogue::read_fabric;
 
-/// How far from a level of the body cloth still counts as at it, m.
+/// Greatest difference of height of cloth that counts as at a level of the body, m.
 const NEAR_M: f64 = 0.02;
-/// How far within the body cloth still shows on a gap map, m.
+/// Depth within the body to which cloth shows on a gap map, m.
 const WITHIN_M: f64 = 0.05;
 
-/// Layers of a scene; what is worn under the cloth comes after it.
+/// Index of a layer in a scene. The garments under the cloth come after it.
 const BODY: usize = 0;
 const CLOTH: usize = 1;
 
-/// Results that are kept ready: those of a comparison, so that turning them stays quick.
+/// Number of results that are kept ready: those of a comparison, so that they can be turned quickly.
 const SCENES_KEPT: usize = 3;
 
-/// From where a drape is looked at.
+/// Direction and enlargement from which a drape is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     /// Angle about the vertical from the front towards the subject's right, degrees.
     pub azimuth_deg: i32,
     /// Enlargement of the picture about its middle, percent.
     pub zoom_pct: u32,
-    /// How far the picture's middle lies above the garment's, percent of half its height.
+    /// Height of the picture's middle above the garment's, percent of half its height.
     pub rise_pct: i32,
 }
 
 impl Look {
-    /// The camera that has some meshes as large as they can be, times the enlargement.
-    pub(crate) fn camera<'a>(self, of: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
-        let mut frame = Frame::enclosing(of, aspect(width, height));
-        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
-        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
-        Camera { azimuth_deg: f64::from(self.azimuth_deg), ..Camera::new(View::Front, frame) }
+    /// Camera in which some meshes are as large as they can be, times the enlargement.
+    pub(crate) fn camera<'a>(self, meshes: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
+        let Self { azimuth_deg, zoom_pct, rise_pct } = self;
+        let frame = Zoom { zoom_pct, rise_pct }.of(Frame::enclosing(meshes, aspect(width, height)));
+        Camera { azimuth_deg: f64::from(azimuth_deg), ..Camera::new(View::Front, frame) }
     }
 }
 
-/// A result made ready for pictures: lit once, shown from anywhere.
+/// A result ready for pictures: lit once, shown from any side.
 struct Stage {
     scene: Scene,
     /// Body and cloth.
@@ -68,7 +69,7 @@ struct Stage {
 /// A stored result: the body and the garment on it.
 pub(crate) struct Dressed {
     simulator: Simulator,
-    /// How far the garment shown has come.
+    /// Stage of the simulation that is shown.
     stage: sim::Stage,
     pub garment: Garment,
     fabric: Fabric,
@@ -76,9 +77,9 @@ pub(crate) struct Dressed {
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
-    /// The garments under it, in an outfit.
+    /// Garments under it, of an outfit.
     under: Vec<TriMesh>,
-    /// The garment as earlier stages left it, where the simulator tells them apart.
+    /// Positions of the garment at earlier stages, where the simulator has any.
     earlier: Vec<sim::Staged>,
 }
 
@@ -91,7 +92,7 @@ impl Dressed {
         Some(Scene::new(layers).origin(Origin::Render))
     }
 
-    /// The same with the garment as a stage left it; `None` where the simulator keeps no such stage.
+    /// Returns the result with the garment at a stage; `None` where the simulator keeps no such stage.
     fn at(mut self, stage: sim::Stage) -> Option<Self> {
         if stage != self.stage {
             let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
@@ -110,18 +111,19 @@ impl Dressed {
         }
     }
 
-    /// The cloth under a map: its wrong side, which has no values, in grey.
+    /// Material of the cloth under a map: its wrong side, which has no values, is grey.
     fn material_under(&self, map: Map) -> Material {
         let own = self.material();
         if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
     }
 
-    /// The sewn cloth.
+    /// The cloth, welded along its seams.
     pub fn sewn(&self) -> Result<Sewn<'_>> {
         Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)
     }
 
-    /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
+    /// Values of a map at the vertices of the cloth, in the unit of its scale; empty of a map without values, and not
+    /// a number where a vertex has none.
     pub fn values(&self, map: Map) -> Result<Vec<f64>> {
         let positions = &self.cloth.positions;
         Ok(match map {
@@ -148,12 +150,12 @@ impl Dressed {
         })
     }
 
-    /// The lit scene of a map, the body a dress form.
+    /// The lit scene of a map, with the body as a dress form.
     pub fn scene(&self, map: Map) -> Result<Scene> {
         self.scene_in(map, &[], None)
     }
 
-    /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
+    /// The lit scene of a map. On a plain one the garment is cut from `cloths`, on a body with this colour of skin.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
         let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
@@ -169,7 +171,7 @@ impl Dressed {
         painted.origin(Origin::Render)
     }
 
-    /// How the body and the cloth look.
+    /// Material of the body, and paint of the cloth.
     fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
         let values = self.values(map)?;
         let bare = skin.map_or_else(Material::form, Material::skin);
@@ -190,8 +192,8 @@ impl Dressed {
     }
 }
 
-/// Mean tension, N/m, of a result's cloth around the trunk within [`NEAR_M`] of a body level; `None` where that level of
-/// the body is not known or no cloth lies there.
+/// Mean tension of a result's cloth around the trunk within [`NEAR_M`] of a level of the body, N/m; `None` where that
+/// level is not known, or no cloth lies there.
 pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
     let tensions = worn.values(Map::Tension)?;
@@ -203,12 +205,12 @@ pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
 
-/// Width over height of a picture.
+/// Ratio of width to height of a picture.
 fn aspect(width: u32, height: u32) -> f64 {
     f64::from(width.max(1)) / f64::from(height.max(1))
 }
 
-/// Results last shown, kept lit so that other views of them come quickly.
+/// Results last shown, kept lit so that other views of them are quick.
 #[derive(Default)]
 pub struct Scenes {
     /// The latest last.
@@ -223,8 +225,8 @@ struct Kept {
 }
 
 impl Scenes {
-    /// Returns a picture of a result from any side, the garment as large as it can be times the look's own enlargement.
-    /// The body is cut off where it goes beyond the picture, and the ground is transparent. For small pictures.
+    /// Returns a picture of a result from any side, on transparent ground, the garment as large as it can be times the
+    /// look's enlargement. The body is cut off at the edges. Meant for small pictures.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
@@ -250,8 +252,8 @@ impl Scenes {
     }
 }
 
-/// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
-/// map colours it and leaves its values in the formats that can hold them.
+/// Writes a result's body and garment as a mesh file. Texture coordinates of the garment are its places in the
+/// pattern, m. A map colours it, and its values are kept in formats that have room for them.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
@@ -283,7 +285,7 @@ fn stage(store: &Store, id: JobId, map: Map) -> Result<Stage> {
     Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
 }
 
-/// A result as stored.
+/// Reads a result from the database.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
@@ -293,21 +295,17 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
     let Meshes(mut meshes) = product(store, id, StageKind::Mesh)?;
     let drape: Drape = product(store, id, StageKind::Drape)?;
     let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
-    let garment = meshes
-        .pop()
-        .filter(fits)
-        .ok_or_else(|| StudyError::refused(Origin::Store, format!("the mesh of job {id} does not fit its drape")))?;
+    let garment = meshes.pop().filter(fits).ok_or(ResultsError::OtherMesh(id))?;
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
     let fabric = fabric_of(store, id)?;
-    let at = &model.body.levels;
-    let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
-    let levels = BTreeMap::from(levels);
+    let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = model.body.levels;
+    let levels = [("chest", chest_m), ("underbust", underbust_m), ("waist", waist_m), ("hip", hip_m)].into();
     let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
     let under = read::layers_under(store, id)?.into_iter().filter_map(|layer| worn(store, layer).ok()).collect();
     Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, under, earlier })
 }
 
-/// The draped cloth of a job.
+/// Draped cloth of a job.
 fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
     let Meshes(meshes) = product(store, id, StageKind::Mesh)?;
     let drape: Drape = product(store, id, StageKind::Drape)?;
@@ -315,7 +313,7 @@ fn worn(store: &Store, id: JobId) -> Result<TriMesh> {
     Ok(TriMesh { positions: drape.positions, triangles })
 }
 
-/// The fabric a job was simulated in.
+/// Fabric of a job's garment.
 fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
     match table.rows.first().and_then(|row| row.first()) {
@@ -324,7 +322,7 @@ fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     }
 }
 
-/// A stored product of a job's stage.
+/// Reads a stored product of a job's stage.
 pub(crate) fn product<T: cache::Artefact>(store: &Store, id: JobId, stage: StageKind) -> Result<T> {
     let used = read::stages(store, id)?.into_iter().find(|used| used.stage == stage.as_str());
     let missing = || StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] };

@@ -1,4 +1,4 @@
-//! Pictures to order: several results and views on one sheet, close-ups, turntables, in any cloth.
+//! Pictures with options: several results and views on one sheet, close-ups, turntables, in any cloth.
 
 use image::RgbaImage;
 
@@ -10,16 +10,25 @@ use store::{InOrigin, JobId, Origin, Result, Store, StudyError, read};
 
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;
-/// A close-up: angle, enlargement and height of its middle, as in [`Zoom`].
+/// Angle, enlargement and height of a close-up, as in [`Zoom`].
 const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
 
-/// How close a picture is.
+/// Enlargement of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Zoom {
     /// Enlargement of the garment, percent; at 100 it fills the picture.
     pub zoom_pct: u32,
-    /// How far the picture's middle lies above the garment's, percent of half its height.
+    /// Height of the picture's middle above the garment's, percent of half its height.
     pub rise_pct: i32,
+}
+
+impl Zoom {
+    /// Enlarges a frame.
+    pub(super) fn of(self, mut frame: Frame) -> Frame {
+        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
+        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
+        frame
+    }
 }
 
 /// One picture of a result.
@@ -43,45 +52,35 @@ impl Shot {
     }
 }
 
-/// What a picture shows.
+/// Options of a picture.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// Its shots, each a picture of its own.
+    /// Shots, each a picture of its own.
     pub shots: Vec<Shot>,
-    /// How far the garment has come, each a picture of its own: before and after.
+    /// Stages of the simulation, each a picture of its own: before and after.
     pub stages: Vec<Stage>,
-    /// What colours the cloth.
+    /// Map that colours the cloth.
     pub map: Map,
-    /// What the garment is cut from, on a plain map.
+    /// Cloths of the garment, on a plain map.
     pub cloths: Vec<Cloth>,
-    /// Colour of the skin; a dress form without.
+    /// Colour of the skin; without one the body is a dress form.
     pub skin: Option<Rgb>,
-    /// How close; body and garment as a whole without.
+    /// Enlargement; without one body and garment are shown as a whole.
     pub zoom: Option<Zoom>,
     /// Pixels across and down of each shot.
     pub size: (u32, u32),
 }
 
 impl Order {
-    fn aspect(&self) -> f64 {
-        f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1))
-    }
-
-    /// The camera of a shot: `whole` and `garments` are what to enclose.
+    /// Camera of a shot. `whole` encloses bodies and garments, `garments` the garments only.
     fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
-        let close = |Zoom { zoom_pct, rise_pct }: Zoom| {
-            let mut frame = garments;
-            frame.centre.z += f64::from(rise_pct) / 100.0 * frame.height_m / 2.0;
-            frame.height_m *= 100.0 / f64::from(zoom_pct.max(1));
-            frame
-        };
-        let frame = self.zoom.map_or(whole, close);
+        let frame = self.zoom.map_or(whole, |zoom| zoom.of(garments));
         match shot {
             Shot::View(view) => Camera::new(view, frame),
             Shot::Turned(azimuth_deg) => Camera { azimuth_deg, ..Camera::new(View::Front, frame) },
             Shot::CloseUp => {
                 let (azimuth_deg, zoom) = CLOSE_UP;
-                Camera { azimuth_deg, ..Camera::new(View::Front, close(self.zoom.unwrap_or(zoom))) }
+                Camera { azimuth_deg, ..Camera::new(View::Front, self.zoom.unwrap_or(zoom).of(garments)) }
             }
         }
     }
@@ -94,19 +93,20 @@ impl Order {
         Ok(picture)
     }
 
-    /// What all pictures enclose: bodies and garments, and the garments alone.
+    /// Frames of all pictures: around bodies and garments, and around the garments only.
     fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
         let cloth = || dressed.iter().map(|worn| &worn.cloth);
         let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
-        [Frame::enclosing(all, self.aspect()), Frame::enclosing(cloth(), self.aspect())]
+        let aspect = picture::aspect(self.size.0, self.size.1);
+        [Frame::enclosing(all, aspect), Frame::enclosing(cloth(), aspect)]
     }
 }
 
-/// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
+/// Draws results as a PNG file: one shot of one result by itself, several of them on a sheet, all at one scale.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
-/// a file that is no image.
+/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage, or where a cloth names
+/// no piece. Others for a file that is no image.
 pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
     let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
     let worn: Vec<(JobId, Stage)> = worn.collect();
@@ -130,13 +130,13 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
         (shots, _) => shots,
     };
     let picture = match cells.as_slice() {
-        [one] => render::png(&one.picture),
+        [cell] => render::png(&cell.picture),
         _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
     };
     picture.origin(Origin::Render)
 }
 
-/// A result as a stage of its simulation left it.
+/// Reads a result, with the garment at a stage of its simulation.
 fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     let worn = picture::dressed(store, id)?;
     let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
@@ -145,7 +145,8 @@ fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
 }
 
-/// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.
+/// Draws a result turned once about the vertical, as an animated PNG file of this number of pictures that repeats for
+/// ever.
 ///
 /// # Errors
 /// As [`pictures`].

@@ -1,30 +1,31 @@
-//! Drapes to turn in the page of a fit report.
+//! Drapes in the page of a fit report, to be turned by the reader.
 
-use crate::draped_fit::GarmentWorn;
+use crate::assessment::GarmentWorn;
 use crate::picture::{self, Map};
 use crate::reporting::quoted;
 use engine::stages::Model;
 use fit::on_body::sites;
 use geom::V3;
-use pattern::pom::PointOfMeasure;
+use pattern::pom::{Point, PointOfMeasure};
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
 use report::viewer::{Drape, Drapes};
 use store::{JobId, JobRow, Result, StageKind, Store, sql};
 use wardrobe::catalogue;
 
-/// The maps that a reader may choose.
+/// Maps that a reader may choose.
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
 
-/// All drapes of a study, each in the size to wear or not.
+/// All drapes of a study, with a mark on those in the size to wear.
 pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Result<Drapes> {
     let mut all = Drapes::default();
     for job in jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1) {
         if !all.has_body(&job.subject) {
             add_body(store, job, &mut all)?;
         }
-        let is_own = |one: &&GarmentWorn| one.card.garment == job.garment && one.card.subject == job.subject;
-        let to_wear = worn.iter().find(is_own).and_then(|one| one.card.to_wear());
+        let mut cards = worn.iter().map(|worn| &worn.card);
+        let own = cards.find(|card| card.garment == job.garment && card.subject == job.subject);
+        let to_wear = own.and_then(|card| card.to_wear());
         add(store, job, to_wear.is_some_and(|size| size.size == job.size), &mut all)?;
     }
     Ok(all)
@@ -63,19 +64,19 @@ fn add(store: &Store, job: &JobRow, is_to_wear: bool, all: &mut Drapes) -> Resul
 fn lines(store: &Store, id: JobId, garment: &Garment, positions: &[V3]) -> Result<Vec<(String, String, Vec<V3>)>> {
     let style: Style = catalogue::style_of(store, id)?;
     let points = style.points_of_measure();
-    let paths: Vec<&[PathPart]> = points.iter().map(|one| one.path.as_slice()).collect();
+    let paths: Vec<&[PathPart]> = points.iter().map(|found| found.path.as_slice()).collect();
     let mut found = Vec::new();
-    for (one, runs) in points.iter().zip(style.laid(garment, &paths)) {
+    for (PointOfMeasure { point, .. }, runs) in points.iter().zip(style.laid(garment, &paths)) {
         let Some(runs) = runs.filter(|runs| !runs.is_empty()) else { continue };
-        let name = one.point.as_str().replace('_', " ");
-        found.extend(words(store, id, one)?.map(|words| (name, words, along(&runs, positions))));
+        let name = point.as_str().replace('_', " ");
+        found.extend(words(store, id, *point)?.map(|words| (name, words, along(&runs, positions))));
     }
     Ok(found)
 }
 
-/// A point's length flat and worn.
-fn words(store: &Store, id: JobId, one: &PointOfMeasure) -> Result<Option<String>> {
-    let point = quoted(one.point.as_str());
+/// Words for a point's length, flat and worn.
+fn words(store: &Store, id: JobId, point: Point) -> Result<Option<String>> {
+    let point = quoted(point.as_str());
     let sql = format!(
         "SELECT printf('%.0f mm flat, %.0f mm worn', flat_mm, draped_mm) FROM pom
         WHERE job_id = {id} AND point = {point} AND draped_mm IS NOT NULL"
@@ -83,13 +84,13 @@ fn words(store: &Store, id: JobId, one: &PointOfMeasure) -> Result<Option<String
     Ok(sql::query(store, &sql)?.rows.first().map(|row| row[0].to_string()))
 }
 
-/// The points along a path that goes over several pieces; an edge that runs the other way is turned.
+/// Points along a path over several pieces. A run that goes the other way is reversed.
 fn along(runs: &[MaterialLine], positions: &[V3]) -> Vec<V3> {
     let mut line: Vec<V3> = Vec::new();
     for run in runs {
         let mut own: Vec<V3> = run.points.iter().map(|point| point.at(positions)).collect();
-        let off = |end: Option<&V3>| line.last().zip(end).map_or(0.0, |(last, end)| (last - end).norm());
-        if off(own.last()) < off(own.first()) {
+        let gap_m = |end: Option<&V3>| line.last().zip(end).map_or(0.0, |(last, end)| (last - end).norm());
+        if gap_m(own.last()) < gap_m(own.first()) {
             own.reverse();
         }
         line.append(&mut own);

@@ -1,4 +1,4 @@
-//! What a report says besides its runs: verdicts, audit, subjects, fabrics, patterns, ease.
+//! Parts of a report besides its runs: verdicts, audit, subjects, fabrics, patterns, ease.
 
 use crate::reporting::quoted;
 use crate::{picture, recommendation};
@@ -25,11 +25,11 @@ const MEASUREMENTS: [(&str, &str, &str, usize); 7] = [
     ("across_shoulder_mm", "Across shoulder", "mm", 0),
 ];
 
-/// A body is told to differ from what was asked by more than this share of it.
+/// Relative difference of a body from its given measurements beyond which the report tells of it.
 const BODY_TOLERANCE: f64 = 0.01;
 
-/// A subject of a report: what was asked and, where a body was dressed, what a tape reads on it; in order of
-/// [`MEASUREMENTS`].
+/// A subject of a report: its given measurements and, where a body was dressed, those of the tape on it, both in order
+/// of [`MEASUREMENTS`].
 pub(super) struct BodyFacts {
     name: String,
     sex: String,
@@ -38,19 +38,19 @@ pub(super) struct BodyFacts {
     measured: Option<Vec<Option<f64>>>,
 }
 
-/// A scan that is a body: its file, and what was guessed or repaired when it was read.
+/// A body that is a scan: its file, and the guesses and repairs that were made when it was read.
 struct ScanFacts {
     file: String,
     notes: Vec<String>,
 }
 
 impl BodyFacts {
-    /// Whether the body is a scan.
+    /// True if the body is a scan.
     pub(super) fn is_scan(&self) -> bool {
         self.scan.is_some()
     }
 
-    /// Where the body is from, in words.
+    /// Origin of the body, in words.
     fn origin(&self) -> String {
         match &self.scan {
             Some(ScanFacts { file, notes }) if notes.is_empty() => format!("scan {file}"),
@@ -61,12 +61,12 @@ impl BodyFacts {
     }
 }
 
-/// What a tape reads on a body, in order of [`MEASUREMENTS`]; mass cannot be read.
+/// Tape measurements of a body, in order of [`MEASUREMENTS`]. Mass is not measured.
 fn readings(girths: &Girths) -> Vec<Option<f64>> {
     MEASUREMENTS.iter().map(|(key, ..)| girths.written(key)).collect()
 }
 
-/// The subjects as their bodies were dressed; as asked where none was.
+/// Table of the subjects with the measurements of their bodies; as given where none was dressed.
 pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     let column = |(_, name, unit, decimals): (&str, &str, &str, usize)| Column {
         name: name.to_owned(),
@@ -84,7 +84,7 @@ pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     SubjectTable { columns: MEASUREMENTS.map(column).to_vec(), rows: bodies.iter().map(row).collect() }
 }
 
-/// Where bodies differ from what was asked of them.
+/// Differences of bodies from their given measurements.
 fn mismatches(bodies: &[BodyFacts]) -> Vec<String> {
     let mut told = Vec::new();
     for body in bodies {
@@ -118,7 +118,7 @@ pub(super) fn verdicts(store: &Store, study: &str) -> Result<Vec<Verdict>> {
     Ok(read::recommendations(store, study)?.into_iter().map(verdict).collect())
 }
 
-/// Which size each subject of a study should wear.
+/// Size that each subject of a study should wear.
 pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Result<Vec<SizeTip>> {
     let mut tips = Vec::new();
     let eased = read::ease(store, study)?;
@@ -143,7 +143,7 @@ pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Res
     Ok(tips)
 }
 
-/// What a reader should know before believing the numbers.
+/// Remarks that limit the numbers of the report.
 pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyFacts]) -> Result<Vec<AuditNote>> {
     let mut notes = Vec::new();
     let mut note = |severity, text: String| notes.push(AuditNote { severity, text });
@@ -212,7 +212,7 @@ pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<
     Ok(bodies)
 }
 
-/// The scan that somebody is, read again for what is said of it.
+/// The scan that a person's body is, read again for its notes.
 fn scan_facts(person: &Person) -> Option<ScanFacts> {
     let ScanFile { file, unit } = person.scan.as_ref()?;
     let read = bodies::read_scan(file, *unit, Some(person.measurements.sex));
@@ -258,7 +258,7 @@ pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts
     Ok(table.rows.iter().map(facts).collect())
 }
 
-/// The first size of each garment, drawn from what its job was made from.
+/// Drawing of the first size of each garment, from the pattern of its job.
 pub(super) fn drawings(store: &Store, jobs: &[JobRow], draw: fn(&Style) -> String) -> Result<Vec<Drawing>> {
     let mut drawings: Vec<Drawing> = Vec::new();
     for job in jobs {
@@ -278,8 +278,8 @@ pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix
     for garment in read::study(store, study)?.garments {
         let grid = read::grid(store, study, &garment)?;
         let cell = |size: &String, subject: &String| {
-            let of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
-            eases.iter().find(of).map(|row| Ease {
+            let is_of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
+            eases.iter().find(is_of).map(|row| Ease {
                 level: row.level.clone(),
                 pattern_girth_m: row.pattern_girth_m,
                 body_girth_m: row.body_girth_m,

@@ -1,8 +1,8 @@
-//! Fit sheets: how a garment sits on a subject in its sizes, for the fit report.
+//! Fit sheets: the fit of a garment on a subject in its sizes, for the fit report.
 
-use crate::draped_fit::{GarmentWorn, SizeWorn};
+use crate::assessment::{GarmentWorn, SizeWorn};
+use crate::cross_section::{self, CutAt};
 use crate::fit_card::{FitCard, LevelSits, Sits, SizeSits};
-use crate::section::{self, CutAt};
 use geom::units::signed_tenths;
 use pattern::pom::Point;
 use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
@@ -10,17 +10,17 @@ use store::{Result, Store};
 
 /// The fit sheets of a study.
 pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
-    worn.iter().map(|one| sheet(store, one)).collect()
+    worn.iter().map(|worn| sheet(store, worn)).collect()
 }
 
-fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
-    let card = &one.card;
+fn sheet(store: &Store, worn: &GarmentWorn) -> Result<FitSheet> {
+    let card = &worn.card;
     let beside = card.beside();
-    let worn = |size: &SizeSits| one.sizes.iter().find(|worn| worn.size == size.size);
-    let drapes: Vec<Option<&SizeWorn>> = beside.iter().map(worn).collect();
-    let jobs: Vec<_> = one.sizes.iter().map(|size| size.job).collect();
+    let drape_of = |name: &str| worn.sizes.iter().find(|size| size.size == name);
+    let drapes: Vec<Option<&SizeWorn>> = beside.iter().map(|size| drape_of(&size.size)).collect();
+    let jobs: Vec<_> = worn.sizes.iter().map(|size| size.job).collect();
     let wear = card.to_wear().map(|size| size.size.as_str());
-    let charts = section::drawn(store, &jobs, &CutAt::Levels, wear)?;
+    let charts = cross_section::drawn(store, &jobs, &CutAt::Levels, wear)?;
     let size = |size: &SizeSits| FitSize {
         size: size.size.clone(),
         is_to_wear: size.place == Some(1),
@@ -38,15 +38,15 @@ fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
         subject: card.subject.clone(),
         intended: card.intended.clone().unwrap_or_default(),
         verdict: card.verdict(),
-        drape: wear.and_then(|wear| one.sizes.iter().find(|size| size.size == wear)).map_or_else(String::new, told),
+        drape: wear.and_then(drape_of).map_or_else(String::new, told),
         sizes: beside.iter().map(size).collect(),
-        simulator: one.simulator,
+        simulator: worn.simulator,
         tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
         sections: charts.into_iter().map(|(_, chart)| chart).collect(),
     })
 }
 
-/// How a drape hangs and presses, in words.
+/// Words on hem and pressure of a drape.
 fn told(size: &SizeWorn) -> String {
     let hem = size.hem_words().map(|words| format!("Hem {words}."));
     let most = size.pressure.first().map(|most| {
@@ -56,11 +56,11 @@ fn told(size: &SizeWorn) -> String {
     hem.into_iter().chain(most).collect::<Vec<_>>().join(" ")
 }
 
-/// The points of measure that any drape has, and how each is measured.
+/// Points of measure that any drape has, with their definitions.
 pub(super) fn definitions(worn: &[GarmentWorn]) -> Vec<Fact> {
     let has = |point: &Point| {
-        let mut points = worn.iter().flat_map(|one| &one.sizes).flat_map(|size| &size.points);
-        points.any(|one| one.point == point.as_str())
+        let mut points = worn.iter().flat_map(|worn| &worn.sizes).flat_map(|size| &size.points);
+        points.any(|measured| measured.point == point.as_str())
     };
     let fact = |point: Point| Fact { name: point.as_str().replace('_', " "), value: point.definition().to_owned() };
     Point::ALL.into_iter().filter(has).map(fact).collect()
@@ -70,7 +70,7 @@ fn plain(text: impl Into<String>) -> FitCell {
     FitCell { text: text.into(), ..FitCell::default() }
 }
 
-/// A whole number with a true minus, never before 0.
+/// A whole number with a true minus sign, never before 0.
 fn whole(value: f64) -> String {
     format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
 }
@@ -80,20 +80,20 @@ fn signed(value: f64) -> String {
     if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
 }
 
-/// Ease at every level beside what is meant.
+/// Ease at every level beside its target.
 fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     let row = |level: &str| {
-        let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
-        let all: Vec<Option<LevelSits>> = sizes.iter().map(of).collect();
+        let level_of = |size: &SizeSits| size.levels.iter().find(|known| known.level == level).cloned();
+        let all: Vec<Option<LevelSits>> = sizes.iter().map(level_of).collect();
         let known = all.iter().flatten().next();
-        let target = known.and_then(|one| one.target_mm);
-        let body = known.map_or(String::new(), |one| format!("{:.0}", one.body_girth_mm));
+        let target = known.and_then(|level| level.target_mm);
+        let body = known.map_or(String::new(), |level| format!("{:.0}", level.body_girth_mm));
         let target = target.map_or(String::new(), |[least, most]| format!("{} to {}", whole(least), whole(most)));
-        let cell = |one: &Option<LevelSits>| {
-            one.as_ref().map_or_else(FitCell::default, |one| FitCell {
-                text: signed(one.ease_mm),
-                note: one.words(),
-                verdict: one.sits().map(|sits| match sits {
+        let cell = |level: &Option<LevelSits>| {
+            level.as_ref().map_or_else(FitCell::default, |level| FitCell {
+                text: signed(level.ease_mm),
+                note: level.words(),
+                verdict: level.sits().map(|sits| match sits {
                     Sits::Tight => FitVerdict::Tight,
                     Sits::Loose => FitVerdict::Loose,
                     Sits::AsMeant => FitVerdict::AsMeant,
@@ -153,10 +153,10 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
         let words = longest.map(|fold| format!("the longest {:.0} mm, {}", fold.length_mm, fold.words()));
         Some((size.folds.len().to_string(), words.unwrap_or_default()))
     });
-    for opening in names_among(sizes, |size| size.drawn.iter().map(|one| one.opening.as_str()).collect()) {
+    for opening in names_among(sizes, |size| size.drawn.iter().map(|drawn| drawn.opening.as_str()).collect()) {
         add(&format!("drawn by the movement: {opening}, mm"), &|size| {
-            let one = size.drawn.iter().find(|one| one.opening == opening)?;
-            Some((signed(one.drawn_mm), format!("{} at most", signed(one.drawn_most_mm))))
+            let drawn = size.drawn.iter().find(|drawn| drawn.opening == opening)?;
+            Some((signed(drawn.drawn_mm), format!("{} at most", signed(drawn.drawn_most_mm))))
         });
     }
     for level in names_among(sizes, |size| size.gaps.iter().map(|gap| gap.level.as_str()).collect()) {
@@ -187,12 +187,12 @@ fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     let row = |point: Point| {
         let name = point.as_str();
         let cell = |size: &Option<&SizeWorn>| {
-            let found = size.and_then(|size| size.points.iter().find(|one| one.point == name));
-            found.map_or_else(FitCell::default, |one| {
-                let worn = one.draped_mm.map(|mm| format!("worn {mm:.1}"));
-                let step = one.step_mm.map(|mm| format!("step {}", signed_tenths(mm)).replace('-', "\u{2212}"));
+            let found = size.and_then(|size| size.points.iter().find(|measured| measured.point == name));
+            found.map_or_else(FitCell::default, |measured| {
+                let worn = measured.draped_mm.map(|mm| format!("worn {mm:.1}"));
+                let step = measured.step_mm.map(|mm| format!("step {}", signed_tenths(mm)).replace('-', "\u{2212}"));
                 let note = worn.into_iter().chain(step).collect::<Vec<_>>().join(", ");
-                FitCell { text: format!("{:.1}", one.flat_mm), note, verdict: None }
+                FitCell { text: format!("{:.1}", measured.flat_mm), note, verdict: None }
             })
         };
         FitRow { name: name.replace('_', " "), cells: sizes.iter().map(cell).collect() }

@@ -1,4 +1,4 @@
-//! The report of a study: gathering what the page shows, and the raw files beside it.
+//! The report of a study: the data of its pages, and the raw files beside them.
 
 mod drapes;
 mod facts;
@@ -7,7 +7,7 @@ mod published;
 mod runs;
 mod sheets;
 
-use crate::draped_fit;
+use crate::assessment;
 use crate::reporting::facts::BodyFacts;
 use fit::Simulator;
 use report::data::{Fact, FitData, RawLink};
@@ -15,7 +15,7 @@ use report::{self, FileNames, Purpose, ReportData};
 use spec::patterns;
 use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
 
-/// Views of the raw data, their files, and what they hold.
+/// Views of the raw data, their files, and their descriptions.
 const RAW: [(&str, &str, &str); 13] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
@@ -32,7 +32,7 @@ const RAW: [(&str, &str, &str); 13] = [
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
-/// How bodies come about, where some are built, where some are scans.
+/// Origin of bodies, for those that are built and for those that are scans.
 const BUILT: &str = "A body is built from the measurements given.";
 const SCANNED: &str = "The body of a scan is the scan itself, cleaned and closed, and measured there.";
 
@@ -50,7 +50,7 @@ const METHODS: [&str; 5] = [
      lengths where the pattern length agrees within 0.5 mm.",
 ];
 
-/// What bodies lack, where some are built, where some are scans.
+/// Limits of bodies, for those that are built and for those that are scans.
 const BUILT_LIMIT: &str =
     "Bodies that are built are shaped from a few measurements: where they differ from the person, so does the drape.";
 const SCANNED_LIMIT: &str =
@@ -60,8 +60,9 @@ const LIMITS: [&str; 1] = [
     "A fabric of the library is one measured cloth or stands for a class of cloths; its source tells which of its numbers are of another cloth. Friction is an estimate throughout.",
 ];
 
-/// The files of a study's report by their relative paths: `index.html`, the other page, pictures, charts, drawings, CSV. Without a
-/// purpose a study of both simulators opens with their comparison, of one with the fit.
+/// Returns the files of a study's report by their relative paths: `index.html`, the other page, pictures, charts,
+/// drawings, CSV. Without a purpose, a study of both simulators opens with their comparison, and one of a single
+/// simulator with the fit.
 ///
 /// # Errors
 /// When there is no such study, or a stored result cannot be read.
@@ -76,7 +77,7 @@ pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Ve
         files.push((file.to_owned(), of_study(store, view, study)?.csv().into_bytes()));
     }
     let simulators = data.runs.iter().map(|run| run.simulator);
-    let compares = Simulator::ALL.iter().all(|one| simulators.clone().any(|other| other == *one));
+    let compares = Simulator::ALL.iter().all(|simulator| simulators.clone().any(|of_run| of_run == *simulator));
     let by_default = if compares { Purpose::Compare } else { Purpose::Fit };
     files.extend(report::files(&data, purpose.unwrap_or(by_default)).origin(Origin::Report)?);
     Ok(files)
@@ -94,7 +95,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     let (runs, sheets) = runs::report_runs(store, study, &jobs, files)?;
     let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
-    let worn = draped_fit::worn(store, study, None, None)?;
+    let worn = assessment::worn(store, study, None, None)?;
     let today = one(store, "SELECT date('now')")?;
     Ok(ReportData {
         title: study.to_owned(),
@@ -139,14 +140,14 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     })
 }
 
-/// What is said where some bodies are built, and where some are scans.
+/// Chooses the texts of the bodies that there are: built ones, scans, or both.
 fn of_bodies<'a>(bodies: &[BodyFacts], [built, scanned]: [&'a str; 2]) -> impl Iterator<Item = &'a str> {
     let built = (!bodies.iter().all(BodyFacts::is_scan)).then_some(built);
     let scanned = bodies.iter().any(BodyFacts::is_scan).then_some(scanned);
     built.into_iter().chain(scanned)
 }
 
-/// The methods, where the first paragraph begins with how the bodies come about.
+/// Paragraphs on methods. The first begins with the origin of the bodies.
 fn methods<'a>(of_bodies: impl Iterator<Item = &'a str>) -> Vec<String> {
     let [first, rest @ ..] = METHODS;
     let first = of_bodies.chain([first]).collect::<Vec<_>>().join(" ");

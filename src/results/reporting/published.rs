@@ -11,13 +11,14 @@ use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Seve
 use report::{self, Purpose, ReportData};
 use store::{InOrigin, Origin, PUBLISHED, Result, Store, Value, evidence, sql};
 
-/// Tables of the raw data, their files, and what they hold.
+/// Views of the raw data, their files, and their descriptions.
 const RAW: [(&str, &str, &str); 2] = [
     ("v_published", "published.csv", "L2D, L3D and chi as printed, and chi recomputed"),
     ("v_published_metrics", "published-metrics.csv", "E, SD and EI as printed"),
 ];
 
-/// A misprint is a chi off its own lengths by more than its last digit's rounding.
+/// Difference of a printed chi from that of its printed lengths beyond which it is a misprint: more than the rounding
+/// of its last digit.
 const ROUNDING: f64 = 6e-4;
 
 const METHODS: [&str; 3] = [
@@ -66,7 +67,7 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
     Ok(files)
 }
 
-/// What the audit finds in the tables.
+/// Findings of the audit of the tables.
 fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
     let note = |finding: Finding| AuditNote {
         severity: Severity::Warning,
@@ -78,7 +79,7 @@ fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
     Ok(audit::audit_thesis(store)?.findings.into_iter().map(note).collect())
 }
 
-/// The proxy ease of every garment, size and subject.
+/// Proxy ease of every garment, size and subject.
 fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
     let table = sql::query(store,
         "SELECT garment, size, name, iif(garment = 'male_trousers', 'waist less hip', 'hem less chest'), l2d_mm,
@@ -97,7 +98,7 @@ fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
     Ok(eases)
 }
 
-/// Every garment, size, subject and simulator of the tables.
+/// Runs of every garment, size, subject and simulator of the tables.
 fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
     let table = sql::query(store,
         "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
@@ -122,7 +123,7 @@ fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<
     Ok(runs)
 }
 
-/// A run of which only what follows is printed.
+/// A run of which only lengths are printed.
 fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> TryOn {
     TryOn {
         garment: garment.clone(),
@@ -164,7 +165,7 @@ fn measured(row: &[Value]) -> Measured {
     }
 }
 
-/// An answer as a card.
+/// Verdict card of an answer.
 fn verdict(answer: &Answer) -> Verdict {
     let estimate = answer.analysis.estimate;
     Verdict {

@@ -14,21 +14,23 @@ use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, RawLink, Tr
 use sim::Stage;
 use store::{InOrigin, JobId, JobRow, MetricsRow, Origin, Result, Status, Store, Value, read, sql};
 
-/// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
+/// Height of the frame over the least one around the garments: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
-/// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
+/// Number of runs whose pictures the page holds at full size within its 3 MB. Of more runs they are smaller on the
+/// page, but not in the files beside it.
 const FULL_SIZE: usize = 6;
-/// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
-/// then about 9 MB, which can still be mailed.
+/// Least scale of a picture on the page: a smaller one would show nothing. A page of 108 runs is then about 9 MB,
+/// which can still be mailed.
 const LEAST_SHRINK: f64 = 0.38;
-/// The maps of a run: with four views and one picture more, two rows of five.
+/// Maps of a run: with four views and one picture more, two rows of five.
 const MAPS: [(Map, &[View]); 3] = [
     (Map::Stretch, &[View::Front, View::Back]),
     (Map::Tension, &[View::Front, View::Back]),
     (Map::Gap, &[View::Front]),
 ];
 
-/// All runs with their pictures, which share one frame, and links to sheets of them; the pictures are also added to `files`.
+/// All runs with their pictures, which share one frame, and links to sheets of them. The files of the pictures are
+/// added to `files`.
 pub(super) fn report_runs(
     store: &Store,
     study: &str,
@@ -51,7 +53,7 @@ pub(super) fn report_runs(
     for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
         let mut taken = report_runs_of(store, jobs, &eases)?;
         for (((run, worn), job), shots) in
-            taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
+            taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, Format { frame, shrink }))
         {
             let Shots { views, maps, cells, files: kept } = shots?;
             if worn.is_some() {
@@ -74,7 +76,7 @@ pub(super) fn report_runs(
 
 /// Runs with their ease, without pictures.
 fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
-    let of = |job: &JobRow| {
+    let run_of = |job: &JobRow| {
         let outcome = match job.status {
             Status::Done => Outcome::Converged,
             Status::NotConverged => Outcome::NotConverged,
@@ -88,10 +90,10 @@ fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Resul
         });
         Ok(run)
     };
-    jobs.iter().map(of).collect()
+    jobs.iter().map(run_of).collect()
 }
 
-/// The garment of a job without the seed that a sweep may have given it.
+/// Name of a job's garment without the seed that a sweep may have given it.
 fn case(store: &Store, job: &JobRow) -> Result<String> {
     let swept = reporting::one(
         store,
@@ -106,7 +108,7 @@ fn case(store: &Store, job: &JobRow) -> Result<String> {
     Ok(if swept.is_empty() { job.garment.clone() } else { swept })
 }
 
-/// Where a garment of Hybrid-GS does not close around the body, for the caption of its gap map.
+/// Shortfall of a Hybrid-GS garment by level, for the caption of its gap map.
 fn lacks(store: &Store, id: JobId) -> Result<Option<String>> {
     let sql = format!(
         "SELECT group_concat(printf('%.0f mm at the %s', body_girth_mm - garment_girth_mm, level), ', ')
@@ -177,7 +179,7 @@ fn report_run(store: &Store, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
     })
 }
 
-/// The pictures of a run, the four views for a sheet, and the files beside the page.
+/// Pictures of a run, its four views for a sheet, and the files beside the page.
 #[derive(Default)]
 struct Shots {
     views: Vec<Picture>,
@@ -186,13 +188,19 @@ struct Shots {
     files: Vec<(String, Vec<u8>)>,
 }
 
-/// Takes the pictures of some jobs side by side, a thread each.
-fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) -> Vec<Result<Shots>> {
+/// Format of all pictures of a report.
+#[derive(Clone, Copy)]
+struct Format {
+    frame: Frame,
+    /// Scale of the pictures on the page.
+    shrink: f64,
+}
+
+/// Takes the pictures of some jobs in parallel, a thread each.
+fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
     thread::scope(|scope| {
         let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
-            worn.as_ref()
-                .map(|worn| (job, worn))
-                .map_or_else(|| Ok(Shots::default()), |(job, worn)| shots(job, worn, look))
+            worn.as_ref().map_or_else(|| Ok(Shots::default()), |worn| shots(job, worn, format))
         };
         let threads: Vec<_> = jobs.iter().zip(dressed).map(|pair| scope.spawn(move || shoot(pair))).collect();
         let join = |thread: thread::ScopedJoinHandle<_>| match thread.join() {
@@ -203,22 +211,21 @@ fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) 
     })
 }
 
-/// Takes the pictures of a run: on the page shrunk, among the files beside it at full size.
+/// Takes the pictures of a run: smaller on the page, and at full size in the files beside it.
 struct Photographer<'a> {
     job: &'a JobRow,
-    frame: Frame,
-    shrink: f64,
+    format: Format,
     files: Vec<(String, Vec<u8>)>,
 }
 
 impl Photographer<'_> {
     fn shot(&self, scene: &Scene, view: View) -> Result<RgbaImage> {
-        render::render(scene, &Camera::new(view, self.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
+        render::render(scene, &Camera::new(view, self.format.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
     }
 
-    /// A picture for the page; the file beside it has the legend of its scale drawn in.
+    /// Returns a picture for the page. The file beside it has the legend of its scale drawn in.
     fn keep(&mut self, shot: RgbaImage, name: &str, caption: String, scale: Option<&Scale>) -> Result<Picture> {
-        let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.shrink).round() as u32);
+        let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.format.shrink).round() as u32);
         let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
         let bytes = render::jpeg(&small).origin(Origin::Render)?;
         let mut full = shot;
@@ -233,9 +240,9 @@ impl Photographer<'_> {
     }
 }
 
-/// Four views, what came before the drape (Hybrid-GS) or its check of 20 mm (FEM-GS), and the maps of a run.
-fn shots(job: &JobRow, worn: &Dressed, (frame, shrink): (Frame, f64)) -> Result<Shots> {
-    let mut photographer = Photographer { job, frame, shrink, files: Vec::new() };
+/// Takes the pictures of a run: four views, the pop-up (Hybrid-GS) or a check of 20 mm (FEM-GS), and the maps.
+fn shots(job: &JobRow, worn: &Dressed, format: Format) -> Result<Shots> {
+    let mut photographer = Photographer { job, format, files: Vec::new() };
     let mut scene = worn.scene(Map::Plain)?;
     let (mut views, mut field_maps, mut cells) = (Vec::new(), Vec::new(), Vec::new());
     for view in View::ALL {

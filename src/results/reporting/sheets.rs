@@ -1,4 +1,4 @@
-//! The sheets beside a report: all try-ons of a garment and size on one picture.
+//! Contact sheets beside a report: all try-ons of a garment and size on one picture.
 
 use std::collections::BTreeMap;
 
@@ -7,27 +7,27 @@ use image::imageops;
 use render::{self, Cell, RenderError, View};
 use report::FileNames;
 use report::data::RawLink;
-use store::{JobRow, Origin, Result, StudyError};
+use store::{InOrigin, JobRow, Origin, Result};
 
 /// Pixels of a picture on the page.
 pub(super) const PICTURE: (u32, u32) = (480, 540);
 
 /// Longest side of a sheet, without labels, pixels.
 const SHEET_SIDE: f64 = 5500.0;
-/// Jobs one below the other on a sheet of one column of jobs.
+/// Number of jobs in a column of a sheet.
 const JOBS_HIGH: f64 = 10.0;
 
-/// Sheets with all try-ons of a garment and size. Each is made as soon as its last job is through: those of a large study
-/// together would not fit into memory.
+/// Contact sheets with all try-ons of a garment and size. Each is made as soon as its last job is added, since all
+/// sheets of a large study would not fit into memory.
 pub(super) struct Sheets<'a> {
     study: &'a str,
     names: FileNames,
     open: BTreeMap<(&'a str, &'a str), Sheet>,
 }
 
-/// A sheet to come.
+/// A sheet that is not yet complete.
 struct Sheet {
-    /// Jobs that are to come yet.
+    /// Number of jobs that are not yet on it.
     left: usize,
     columns: usize,
     /// Pixels of a picture.
@@ -36,8 +36,8 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// For some jobs, a few of them side by side where there are many, so that the sheet stays about square and below
-    /// [`SHEET_SIDE`].
+    /// Creates the sheet of a number of jobs. Many of them stand in several columns, so that it stays about square and
+    /// below [`SHEET_SIDE`].
     fn new(jobs: usize) -> Self {
         let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
         let rows = (jobs as f64 / beside).ceil();
@@ -60,7 +60,7 @@ impl Sheet {
 }
 
 impl<'a> Sheets<'a> {
-    /// Of a study's jobs.
+    /// Creates the empty sheets of a study's jobs.
     pub(super) fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
         let mut counts: BTreeMap<_, usize> = BTreeMap::new();
         for job in jobs {
@@ -73,7 +73,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Adds what a job shows; gives the sheet that it completes, as a link and the file behind it.
+    /// Adds the pictures of a job. Returns the sheet that it completes, as a link and the file behind it.
     pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(RawLink, Vec<u8>)>> {
         let (garment, size) = (job.garment.as_str(), job.size.as_str());
         let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
@@ -93,7 +93,7 @@ impl<'a> Sheets<'a> {
             }
             // Thousands of runs fit on no sheet; each has its own pictures.
             Err(RenderError::Size { .. }) => Ok(None),
-            Err(error) => Err(StudyError::refused(Origin::Render, error)),
+            Err(error) => Err(error).origin(Origin::Render),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use engine::enqueue;
-use results::{FitCard, GarmentWorn, draped_fit};
+use results::{FitCard, GarmentWorn, assessment};
 use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, read};
 use wardrobe::catalogue;
 
@@ -73,7 +73,7 @@ fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result
 /// Fit of the garment looked at on the wearer; a card without sizes where no ease is known of them.
 fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
     let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
-    match draped_fit::worn(store, &grid.study, Some(&grid.garment), Some(subject)) {
+    match assessment::worn(store, &grid.study, Some(&grid.garment), Some(subject)) {
         Err(StudyError::NotFound { .. }) => {
             let (garment, subject) = (grid.garment.clone(), subject.clone());
             let card = FitCard { garment, subject, intended: None, sizes: vec![] };

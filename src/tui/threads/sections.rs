@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::message::Message;
-use results::{CutAt, section};
+use results::{CutAt, cross_section};
 use store::JobId;
 use wardrobe::catalogue;
 
@@ -14,8 +14,8 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<Vec<JobId>>, sen
     while let Ok(first) = wanted.recv() {
         let jobs = wanted.try_iter().last().unwrap_or(first);
         let store = store.as_ref().map_err(Clone::clone);
-        let cut =
-            store.and_then(|store| section::sections(store, &jobs, &CutAt::Levels).map_err(|error| error.to_string()));
+        let cut = store
+            .and_then(|store| cross_section::sections(store, &jobs, &CutAt::Levels).map_err(|error| error.to_string()));
         if sender.send(Message::Cut(jobs, cut)).is_err() {
             return;
         }

@@ -1,4 +1,4 @@
-//! How a garment sits, size by size: its fit card beside what is measured on its drapes.
+//! The fit of a garment, size by size: its fit card beside the measurements of its drapes.
 
 use serde::Serialize;
 
@@ -6,13 +6,13 @@ use crate::fit_card::{FitCard, fit_cards};
 use fit::Simulator;
 use store::{JobId, Result, Store};
 
-/// Difference of a hem's heights below which it hangs level, mm: what the eye does not see on a moving person.
+/// Difference of a hem's heights below which it counts as level, mm: the eye does not see it on a moving person.
 const LEVEL_MM: f64 = 5.0;
 
-/// A number of a garment's balance.
+/// A quantity of a garment's balance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Balance {
-    /// What, such as `hem_front`.
+    /// Name of the quantity, such as `hem_front`.
     pub quantity: String,
     /// Value of the quantity, in `unit`.
     pub value: f64,
@@ -25,28 +25,28 @@ pub struct Balance {
 pub struct RegionPressure {
     /// Name of the region, such as `lower_legs`.
     pub region: String,
-    /// Area that is pressed, cm2.
+    /// Area under pressure, cm2.
     pub area_cm2: f64,
     /// Mean over that area, kPa.
     pub mean_kpa: f64,
-    /// What 1 % of it exceeds, kPa.
+    /// Pressure that 1 % of the area exceeds, kPa.
     pub most_kpa: f64,
-    /// The same, mmHg.
+    /// Pressure that 1 % of the area exceeds, mmHg.
     pub most_mmhg: f64,
 }
 
-/// A line in which cloth stands off the skin.
+/// A fold or drag line: a line along which cloth stands off the skin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoldLine {
     /// `fold` or `drag_line`.
     pub kind: String,
-    /// Extent in its own direction, mm.
+    /// Length in its own direction, mm.
     pub length_mm: f64,
     /// Angle from the vertical, degrees.
     pub from_vertical_deg: f64,
     /// Height of its middle above the floor, mm.
     pub height_mm: f64,
-    /// Where its middle lies, degrees from the front towards the subject's right.
+    /// Direction of its middle, degrees from the front towards the subject's right.
     pub side_deg: f64,
 }
 
@@ -55,39 +55,39 @@ pub struct FoldLine {
 pub struct WornPoint {
     /// Name of the point of measure.
     pub point: String,
-    /// Flat on the pieces, mm.
+    /// Length flat on the pieces, mm.
     pub flat_mm: f64,
-    /// More than the size before, mm.
+    /// Grade step: the flat length less that of the size before, mm.
     pub step_mm: Option<f64>,
-    /// On the drape, mm.
+    /// Length on the drape, mm.
     pub draped_mm: Option<f64>,
 }
 
-/// The gap at a level, mm.
+/// Gap between body and cloth at a level, mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelGap {
     /// Level of the body, such as `waist`.
     pub level: String,
     /// Least gap; below 0 where cloth lies inside the body.
     pub least_gap_mm: Option<f64>,
-    /// Mean over all directions that meet cloth.
+    /// Mean over all directions in which there is cloth.
     pub mean_gap_mm: Option<f64>,
-    /// Greatest of all directions that meet cloth.
+    /// Greatest of all directions in which there is cloth.
     pub greatest_gap_mm: Option<f64>,
 }
 
-/// How far an opening was drawn as the body moved, mm.
+/// Displacement of an opening as the body moved, mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrawnOpening {
-    /// Name of the measurement along it.
+    /// Name of the measurement along the opening.
     pub opening: String,
-    /// Mean along it; below 0 away from the garment.
+    /// Mean displacement along it; below 0 away from the garment.
     pub drawn_mm: f64,
-    /// Greatest along it.
+    /// Greatest displacement along it.
     pub drawn_most_mm: f64,
 }
 
-/// What is measured on the drape of one size.
+/// Measurements of the drape of one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeWorn {
     /// Name of the size, such as `M`.
@@ -96,26 +96,26 @@ pub struct SizeWorn {
     pub job: JobId,
     /// Gaps at the levels of the body.
     pub gaps: Vec<LevelGap>,
-    /// How level it hangs: hem, waist edge and side seams.
+    /// Balance: heights of hem and waist edge, lean of the side seams.
     pub balance: Vec<Balance>,
-    /// Pressure by region; none of Hybrid-GS.
+    /// Pressure by region; empty of Hybrid-GS.
     pub pressure: Vec<RegionPressure>,
     /// Folds, the longest first.
     pub folds: Vec<FoldLine>,
     /// Points of measure.
     pub points: Vec<WornPoint>,
-    /// Openings, where the body moved with the garment on.
+    /// Displaced openings, where the body moved with the garment on.
     pub drawn: Vec<DrawnOpening>,
 }
 
 impl SizeWorn {
-    /// A number of its balance.
+    /// Returns a quantity of its balance.
     #[must_use]
     pub fn balance_of(&self, quantity: &str) -> Option<f64> {
-        self.balance.iter().find(|one| one.quantity == quantity).map(|one| one.value)
+        self.balance.iter().find(|known| known.quantity == quantity).map(|known| known.value)
     }
 
-    /// By how much its hem is higher in front than behind, mm, and that in words; `None` where it is not measured.
+    /// Height of its hem in front less that behind, mm, with a description; `None` where it is not measured.
     #[must_use]
     pub fn hem_tilt(&self) -> Option<(f64, &'static str)> {
         let off = self.balance_of("hem_front_over_back")?;
@@ -127,7 +127,7 @@ impl SizeWorn {
         Some((off, words))
     }
 
-    /// How its hem hangs, in words; `None` where it is not measured.
+    /// Description of its hem; `None` where it is not measured.
     #[must_use]
     pub fn hem_words(&self) -> Option<String> {
         let ((off, words), front) = (self.hem_tilt()?, self.balance_of("hem_front")?);
@@ -138,7 +138,7 @@ impl SizeWorn {
 }
 
 impl FoldLine {
-    /// Direction and side in words.
+    /// Description of its direction and side.
     #[must_use]
     pub fn words(&self) -> String {
         let way = match self.from_vertical_deg {
@@ -161,22 +161,22 @@ impl FoldLine {
     }
 }
 
-/// How a garment sits on a subject.
+/// Fit of a garment on a subject, by ease and by drapes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GarmentWorn {
-    /// Which size to wear, and the ease of all.
+    /// Fit card: the size to wear, and the ease of all sizes.
     pub card: FitCard,
-    /// Whose drapes are measured: FEM-GS, or Hybrid-GS where that alone has any.
+    /// Simulator whose drapes are measured: FEM-GS, or Hybrid-GS where that alone has drapes.
     pub simulator: Option<Simulator>,
-    /// Its sizes that have a drape, in order.
+    /// Sizes that have a drape, in order.
     pub sizes: Vec<SizeWorn>,
 }
 
-/// Returns how the garments of a study sit on its subjects: their fit cards beside what is measured on their drapes. Only
-/// a garment or a subject where one is asked for.
+/// Returns the fit of the garments of a study on its subjects: fit cards beside the measurements of drapes. `garment`
+/// and `subject` restrict it to one.
 ///
 /// # Errors
-/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of what is asked for.
+/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of the garment or subject.
 pub fn worn(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<GarmentWorn>> {
     let cards = fit_cards(store, study, garment, subject)?.into_iter();
     cards.map(|card| garment_worn(store, study, card)).collect()
@@ -193,7 +193,7 @@ fn garment_worn(store: &Store, study: &str, card: FitCard) -> Result<GarmentWorn
     Ok(GarmentWorn { card, simulator: None, sizes: Vec::new() })
 }
 
-/// The sizes of a card that a simulator has draped, in order.
+/// Returns the sizes of a card that a simulator has draped, in order.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -206,7 +206,7 @@ pub fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) 
     Ok(found)
 }
 
-/// The current result of a size; of several repeats the first.
+/// Current result of a size; of several repeats the first.
 fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: Simulator) -> Result<Option<JobId>> {
     let sql =
         "SELECT job_id FROM v_metrics WHERE study = ? AND garment = ? AND subject = ? AND size = ? AND simulator = ?
@@ -218,6 +218,10 @@ fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: S
 
 fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
     let gaps = "SELECT level, least_gap_mm, mean_gap_mm, greatest_gap_mm FROM v_section_level WHERE job_id = ? ORDER BY height_mm DESC";
+    let balance = "SELECT quantity, value, unit FROM balance WHERE job_id = ? ORDER BY quantity";
+    let pressure = "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC";
+    let folds =
+        "SELECT kind, length_mm, from_vertical_deg, height_mm, side_deg FROM fold WHERE job_id = ? ORDER BY number";
     let points = "SELECT point, flat_mm, step_mm, draped_mm FROM v_pom WHERE job_id = ? ORDER BY position";
     let drawn = "SELECT opening, mean_mm, most_mm FROM drawn WHERE job_id = ? ORDER BY opening";
     Ok(SizeWorn {
@@ -231,40 +235,27 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
                 greatest_gap_mm: row.get(3)?,
             })
         })?,
-        balance: rows(
-            store,
-            "SELECT quantity, value, unit FROM balance WHERE job_id = ? ORDER BY quantity",
-            job,
-            |row| Ok(Balance { quantity: row.get(0)?, value: row.get(1)?, unit: row.get(2)? }),
-        )?,
-        pressure: rows(
-            store,
-            "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC",
-            job,
-            |row| {
-                Ok(RegionPressure {
-                    region: row.get(0)?,
-                    area_cm2: row.get(1)?,
-                    mean_kpa: row.get(2)?,
-                    most_kpa: row.get(3)?,
-                    most_mmhg: row.get(4)?,
-                })
-            },
-        )?,
-        folds: rows(
-            store,
-            "SELECT kind, length_mm, from_vertical_deg, height_mm, side_deg FROM fold WHERE job_id = ? ORDER BY number",
-            job,
-            |row| {
-                Ok(FoldLine {
-                    kind: row.get(0)?,
-                    length_mm: row.get(1)?,
-                    from_vertical_deg: row.get(2)?,
-                    height_mm: row.get(3)?,
-                    side_deg: row.get(4)?,
-                })
-            },
-        )?,
+        balance: rows(store, balance, job, |row| {
+            Ok(Balance { quantity: row.get(0)?, value: row.get(1)?, unit: row.get(2)? })
+        })?,
+        pressure: rows(store, pressure, job, |row| {
+            Ok(RegionPressure {
+                region: row.get(0)?,
+                area_cm2: row.get(1)?,
+                mean_kpa: row.get(2)?,
+                most_kpa: row.get(3)?,
+                most_mmhg: row.get(4)?,
+            })
+        })?,
+        folds: rows(store, folds, job, |row| {
+            Ok(FoldLine {
+                kind: row.get(0)?,
+                length_mm: row.get(1)?,
+                from_vertical_deg: row.get(2)?,
+                height_mm: row.get(3)?,
+                side_deg: row.get(4)?,
+            })
+        })?,
         points: rows(store, points, job, |row| {
             Ok(WornPoint { point: row.get(0)?, flat_mm: row.get(1)?, step_mm: row.get(2)?, draped_mm: row.get(3)? })
         })?,
@@ -274,7 +265,7 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
     })
 }
 
-/// The rows that a query has of a job.
+/// Reads the rows of a query about a job.
 fn rows<T>(
     store: &Store,
     sql: &str,

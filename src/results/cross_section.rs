@@ -1,4 +1,4 @@
-//! Cross sections of stored results: the body and the cloth of several sizes over each other.
+//! Cross sections of stored results: the body with the cloth of several sizes.
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ use report::Chart;
 use report::chart::{Worn, section_chart};
 use store::{InOrigin, JobId, JobRow, Origin, Result, StageKind, Store, StudyError, read};
 
-/// Where a body is cut.
+/// Planes in which a body is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CutAt {
     /// All levels that the garment covers.
@@ -29,7 +29,7 @@ pub enum CutAt {
 pub struct CutLine {
     /// Points of the line, mm; the first is not repeated where it is closed.
     pub points: Vec<[f64; 2]>,
-    /// Whether the last point goes on to the first.
+    /// True if the last point is connected to the first.
     pub closed: bool,
 }
 
@@ -44,7 +44,8 @@ pub struct CutCloth {
     pub simulator: String,
     /// Outlines of the cloth in the plane.
     pub lines: Vec<CutLine>,
-    /// Gap from the skin by direction, from the front towards the subject's right: degrees, mm; below 0 inside the body.
+    /// Gap from the skin by direction, degrees from the front towards the subject's right: mm, below 0 inside the
+    /// body.
     pub gaps: Vec<(f64, Option<f64>)>,
 }
 
@@ -67,7 +68,7 @@ pub struct CrossSection {
     pub level: String,
     /// Height above the floor, mm.
     pub height_mm: f64,
-    /// Middle of the trunk's or limb's outline, where directions begin, mm.
+    /// Middle of the outline of trunk or limb, from which directions are counted, mm.
     pub centre: [f64; 2],
     /// Outline of trunk or limb.
     pub skin: CutLine,
@@ -85,11 +86,11 @@ pub(crate) struct LevelCuts {
     pub cuts: Vec<(JobRow, Section)>,
 }
 
-/// Sections of some results on one body; of all levels those that none of them covers are left out.
+/// Cuts some results on one body. Of all levels, those that none of them covers are left out.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a height
-/// at which there is no body, or results on different bodies.
+/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have. [`StudyError::Refused`]
+/// for a height at which there is no body, or results on different bodies.
 pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<LevelCuts>> {
     let Some(first) = jobs.first() else { return Ok(Vec::new()) };
     let subject = read::job(store, *first)?.subject;
@@ -123,7 +124,7 @@ pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<Leve
     Ok(found)
 }
 
-/// Sections of some results as plain values.
+/// Returns the sections of some results as plain values.
 ///
 /// # Errors
 /// As [`cuts`].
@@ -131,10 +132,10 @@ pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSe
     Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
 }
 
-/// Sections of some results, drawn level by level; the gaps of one size are written beside it.
+/// Draws the sections of some results level by level. The gaps of the size `written` are written beside it.
 ///
 /// # Errors
-/// As [`cuts`], and where a chart cannot be drawn.
+/// As [`cuts`], and when a chart cannot be drawn.
 pub fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
     let cuts = cuts(store, jobs, at)?;
     let chart = |level: &LevelCuts| {
@@ -181,7 +182,7 @@ impl CutAt {
     }
 }
 
-/// The planes that are asked for.
+/// Planes that are asked for.
 fn wanted(body: &Body, at: &CutAt) -> Result<Vec<Site>> {
     match at {
         CutAt::Levels => Ok(sites(body)),

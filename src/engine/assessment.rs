@@ -1,8 +1,9 @@
-//! How a drape sits on its body: cross sections, balance, folds and pressure, measured and written.
+//! Assessment of a drape on its body: cross sections, balance, folds and pressure, measured and written.
 
 use rusqlite::{Transaction, params};
 use serde::{Deserialize, Serialize};
 
+use crate::stages::Garb;
 use body::Body;
 use fit::Simulator;
 use fit::on_body::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
@@ -11,12 +12,12 @@ use geom::units::mm;
 use geom::{Surface, V3, hull};
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
+use sim::Drape;
 use sim::sewn::Sewn;
-use sim::{Drape, Fabric};
 use store::{InOrigin, JobId, Origin, Result};
 
 /// Square centimetres in a square metre.
-pub(crate) const CM2: f64 = 1e4;
+const CM2: f64 = 1e4;
 
 /// Body and cloth at a level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +26,7 @@ pub struct Level {
     pub level: String,
     /// Height above the floor, m.
     pub height_m: f64,
-    /// What a tape reads of trunk or limb, m.
+    /// Tape girth of trunk or limb, m.
     pub body_girth_m: f64,
     /// Length of the cloth's outlines, m.
     pub cloth_length_m: f64,
@@ -52,48 +53,43 @@ impl Level {
     }
 }
 
-/// What presses on a region of the body.
+/// Pressure on a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pressing {
     /// Name of the region, such as `lower_legs`.
     pub region: String,
-    /// Area that is pressed, m2.
+    /// Area under pressure, m2.
     pub area_m2: f64,
     /// Mean over that area, kPa.
     pub mean_kpa: f64,
-    /// What 1 % of it exceeds, kPa.
+    /// Pressure that 1 % of the area exceeds, kPa.
     pub most_kpa: f64,
 }
 
-/// How a drape sits on its body.
+/// Assessment of a drape on its body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct WornOn {
+pub struct Assessment {
     /// Cross sections at the levels that the garment covers.
     pub levels: Vec<Level>,
-    /// Balance of hem, waist edge and side seams.
+    /// Balance: heights of hem and waist edge, lean of the side seams.
     pub hang: Hang,
     /// Folds, the longest first.
     pub folds: Vec<Fold>,
-    /// Pressure by region; of FEM-GS, which alone brings cloth and body into balance.
+    /// Pressure by region, of FEM-GS only: it alone brings cloth and body into equilibrium.
     pub pressing: Vec<Pressing>,
-    /// How far openings were drawn; of a drape that was carried into another pose.
+    /// Displacement of openings, of a drape that was carried into another pose.
     #[serde(default)]
     pub drawn: Vec<Drawn>,
 }
 
-impl WornOn {
-    /// Measures a drape.
+impl Assessment {
+    /// Measures the drape of a garment.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area, or the body no surface.
-    pub(crate) fn of(
-        body: &Body,
-        style: &Style,
-        (garment, fabric): (&Garment, &Fabric),
-        drape: &Drape,
-        simulator: Simulator,
-    ) -> Result<Self> {
-        let sewn = Sewn::new(garment, fabric, &drape.positions).origin(Origin::Measure)?;
+    pub(crate) fn of(body: &Body, garb: &Garb, drape: &Drape, simulator: Simulator) -> Result<Self> {
+        let garment = garb.meshes.finest()?;
+        let sewn = Sewn::new(garment, &garb.fabric, &drape.positions).origin(Origin::Measure)?;
         let cut = |site: Site| Section::cut(site, &body.mesh, &sewn.mesh).filter(|section| !section.cloth.is_empty());
         let surface = Surface::new(&body.mesh).origin(Origin::Measure)?;
         let gap_m: Vec<f64> = sewn.mesh.positions.iter().map(|p| surface.signed_distance(p)).collect();
@@ -103,24 +99,36 @@ impl WornOn {
             Simulator::Fem => on_body::pressed(body, &sewn.mesh, &sewn.welded_pressures_kpa()),
             Simulator::Hybrid => Vec::new(),
         };
-        let pressing = |one: on_body::Pressed| Pressing {
-            region: one.region.as_str().to_owned(),
-            area_m2: one.area_m2,
-            mean_kpa: one.mean_kpa,
-            most_kpa: one.most_kpa,
-        };
+        let pressing = pressed.into_iter().map(|pressed| Pressing {
+            region: pressed.region.as_str().to_owned(),
+            area_m2: pressed.area_m2,
+            mean_kpa: pressed.mean_kpa,
+            most_kpa: pressed.most_kpa,
+        });
         let drawn = drape.kept.iter().flat_map(|kept| reach::drawn(garment, kept, &drape.positions));
         Ok(Self {
             levels: on_body::sites(body).into_iter().filter_map(cut).map(|section| Level::of(&section)).collect(),
-            hang: hang(style, garment, &drape.positions),
+            hang: hang(&garb.style, garment, &drape.positions),
             folds: on_body::folds(&worn),
-            pressing: pressed.into_iter().map(pressing).collect(),
+            pressing: pressing.collect(),
             drawn: drawn.collect(),
         })
     }
 }
 
-/// The balance of a drape.
+impl Assessment {
+    /// Greatest pressure of all regions, kPa.
+    pub fn most_kpa(&self) -> Option<f64> {
+        self.pressing.iter().map(|region| region.most_kpa).reduce(f64::max)
+    }
+
+    /// Height of the hem in front less that behind, m.
+    pub fn hem_front_over_back_m(&self) -> Option<f64> {
+        self.hang.hem.and_then(|hem| Some(hem.front_m? - hem.back_m?))
+    }
+}
+
+/// Balance of a drape.
 pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let lines = style.hang_lines();
     let paths: Vec<&[PathPart]> =
@@ -132,11 +140,11 @@ pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     on_body::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
 }
 
-/// Writes how a drape sits.
-pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> Result<()> {
+/// Writes the assessment of a drape.
+pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, assessment: &Assessment) -> Result<()> {
     let mut section = transaction.prepare_cached("INSERT INTO section VALUES (?, ?, ?, ?, ?, ?, ?)")?;
     let mut gap = transaction.prepare_cached("INSERT INTO section_gap VALUES (?, ?, ?, ?)")?;
-    for level in &worn.levels {
+    for level in &assessment.levels {
         let [height_mm, girth_mm, cloth_mm] = [level.height_m, level.body_girth_m, level.cloth_length_m].map(mm);
         let [body_cm2, air_cm2] = [level.body_area_m2, level.air_m2].map(|area| area * CM2);
         section.execute(params![id.0, level.level, height_mm, girth_mm, cloth_mm, body_cm2, air_cm2])?;
@@ -146,53 +154,56 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> 
         }
     }
     let mut balance = transaction.prepare_cached("INSERT INTO balance VALUES (?, ?, ?, ?)")?;
-    for (quantity, value, unit) in quantities(&worn.hang) {
-        balance.execute(params![id.0, quantity, value, unit])?;
+    for Quantity { name, value, unit } in quantities(&assessment.hang) {
+        balance.execute(params![id.0, name, value, unit])?;
     }
     let mut drawn = transaction.prepare_cached("INSERT INTO drawn VALUES (?, ?, ?, ?)")?;
-    for one in &worn.drawn {
-        drawn.execute(params![id.0, one.opening, mm(one.mean_m), mm(one.most_m)])?;
+    for Drawn { opening, mean_m, most_m } in &assessment.drawn {
+        drawn.execute(params![id.0, opening, mm(*mean_m), mm(*most_m)])?;
     }
-    let mut fold = transaction.prepare_cached("INSERT INTO fold VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")?;
-    for (number, one) in (1_i64..).zip(&worn.folds) {
-        let kind = if one.is_drag { "drag_line" } else { "fold" };
-        let side_deg = one.middle.x.atan2(one.middle.y).to_degrees().rem_euclid(360.0);
-        let [length_mm, height_mm, radius_mm] = [one.length_m, one.middle.z, one.radius_m].map(mm);
-        let angle_deg = one.from_vertical_rad.to_degrees();
-        fold.execute(params![
-            id.0,
-            number,
-            kind,
-            length_mm,
-            angle_deg,
-            height_mm,
-            side_deg,
-            radius_mm,
-            one.tension_n_m
-        ])?;
+    let mut statement = transaction.prepare_cached("INSERT INTO fold VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")?;
+    for (number, fold) in (1_i64..).zip(&assessment.folds) {
+        let kind = if fold.is_drag { "drag_line" } else { "fold" };
+        let side_deg = fold.middle.x.atan2(fold.middle.y).to_degrees().rem_euclid(360.0);
+        let [length_mm, height_mm, radius_mm] = [fold.length_m, fold.middle.z, fold.radius_m].map(mm);
+        let (angle_deg, tension_n_m) = (fold.from_vertical_rad.to_degrees(), fold.tension_n_m);
+        let row = params![id.0, number, kind, length_mm, angle_deg, height_mm, side_deg, radius_mm, tension_n_m];
+        statement.execute(row)?;
     }
     let mut pressure = transaction.prepare_cached("INSERT INTO pressure VALUES (?, ?, ?, ?, ?)")?;
-    for one in &worn.pressing {
-        pressure.execute(params![id.0, one.region, one.area_m2 * CM2, one.mean_kpa, one.most_kpa])?;
+    for Pressing { region, area_m2, mean_kpa, most_kpa } in &assessment.pressing {
+        pressure.execute(params![id.0, region, area_m2 * CM2, mean_kpa, most_kpa])?;
     }
     Ok(())
 }
 
-/// The numbers of a balance with their units: heights above the floor, differences, angles.
-pub fn quantities(hang: &Hang) -> Vec<(String, f64, &'static str)> {
+/// A quantity of a balance.
+pub struct Quantity {
+    /// Name of the quantity, such as `hem_front`.
+    pub name: String,
+    /// Value in the unit.
+    pub value: f64,
+    /// `mm` or `deg`.
+    pub unit: &'static str,
+}
+
+/// Quantities of a balance with their units: heights above the floor, differences of heights, angles.
+pub fn quantities(hang: &Hang) -> Vec<Quantity> {
+    let height = |name: String, m: f64| Quantity { name, value: mm(m), unit: "mm" };
     let mut found = Vec::new();
     for (edge, sides) in [("hem", hang.hem), ("waist", hang.waist)] {
         let Some(Sides { front_m, back_m, right_m, left_m }) = sides else { continue };
         for (side, height_m) in [("front", front_m), ("back", back_m), ("right", right_m), ("left", left_m)] {
-            found.extend(height_m.map(|height_m| (format!("{edge}_{side}"), mm(height_m), "mm")));
+            found.extend(height_m.map(|height_m| height(format!("{edge}_{side}"), height_m)));
         }
         let differences = [("front_over_back", front_m.zip(back_m)), ("right_over_left", right_m.zip(left_m))];
         for (name, pair) in differences {
-            found.extend(pair.map(|(one, other)| (format!("{edge}_{name}"), mm(one - other), "mm")));
+            found.extend(pair.map(|(higher, lower)| height(format!("{edge}_{name}"), higher - lower)));
         }
     }
     for (side, lean_rad) in ["right", "left"].into_iter().zip(hang.lean_rad) {
-        found.extend(lean_rad.map(|lean| (format!("side_seam_lean_{side}"), lean.to_degrees(), "deg")));
+        let name = format!("side_seam_lean_{side}");
+        found.extend(lean_rad.map(|lean_rad| Quantity { name, value: lean_rad.to_degrees(), unit: "deg" }));
     }
     found
 }
