@@ -1,5 +1,4 @@
 use crate::export::export_study;
-use crate::file::parse::measurements_file;
 use crate::file::*;
 use crate::patterns::Unit;
 use body::{Dimension, Sex};
@@ -158,7 +157,10 @@ fn broken_toml_names_its_line() {
 
 #[test]
 fn only_a_studys_subject_may_be_named() {
-    let told = |text: &str| Problem::listing(&measurements_file(Path::new("anna.toml"), text).expect_err("no sex"));
+    let told = |text: &str| {
+        let problems = parse::measurements_file(Path::new("anna.toml"), text).expect_err("no sex");
+        Problem::listing(&problems)
+    };
     assert!(load(&GOOD.replace("like = \"male-ii\"", "stature_mm = 1700")).expect_err("no sex").contains("`like`"));
     let told = told("stature_mm = 1700");
     assert!(told.contains("`sex` is missing") && !told.contains("like"), "{told}");
@@ -171,7 +173,7 @@ fn a_file_of_one_entry_needs_no_header() {
                 shear_n_m = 30\nbending_warp_nm = 1e-6\nbending_weft_nm = 1e-6\nfriction_body = 0.3\nfriction_self = 0.5\n";
     let path = Path::new("one.toml");
     for text in [anna.to_owned(), format!("[[subject]]\n{anna}")] {
-        let found = measurements_file(path, &text).expect("a good subject");
+        let found = parse::measurements_file(path, &text).expect("a good subject");
         assert_eq!((found.sex, found.stature_m()), (Sex::Female, geom::units::from_mm(1650.0)));
     }
     for text in [knit.to_owned(), format!("[[fabric]]\n{knit}"), format!("{knit}source = \"own\"\n")] {

@@ -88,9 +88,9 @@ const BENDING: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// Adds columns to a table of fabrics that has those of `v_fabrics`: the kind of a fabric of the library, its parts
-/// that are of another cloth, its bending lengths, their ranks among the known cloths of its weight, and the range of a
-/// class.
+/// Adds columns to a table of fabrics that has those of `v_fabrics`. The first are the kind of a fabric of the library and
+/// its parts that are of another cloth. The others are its bending lengths, their ranks among the known cloths of its
+/// weight, and the ranges of its class.
 #[must_use]
 pub fn with_bending(mut table: Table) -> Table {
     let column_of = |key: &str| table.columns.iter().position(|column| column == key);
