@@ -131,7 +131,7 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
 }
 
 /// Puts a file, or the files of a folder, below `folder` under its own name, since the name is an input of results.
-/// Where another file has the name, it goes one folder deeper. Returns its path.
+/// If another file has the name, it goes one folder deeper. Returns its path.
 pub fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {

@@ -1,4 +1,4 @@
-//! How a pattern is read and cut.
+//! Arguments of patterns that are sewn as proposed.
 
 use clap::{Args, ValueEnum};
 
@@ -45,7 +45,7 @@ pub struct CutFiles {
 }
 
 impl CutFiles {
-    /// What a proposal is asked for, with these answers to its questions.
+    /// Options of a proposal, with answers to its questions.
     pub fn asking<'a>(&'a self, answers: &'a [(usize, char)]) -> Asking<'a> {
         let (size, unit) = (self.size.as_deref(), self.unit.map(Unit::from));
         Asking { size, unit, allowance_m: from_mm(self.allowance_mm), answers }

@@ -52,7 +52,7 @@ pub struct Arguments {
     pub command: Option<Command>,
 }
 
-/// A refusal whose usage line shows only what was typed: clap takes a database named by the environment for typed.
+/// The error with a usage line of only the typed arguments, since clap counts a database of the environment among them.
 pub fn without_environment(command: clap::Command, error: clap::Error, arguments: &[OsString]) -> clap::Error {
     if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         return error;

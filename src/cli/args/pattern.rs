@@ -41,7 +41,7 @@ pub enum DraftStyle {
 /// An answer: the number of the question and the letter of the choice.
 ///
 /// # Errors
-/// What is accepted.
+/// The values that are accepted.
 pub fn answer(text: &str) -> Result<(usize, char), String> {
     let accepted = || "accepted: the number of a question and the letter of a choice, such as 2=b".to_owned();
     let (number, letter) = text.split_once('=').ok_or_else(accepted)?;
