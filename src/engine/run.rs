@@ -13,6 +13,7 @@ use crate::pipeline::Pipeline;
 use crate::{ease, workers};
 use body::Body;
 use pattern::Style;
+use spec::file::{GarmentEntry, SizeFile};
 use spec::{Selection, Study, patterns};
 use store::{Access, Live, Problem, Result, Store, StudyError, evidence};
 use wardrobe::catalogue;
@@ -213,9 +214,8 @@ struct WornStyle<'a> {
 fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
     let mut worn = Vec::new();
     for garment in &study.garments {
-        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
         for size in &garment.sizes {
-            let style = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+            let style = style_of(garment, size)?;
             let subjects = garment.subjects.iter().map(String::as_str).collect();
             worn.push(WornStyle { garment: &garment.name, size: &size.name, style, subjects });
         }
@@ -223,13 +223,18 @@ fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
     Ok(worn)
 }
 
+/// Reads the style of a size of a study.
+fn style_of(garment: &GarmentEntry, size: &SizeFile) -> Result<Style> {
+    let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+    patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)
+}
+
 /// Refuses a study with a pattern that cannot be sewn, before anything is written.
 fn check_patterns(study: &Study) -> Result<()> {
     let mut problems = Vec::new();
     for garment in &study.garments {
-        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
         for size in &garment.sizes {
-            if let Err(error) = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
+            if let Err(error) = style_of(garment, size) {
                 let message = format!("garment {}, size {}: {error}", garment.name, size.name);
                 problems.push(Problem::of(&study.path, message));
             }

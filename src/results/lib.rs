@@ -15,6 +15,7 @@ pub mod recommendation;
 pub mod record;
 pub mod reporting;
 pub mod reports;
+pub mod scatter;
 
 pub mod size_map;
 

@@ -66,7 +66,7 @@ struct Side {
     flat_m: f64,
     worn_m: f64,
     stretched_m: f64,
-    /// Where it begins and ends in space.
+    /// Its ends in space.
     ends: [V3; 2],
     normals: Vec<V3>,
 }
@@ -159,7 +159,8 @@ fn cut(
     }
 }
 
-/// Where brightness turns fastest along a line of a picture through a place, pixels from it; `None` where it does not turn.
+/// Offset of the fastest change of brightness along a line of a picture through a place, pixels; `None` where it does not
+/// change.
 fn turn(picture: &RgbaImage, place: V2, direction: V2) -> Option<f64> {
     const REACH: i32 = 5;
     const FINE: f64 = 0.25;
