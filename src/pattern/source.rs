@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn every_kind_is_told_by_its_content_and_gives_the_same_pieces() {
         let draft = tshirt(TshirtSize::M);
-        let dxf = dxf::write(&draft);
+        let dxf = draft.dxf();
         let features = features::Features::of(&draft.pieces, "tshirt.dxf", &[]);
         let features = serde_json::to_vec(&features).expect("JSON");
         let (_, seams) = Model::Tshirt.files().into_iter().find(|(name, _)| name.ends_with(".toml")).expect("seams");

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value, to_value};
 use toile::body::{self, Dimension, Measurements, Sex, write_obj};
 use toile::geom::{DistanceField, V3};
-use toile::pattern::{Garment, Style, dxf, source};
+use toile::pattern::{Garment, Style, source};
 use toile::sim::{self, Silent, fabric, fem, hybrid};
 use toile::spec::bodies;
 use toile::spec::patterns::Model;
@@ -87,7 +87,7 @@ impl Numbers {
 
     /// Meshes of a drafted size that was written as DXF and read again, coarse to fine.
     fn add_meshes(&mut self, name: &str, model: Model, size: usize) -> Vec<Garment> {
-        let read = source::read(&dxf::write(&model.drafts()[size]), "draft.dxf", None).expect("just written");
+        let read = source::read(&model.drafts()[size].dxf(), "draft.dxf", None).expect("just written");
         let style =
             Style::read(&read.to_sew(None).expect("whole"), model.seams(), "draft.seams.toml").expect("it fits");
         let mesh = |edge_m: f64| style.mesh(edge_m).expect("it can be meshed");

@@ -34,14 +34,16 @@ impl Draft {
     }
 }
 
-/// Writes a draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
-///
-/// The bytes depend on the draft only: no date is written.
-#[must_use]
-pub fn write(draft: &Draft) -> Vec<u8> {
-    let texts = [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size)];
-    let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    write_pieces(&draft.pieces, &texts, Standard::Aama)
+impl Draft {
+    /// Writes the draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
+    ///
+    /// The bytes depend on the draft only: no date is written.
+    #[must_use]
+    pub fn dxf(&self) -> Vec<u8> {
+        let texts = [("Author", "Toile"), ("Style Name", &self.style), ("Sample Size", &self.size)];
+        let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        write_pieces(&self.pieces, &texts, Standard::Aama)
+    }
 }
 
 /// Styles that can be drafted.
@@ -110,7 +112,7 @@ impl Model {
     pub fn files(self) -> Vec<(String, Vec<u8>)> {
         let drawing = |draft: &Draft| {
             let name = format!("{}-{}.dxf", self.as_str(), draft.size.to_lowercase());
-            (name, write(draft))
+            (name, draft.dxf())
         };
         let seams = (format!("{}.seams.toml", self.as_str()), self.seams().to_vec());
         self.drafts().iter().map(drawing).chain([seams]).collect()

@@ -32,7 +32,6 @@ use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
 pub(crate) use self::write::D6673;
 pub use self::write::{Standard, write_pieces};
-pub use super::draft::write;
 use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};

@@ -102,7 +102,7 @@ fn jblockcreator_files_read_as_their_table_says() {
 fn what_is_written_is_read_back() {
     for size in TshirtSize::ALL {
         let draft = tshirt(size);
-        let file = read(&write(&draft), "tshirt.dxf", None).expect("our own file reads");
+        let file = read(&draft.dxf(), "tshirt.dxf", None).expect("our own file reads");
         assert_eq!((file.unit, file.unit_source), (Unit::Mm, UnitSource::File));
         assert!(file.refused.is_empty() && file.warnings.is_empty(), "{file:?}");
         assert_eq!(file.pieces.len(), draft.pieces.len());
@@ -122,14 +122,14 @@ fn what_is_written_is_read_back() {
 
 /// A drafted file with one occurrence of a text replaced.
 fn edited(from: &str, to: &str) -> Vec<u8> {
-    let text = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("we write ASCII");
+    let text = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("we write ASCII");
     assert!(text.contains(from), "`{from}` is in the file");
     text.replacen(from, to, 1).into_bytes()
 }
 
 #[test]
 fn damaged_files_are_refused_with_line_and_finding() {
-    let whole = write(&tshirt(TshirtSize::S));
+    let whole = tshirt(TshirtSize::S).dxf();
     let truncated = whole[..whole.len() / 2].to_vec();
     let check = |what: &str, bytes: &[u8], line: Option<usize>, finding: &str| {
         let error = read(bytes, "a.dxf", None).expect_err(what);
@@ -205,7 +205,7 @@ fn unusable_pieces_are_refused_and_the_others_read() {
 
 #[test]
 fn harmless_oddities_are_read() {
-    let whole = read(&write(&tshirt(TshirtSize::S)), "a.dxf", None).expect("our own file reads").pieces;
+    let whole = read(&tshirt(TshirtSize::S).dxf(), "a.dxf", None).expect("our own file reads").pieces;
     let check = |what: &str, bytes: &[u8]| {
         let file = read(bytes, "a.dxf", None).unwrap_or_else(|error| panic!("{what}: {error}"));
         assert_eq!(file.pieces, whole, "{what}");
@@ -214,7 +214,7 @@ fn harmless_oddities_are_read() {
     check("a real for an integer", &edited(" 66\r\n1\r\n", " 66\r\n1.000\r\n"));
     check("no SEQEND", &edited("  0\r\nSEQEND\r\n  8\r\n1\r\n", ""));
     check("a comment", &edited("  0\r\nPOLYLINE\r\n", "999\r\nfront\r\n  0\r\nPOLYLINE\r\n"));
-    let unix = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("ASCII").replace("\r\n", "\n");
+    let unix = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("ASCII").replace("\r\n", "\n");
     check("line feeds only", unix.as_bytes());
 }
 
@@ -232,7 +232,7 @@ fn units_come_from_the_user_the_texts_or_the_header() {
         assert_eq!(file.unit_remark.is_some(), given.is_some() && own, "{:?}", file.unit_remark);
         let front = file.pieces[0].perimeter_m() / expect.0.mm_per_unit();
         assert!(
-            (front - read(&write(&tshirt(TshirtSize::S)), "a.dxf", None).expect("it reads").pieces[0].perimeter_m())
+            (front - read(&tshirt(TshirtSize::S).dxf(), "a.dxf", None).expect("it reads").pieces[0].perimeter_m())
                 .abs()
                 < 1e-9
         );
@@ -274,7 +274,7 @@ fn loops_of_a_cut_line_matter_where_it_is_sewn_alone() {
         let size = if has_sew_line { 1e-3 } else { 2e-3 };
         let point = |x: f64, y: f64| corner + V2::new(x, y) * size;
         front.outline.splice(1..1, [point(10.0, 0.0), point(18.0, -4.0), point(10.0, -4.0), point(18.0, 0.0)]);
-        read(&write(&draft), "a.dxf", None).expect("it reads")
+        read(&draft.dxf(), "a.dxf", None).expect("it reads")
     };
     let alone = looped(false);
     assert!(alone.refused[0].reason.contains("the outline crosses itself"), "{:?}", alone.refused);
@@ -294,7 +294,7 @@ fn loops_of_a_cut_line_matter_where_it_is_sewn_alone() {
 #[test]
 fn only_a_named_size_in_a_named_unit_is_sewn() {
     let file = |bytes: &[u8]| read(bytes, "a.dxf", None).expect("it reads");
-    let whole = file(&write(&tshirt(TshirtSize::S)));
+    let whole = file(&tshirt(TshirtSize::S).dxf());
     assert_eq!(whole.to_sew(None).expect("one size").len(), 3);
     assert_eq!(whole.to_sew(Some("s")), whole.to_sew(Some("S")));
     let refuse = |file: &PatternFile, size: Option<&str>, expect: &str| {
@@ -391,14 +391,14 @@ proptest::proptest! {
 
     #[test]
     fn truncated_files_are_refused(share in 0.0..1.0_f64) {
-        let whole = write(&tshirt(TshirtSize::S));
+        let whole = tshirt(TshirtSize::S).dxf();
         let length = (share * (whole.len() - 5) as f64) as usize;
         proptest::prop_assert!(read(&whole[..length], "a.dxf", None).is_err());
     }
 
     #[test]
     fn mutated_files_never_panic_and_never_lose_a_piece_in_silence(edits in proptest::collection::vec((0.0..1.0_f64, proptest::num::u8::ANY), 1..6)) {
-        let mut bytes = write(&tshirt(TshirtSize::S));
+        let mut bytes = tshirt(TshirtSize::S).dxf();
         for (share, byte) in edits {
             let index = (share * bytes.len() as f64) as usize;
             bytes[index] = byte;
@@ -410,7 +410,7 @@ proptest::proptest! {
 
     #[test]
     fn files_with_missing_lines_never_panic_and_never_lose_a_piece_in_silence(gap in 0.0..1.0_f64, count in 1..5_usize) {
-        let text = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("we write ASCII");
+        let text = String::from_utf8(tshirt(TshirtSize::S).dxf()).expect("we write ASCII");
         let mut lines: Vec<&str> = text.lines().collect();
         let first = (gap * (lines.len() - count) as f64) as usize;
         lines.drain(first..first + count);

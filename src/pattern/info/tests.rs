@@ -11,7 +11,7 @@ const CSV: &str = "Piece,Quantity,Material,Role,Grain_deg,Interlining\n\
 Front,1,Jersey,front,90,\nback,1,Jersey,back,,\n\"SLEEVE\",\"1,1\",\"Rib, fine\",sleeve_left,,fused\n";
 
 fn shirt() -> PatternFile {
-    dxf::read(&dxf::write(&tshirt(TshirtSize::M)), "tshirt.dxf", None).expect("our own file")
+    dxf::read(&tshirt(TshirtSize::M).dxf(), "tshirt.dxf", None).expect("our own file")
 }
 
 fn told(bytes: &[u8]) -> Result<PatternFile, InfoError> {

@@ -374,7 +374,7 @@ fn sizes_of_one_file_are_those_that_it_holds() {
     let drafts = pattern::draft::Model::Tshirt.drafts();
     let pieces: Vec<_> = drafts.iter().flat_map(|draft| draft.pieces.clone()).collect();
     let nest = pattern::dxf::write_pieces(&pieces, &[], pattern::dxf::Standard::Aama);
-    let one = pattern::dxf::write(&drafts[0]);
+    let one = drafts[0].dxf();
     let check = |sizes: &str, expected: &[&str]| {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).expect("writable");
