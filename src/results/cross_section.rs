@@ -127,7 +127,8 @@ pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<Leve
 /// Returns the sections of some results as plain values.
 ///
 /// # Errors
-/// As [`cuts`].
+/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a
+/// height at which there is no body, or results on different bodies.
 pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
     Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
 }
@@ -135,7 +136,7 @@ pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSe
 /// Draws the sections of some results level by level. The gaps of the size `written` are written beside it.
 ///
 /// # Errors
-/// As [`cuts`], and when a chart cannot be drawn.
+/// As [`sections`], and when a chart cannot be drawn.
 pub fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
     let cuts = cuts(store, jobs, at)?;
     let chart = |level: &LevelCuts| {

@@ -15,7 +15,7 @@
 //! - `widgets`: what all draw and type with;
 //! - `config`: files of one's own; `glossary`: what numbers are, in words.
 //!
-//! *Invariant*: this crate knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
+//! *Invariant*: no SQL and no simulator is called here; the crates from `store` on answer.
 
 mod app;
 mod config;

@@ -1,8 +1,8 @@
 //! Alterations: the least change of a pattern's handles so that a size fits somebody, and the changed pattern.
 //!
-//! Ease follows from the flat pattern ([`mod@bench`]). Quantities of a drape, such as a level hem or a pressure, are
-//! predicted by the linear response of the drape to the handles, and checked by draping again ([`fitting_room`],
-//! [`readings`]).
+//! Ease follows from the flat pattern (`bench`). Quantities of a drape, such as a level hem or a pressure, are
+//! predicted by the linear response of the drape to the handles, and checked by draping again (`fitting_room`,
+//! `readings`).
 
 mod bench;
 mod fitting_room;

@@ -223,7 +223,7 @@ pub struct ProposalOnPieces {
     pub pieces: Vec<Piece>,
 }
 
-/// Proposes seams for a pattern that is in memory, as [`propose`] does.
+/// Proposes seams for a pattern that is in memory, as [`fn@propose`] does.
 pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPieces> {
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
     let size = how.size.unwrap_or(nest.sample_size());
