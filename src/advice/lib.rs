@@ -1,10 +1,10 @@
 //! Advice drawn from patterns, bodies and results: alterations, the chance that a size fits, sizes graded for a
 //! population, subjects that represent it.
 
-pub mod alteration;
+mod alteration;
 pub mod chance;
 mod error;
-pub mod grading;
+mod grading;
 pub mod population;
 
 pub use alteration::{

@@ -1,5 +1,5 @@
-//! The engine: jobs are queued, claimed and worked on. [`pipeline`] turns one job into one result; [`workers`] claim
-//! jobs; [`isolated`] gives a job with limits a process of its own; [`handout`] and [`slurm`] let other machines work.
+//! The engine: jobs are queued, claimed and worked on. `pipeline` turns one job into one result; `workers` claim
+//! jobs; `isolated` gives a job with limits a process of its own; [`handout`] and [`slurm`] let other machines work.
 //!
 //! # Examples
 //! ```
@@ -23,7 +23,7 @@
 pub mod actions;
 pub mod assessment;
 pub mod attempt;
-pub mod carry;
+mod carry;
 pub mod compose;
 pub mod ease;
 pub mod enqueue;
@@ -31,20 +31,19 @@ mod error;
 pub mod faults;
 pub mod fitting;
 pub mod handout;
-pub mod isolated;
+mod isolated;
 mod job_files;
-pub mod layers;
-
+mod layers;
 pub mod outcome;
 mod own_process;
-pub mod pipeline;
-pub mod reach;
+mod pipeline;
+mod reach;
 pub mod run;
 pub mod slurm;
 pub mod stages;
 #[cfg(test)]
 mod tests;
-pub mod workers;
+mod workers;
 
 pub use actions::why_no_retry;
 pub use assessment::{Assessment, Level, Pressing};

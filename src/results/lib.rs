@@ -3,7 +3,7 @@
 pub mod assessment;
 pub mod audit;
 pub mod cross_section;
-pub mod doctor;
+mod doctor;
 pub mod dressed;
 mod error;
 pub mod figure;
@@ -11,7 +11,7 @@ pub mod fit_card;
 
 pub mod picture;
 pub mod preview;
-pub mod recommendation;
+mod recommendation;
 pub mod record;
 pub mod reporting;
 pub mod reports;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::Fabric;
+use crate::{Drape, Fabric, Stage};
 use geom::{V2, V3};
 use pattern::draft::Model;
 use pattern::piece::Piece;
@@ -25,6 +25,26 @@ pub fn fabric() -> Fabric {
         friction_self: 0.5,
         source: "test".into(),
         stretched: None,
+    }
+}
+
+/// A drape at rest without faults and without cloth.
+pub fn drape() -> Drape {
+    Drape {
+        stage: Stage::Drape,
+        converged: true,
+        iterations: 1,
+        residual: 0.0,
+        penetration_max_m: 0.0,
+        seam_gap_max_m: 0.0,
+        self_crossings: 0,
+        braced_n: None,
+        is_stuck: false,
+        welded_vertices: 1,
+        positions: Vec::new(),
+        history: Vec::new(),
+        earlier: Vec::new(),
+        kept: None,
     }
 }
 

@@ -137,7 +137,7 @@ pub fn instead<Way, Found>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Stage;
+    use crate::testing;
 
     const PHYSICAL: Criteria = Criteria { depth_m: 5e-4, length_error: 0.0, is_rest_first: false };
     const GEOMETRIC: Criteria = Criteria { depth_m: 0.0, length_error: 0.01, is_rest_first: true };
@@ -212,22 +212,7 @@ mod tests {
     }
 
     fn drape(self_crossings: usize) -> Drape {
-        Drape {
-            stage: Stage::Drape,
-            converged: true,
-            iterations: 1,
-            residual: 0.0,
-            penetration_max_m: 0.0,
-            seam_gap_max_m: 0.0,
-            self_crossings,
-            braced_n: None,
-            is_stuck: false,
-            welded_vertices: 1,
-            positions: Vec::new(),
-            history: Vec::new(),
-            earlier: Vec::new(),
-            kept: None,
-        }
+        Drape { self_crossings, ..testing::drape() }
     }
 
     #[test]

@@ -7,13 +7,13 @@ mod error;
 pub mod export;
 pub mod fields;
 pub mod file;
-pub mod inputs;
+mod inputs;
 mod job;
 pub mod new_study;
-pub mod parameters;
+mod parameters;
 pub mod patterns;
 mod schedule;
-pub mod sheets;
+mod sheets;
 pub mod versions;
 
 pub use entry::{Field, Given};

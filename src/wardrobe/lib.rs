@@ -2,7 +2,7 @@
 //! patterns. Seams are checked, proposed, edited, and confirmed question by question.
 
 pub mod catalogue;
-pub mod cross;
+mod cross;
 mod error;
 pub mod evaluate;
 pub mod seams;

@@ -4,8 +4,8 @@ use super::carry::{Motion, Worn};
 use super::*;
 use crate::cloth::Cloth;
 use crate::sewing;
-use crate::testing::lapelled;
-use crate::{Silent, Stage, fabric};
+use crate::testing::{self, lapelled};
+use crate::{Silent, fabric};
 use body::Dimension;
 use body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
 use geom::TriMesh;
@@ -241,22 +241,7 @@ fn lapels_are_sewn_onto_the_closed_garment_and_cross_nothing() {
 
 /// A drape with a depth inside the body, m, and a number of crossings.
 fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
-    Drape {
-        stage: Stage::Drape,
-        converged,
-        iterations: 1,
-        residual: 0.0,
-        penetration_max_m: depth_m,
-        seam_gap_max_m: 0.0,
-        self_crossings: crossings,
-        braced_n: None,
-        is_stuck: false,
-        welded_vertices: 1,
-        positions: Vec::new(),
-        history: Vec::new(),
-        earlier: Vec::new(),
-        kept: None,
-    }
+    Drape { converged, penetration_max_m: depth_m, self_crossings: crossings, ..testing::drape() }
 }
 
 #[test]
