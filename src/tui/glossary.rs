@@ -38,7 +38,7 @@ impl Term {
 
 /// All terms, in the order of the documents.
 pub static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
-    let mut terms: Vec<Term> = GLOSSARY.lines().filter_map(term_of).collect();
+    let mut terms = terms_of(GLOSSARY);
     let points = FIT.split("\n## ").find(|part| part.starts_with("Points of measure")).unwrap_or_default();
     for mut point in points.lines().filter_map(point_of) {
         // Levels of the body have names of points.
@@ -61,12 +61,35 @@ fn cells(line: &str) -> Option<Vec<&str>> {
     Some(row.split('|').map(str::trim).collect())
 }
 
-/// The term of a line of the glossary.
-fn term_of(line: &str) -> Option<Term> {
-    let [names, unit, about, good, more] = cells(line)?.try_into().ok()?;
+/// The terms of the glossary. A line between heading and table names the document that tells more of all its rows.
+fn terms_of(glossary: &str) -> Vec<Term> {
+    let mut more = String::new();
+    let mut terms = vec![];
+    for line in glossary.lines() {
+        if line.starts_with("More: [") {
+            more = linked(line);
+        }
+        terms.extend(term_of(line, &more));
+    }
+    terms
+}
+
+/// The document that the first link of a text leads to.
+fn linked(text: &str) -> String {
+    let file = text.split_once('(').and_then(|(_, rest)| rest.split_once(')'));
+    file.map_or_else(String::new, |(file, _)| format!("docs/{file}"))
+}
+
+/// The term of a line of the glossary. A link at the end of its words goes before that of its table.
+fn term_of(line: &str, more: &str) -> Option<Term> {
+    let (names, unit, about, good) = match cells(line)?[..] {
+        [names, unit, about] => (names, unit, about, ""),
+        [names, unit, about, good] => (names, unit, about, good),
+        _ => return None,
+    };
     let names = names.split("`, `").map(|name| name.trim_matches('`').to_owned()).collect();
-    let file = more.split_once('(').map_or("", |(_, file)| file.trim_end_matches(')'));
-    let more = if file.is_empty() { String::new() } else { format!("docs/{file}") };
+    let (about, more) =
+        about.split_once(" [More]").map_or_else(|| (about, more.to_owned()), |(about, link)| (about, linked(link)));
     let plain = |text: &str| text.replace('`', "");
     Some(Term { names, unit: unit.to_owned(), about: plain(about), good: plain(good), more })
 }
@@ -89,7 +112,7 @@ mod tests {
     #[test]
     fn every_line_of_the_tables_is_a_term_and_no_name_is_two() {
         let lines = GLOSSARY.lines().filter(|line| line.starts_with("| `")).count();
-        assert_eq!(GLOSSARY.lines().filter_map(term_of).count(), lines, "each has five cells");
+        assert_eq!(terms_of(GLOSSARY).len(), lines, "each has three or four cells");
         let mut names: Vec<&str> = TERMS.iter().flat_map(|term| &term.names).map(String::as_str).collect();
         let all = names.len();
         names.sort_unstable();
@@ -108,7 +131,9 @@ mod tests {
         check("half_chest", Some("half chest"));
         check("bending rigidity, warp", Some("bending rigidity, warp"));
         check("no such thing", None);
-        assert_eq!(term("chi").map(|term| term.more.as_str()), Some("docs/drapes.md"));
+        let more = |name| term(name).map(|term| (term.more.as_str(), term.about.ends_with('.')));
+        assert_eq!(more("chi"), Some(("docs/drapes.md", true)));
+        assert_eq!(more("EI"), Some(("docs/evidence.md", true)));
     }
 
     #[test]
