@@ -1,4 +1,4 @@
-//! FEM-GS on whole garments: tables of docs/mechanics.md.
+//! FEM-GS on whole garments: tables of docs/experiments/whole-garments.md.
 //!
 //! `cargo run --release --example fem truth` prints what is left of the error of a loose T-shirt by mesh, fabric and rib;
 //! `... fem growth [MM ...]` the cost of a T-shirt by the edge length of its mesh;
