@@ -124,8 +124,8 @@ mod tests {
 
     #[test]
     fn sign_flips_give_fishers_number_for_darwins_maize() {
-        // 863 of 32,768 assignments reach the observed sum on its side, as many on the other: 5.267 % [Fisher 1935; so too
-        // Ernst 2004, Permutation methods, Statistical Science 19(4)].
+        // 863 of 32,768 assignments reach the observed sum on its side, as many on the other: 5.267 % [Fisher 1935; Ernst
+        // 2004].
         assert_eq!(sign_flip(&MAIZE) * 32_768.0, 2.0 * 863.0);
         assert!((100.0 * sign_flip(&MAIZE) - 5.267).abs() < 5e-4);
         // Twice as many plants, so that signs are drawn. The p is that of the normal approximation.

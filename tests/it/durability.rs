@@ -90,7 +90,7 @@ fn finished(place: &Place) -> BTreeMap<i64, Vec<Value>> {
     done.into_iter().map(|row| (number(&row), row)).collect()
 }
 
-/// Numbers that look random [Steele, Lea and Flood 2014, SplitMix].
+/// Numbers that look random [Steele 2014: SplitMix64].
 struct Random(u64);
 
 impl Random {
