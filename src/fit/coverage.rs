@@ -76,7 +76,7 @@ const SHAKES: usize = 30;
 /// Greatest perturbation of a turn, steps. Judgement: a smaller one leads back to the same optimum, a larger one loses
 /// what was found.
 const SHAKE: usize = 25;
-/// Number of sweeps of coordinate descent for the turns that suit one person.
+/// Number of sweeps of coordinate descent for the turns that suit one person. Judgement.
 const SWEEPS: usize = 60;
 
 impl Search<'_> {
