@@ -12,7 +12,7 @@ use geom::{V2, V3};
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 
 /// Distance of the wrist from the shoulder joint / arm length, distance of the elbow / that of the wrist, and length of
-/// the hand / stature.
+/// the hand / stature. Judgement.
 const WRIST: f64 = 0.94;
 const ELBOW: f64 = 0.534;
 const HAND: f64 = 0.107;
