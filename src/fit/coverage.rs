@@ -70,11 +70,9 @@ const ROUNDS: usize = 40;
 /// Shares of the people left out at either end for a start, %: a small share spreads the sizes, a large one gathers
 /// them round the middle.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
-/// Number of perturbations of the best series from which the search starts again. Judgement: more of them take longer,
-/// fewer miss better series.
+/// Number of perturbations of the best series from which the search starts again. Judgement.
 const SHAKES: usize = 30;
-/// Greatest perturbation of a turn, steps. Judgement: a smaller one leads back to the same optimum, a larger one loses
-/// what was found.
+/// Greatest perturbation of a turn, steps. Judgement: a smaller one may lead back to the same optimum.
 const SHAKE: usize = 25;
 /// Number of sweeps of coordinate descent for the turns that suit one person. Judgement.
 const SWEEPS: usize = 60;

@@ -8,8 +8,7 @@ use std::f64::consts::PI;
 
 use super::{TriMesh, V3};
 
-/// Greatest number of triangles of an undivided part. Judgement: smaller parts make the hierarchy deeper, larger ones
-/// leave more solid angles to compute.
+/// Greatest number of triangles of an undivided part. Judgement: fewer make the hierarchy deeper.
 const LEAF: usize = 8;
 /// Ratio of distance to radius from which a part is approximated by its dipole. The error of the winding number then
 /// stays below 0.02 in the tests.

@@ -138,7 +138,7 @@ impl Piece {
     /// notches on the sew line. A piece that has a sew line stays as it is.
     ///
     /// # Errors
-    /// A sentence for messages if the piece is too narrow for the allowance, or the allowance is out of range.
+    /// A message if the piece is too narrow for the allowance, or the allowance is out of range.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);

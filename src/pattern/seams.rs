@@ -27,7 +27,7 @@ pub enum StyleError {
     /// The seam file is not valid TOML of the expected form.
     #[error("{file}: not a seam file: {reason}")]
     Syntax {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Message of the TOML reader, with the line.
         reason: String,
@@ -35,7 +35,7 @@ pub enum StyleError {
     /// A name refers to nothing.
     #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
     Unknown {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,
@@ -49,7 +49,7 @@ pub enum StyleError {
     /// An entry contradicts the pieces or another entry.
     #[error("{file}: {place}: {found}; accepted: {accepted}")]
     Contradiction {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,

@@ -13,15 +13,14 @@ const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// Least lean of a body that is corrected, radians: from the upright axis of its file, or if there is none. Then the
 /// greatest lean that righting by the soles may leave: a body that leans more does not stand on its soles (raised
-/// heels). Judgement: smaller ones would right the posture of a person.
+/// heels). Judgement.
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// Length difference of the legs from which one of them counts as cut off, as a share of stature. Judgement.
 const UNEVEN: f64 = 0.02;
 
-/// Height of the zone of the soles above the lowest point, as a share of stature. Judgement: a higher zone takes in the
-/// insteps.
+/// Height of the zone of the soles above the lowest point, as a share of stature. Judgement.
 const SOLE_ZONE: f64 = 0.025;
 
 /// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions: every
@@ -29,8 +28,7 @@ const SOLE_ZONE: f64 = 0.025;
 const SLABS: usize = 24;
 const DIRECTIONS: usize = 720;
 
-/// Least turn (radians) and shift (share of stature) that is corrected. Judgement: smaller ones are asymmetry of the
-/// body.
+/// Least turn (radians) and shift (share of stature) that is corrected. Judgement.
 const TURNED: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const SHIFTED: f64 = 0.004;
 

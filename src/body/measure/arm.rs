@@ -10,8 +10,7 @@ use geom::{TriMesh, V2, V3};
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
-/// Distance outside the armpit of the first section of an arm that is spread wide, as a share of stature. Judgement:
-/// nearer, it cuts the trunk.
+/// Distance outside the armpit of the first section of an arm that is spread wide, as a share of stature. Judgement.
 const SPREAD: f64 = 0.05;
 
 /// Range of the girths of sections of an arm, as shares of stature. Judgement: a greater girth is that of arm and

@@ -26,8 +26,8 @@ const UNDERBUST: f64 = 0.0060;
 const HIP: f64 = 0.0040;
 const KNEE: f64 = 0.0180;
 
-/// Standard deviations as shares of stature: of the distance of nipples from the median plane, of wrist joint and elbow
-/// along the arm, and of the base of the neck.
+/// Standard deviations / stature: of the distance of nipples from the median plane, of wrist joint and elbow along the
+/// arm, and of the base of the neck.
 const NIPPLES_OUT: f64 = 0.0045;
 const WRIST: f64 = 0.0055;
 const NECK_BASE: f64 = 0.0050;
@@ -38,8 +38,7 @@ const SLOPE: f64 = 1.5;
 /// Standard deviation of the tape on a smooth skin, m: facets of the mesh, and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// Distance above and below a level over which the change of its girth is measured, m. Judgement: a smaller one
-/// measures facets.
+/// Distance above and below a level over which the change of its girth is measured, m. Judgement.
 const STEP: f64 = 0.008;
 
 const SKIN: &str = "facets and noise of the skin";

@@ -6,8 +6,7 @@ use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
-/// Least girth of an outline across the median plane that belongs to the trunk, m. Judgement: smaller outlines are
-/// folds of the skin.
+/// Least girth of an outline across the median plane that belongs to the trunk, m. Judgement.
 const LEAST_TRUNK: f64 = 0.03;
 
 /// Height of the crotch: the lowest height at which an outline crosses the median plane, by bisection.
@@ -79,8 +78,7 @@ pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64
     Some(apex)
 }
 
-/// Greatest height of an arm in a section parallel to the median plane, as a share of stature. Judgement: a higher
-/// section cuts the trunk, too.
+/// Greatest height of an arm in a section parallel to the median plane, as a share of stature. Judgement.
 const SPREAD_ARM: f64 = 0.10;
 
 /// Armpit of a right arm that is spread so wide that no horizontal plane passes between arm and trunk: the underside of

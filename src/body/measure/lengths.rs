@@ -96,8 +96,7 @@ impl serde::Serialize for Measured {
     }
 }
 
-/// Heights between which calf and ankle are sought, as shares of the height of the crotch. Judgement: wider ranges
-/// reach knee or foot.
+/// Heights between which calf and ankle are sought, as shares of the height of the crotch. Judgement.
 const CALF: [f64; 2] = [0.38, 0.60];
 const ANKLE: [f64; 2] = [0.10, 0.30];
 

@@ -6,8 +6,7 @@ use super::slices::steps;
 use super::tape;
 use geom::{TriMesh, V3};
 
-/// Heights between which the front neck point is sought, as shares of stature. Judgement: a wider range reaches chest
-/// or chin.
+/// Heights between which the front neck point is sought, as shares of stature. Judgement.
 const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
 /// Front neck point: the point farthest behind the chord from the chest to the neck.

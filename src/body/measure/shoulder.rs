@@ -24,12 +24,12 @@ const TURN: f64 = 0.90;
 /// shoulder point.
 const TRAPEZIUS: f64 = 0.07;
 
-/// Ranges of shoulder point and back neck point as shares of stature, to which the rules are clamped: somewhat wider
-/// than those of the model bodies.
+/// Ranges of shoulder point and back neck point / stature, to which the rules are clamped: somewhat wider than those of
+/// the model bodies.
 const SHOULDERS: [f64; 2] = [0.085, 0.150];
 const NAPES: [f64; 2] = [0.835, 0.890];
 
-/// Residual standard deviations of shoulder point and back neck point as shares of stature, with and without the marks.
+/// Residual standard deviations of shoulder point and back neck point / stature, with and without the marks.
 const SEEN: [f64; 2] = [0.0028, 0.0034];
 const UNSEEN: [f64; 2] = [0.0100, 0.0070];
 
@@ -95,7 +95,7 @@ impl Frame<'_> {
         share.clamp(SHOULDERS[0], SHOULDERS[1]) * self.stature
     }
 
-    /// Height of the back neck point as a share of stature.
+    /// Height of the back neck point / stature.
     fn nape(&self, marks: &Marks) -> f64 {
         let neck = (self.neck.height - self.floor) / self.stature;
         let share = 0.0270 + 0.151 * marks.trapezius + 0.122 * marks.armpit.z + 0.706 * neck;

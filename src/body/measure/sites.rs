@@ -48,7 +48,7 @@ impl Sites {
     }
 }
 
-/// Height of the ISO 8559-1 waist as a share of stature, men and women [Gordon 2014]. The skin has no mark of it.
+/// Height of the ISO 8559-1 waist / stature, men and women [Gordon 2014]. The skin has no mark of it.
 const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 
 /// Measures an upright closed (or nearly closed) body mesh in the world frame. The sex decides the height of the waist.
@@ -96,7 +96,7 @@ fn missing(part: &'static str, z: f64) -> BodyError {
     BodyError::MissingPart { part, height_m: z }
 }
 
-/// Mean height of the crotch as a share of stature, of the model bodies of [`crate::shape::atlas`].
+/// Mean height of the crotch / stature, of the model bodies of [`crate::shape::atlas`].
 const USUAL_CROTCH: f64 = 0.481;
 
 /// Least height of the crotch of a body without feet, as a share of its height: legs that end about at the knee.
@@ -217,8 +217,7 @@ fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
 /// bodies (CC0-1.0) of [`crate::shape::atlas`], residual 8 mm.
 const NIPPLES: [f64; 2] = [0.5123, 0.4651];
 
-/// Heights between which the most prominent level of the chest is sought, as shares of stature. Judgement: a wider
-/// range reaches belly or collar bones.
+/// Heights between which the most prominent level of the chest is sought, as shares of stature. Judgement.
 pub(crate) const CHEST: [f64; 2] = [0.70, 0.752];
 
 /// Expected height of the nipples above the floor, m, by proportion alone.

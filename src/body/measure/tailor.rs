@@ -127,7 +127,7 @@ fn length_of(path: &[V3]) -> f64 {
 /// Taut tape between two points of the skin: the convex hull of the section in the plane of both points and `out`, on
 /// the side of `out`. `None` if no outline passes both ends.
 fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
-    /// Greatest distance of an end from the outline that the tape follows, m. Judgement: landmarks lie near the skin.
+    /// Greatest distance of an end from the outline that the tape follows, m. Judgement.
     const NEAR: f64 = 0.02;
     let along = (to - from).try_normalize(1e-9)?;
     let up = (out - along * out.dot(&along)).try_normalize(1e-9)?;

@@ -109,8 +109,7 @@ impl Neck {
 /// tape is read there. Judgement.
 const SPINE: f64 = 0.14;
 
-/// Greatest lean of the neck that is tried, radians, and numbers of heights and leans of the coarse grid. Judgement: a
-/// wider grid may miss the narrowest girth.
+/// Greatest lean of the neck that is tried, radians, and numbers of heights and leans of the coarse grid. Judgement.
 const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const HEIGHTS: usize = 13;
 const LEANS: usize = 7;

@@ -36,7 +36,7 @@ pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> 
 }
 
 /// Greatest distance of the under-bust level from the section that its girth adjusts, as a share of stature. Judgement:
-/// farther away, the correction of that section would hardly change the girth.
+/// farther away, that section would hardly change the girth.
 const UNDERBUST_OFF: f64 = 0.012;
 
 /// Under-bust level. If its girth is given, the level stays near the section that is fitted to the girth.

@@ -9,11 +9,11 @@ use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
 /// Half range of heights in which the greatest calf girth and the least ankle girth are sought, as a share of stature.
-/// Judgement: a wider range reaches the knee, or the calf from the ankle.
+/// Judgement.
 const CALF_REACH: f64 = 0.03;
 const ANKLE_REACH: f64 = 0.012;
 
-/// Height of the ankle girth as a share of stature. Judgement.
+/// Height of the ankle girth / stature. Judgement.
 const ANKLE: f64 = 0.072;
 
 /// Sites of the tape on right arm and leg, m.

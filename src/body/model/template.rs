@@ -18,19 +18,18 @@ use std::sync::LazyLock;
 /// template is carried.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
-/// Grid spacing of the skin as a share of stature: of the body, and of the thinner arms (along x) and feet (along z).
-/// Judgement: a narrower grid makes more triangles.
+/// Grid spacing / stature: of the body, and of the thinner arms (along x) and feet (along z). Judgement: a narrower
+/// grid makes more triangles.
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
-/// Height of the ankles as a share of stature, below which the grid is fine. Judgement.
+/// Height of the ankles / stature, below which the grid is fine. Judgement.
 const ANKLE: f64 = 0.045;
 
-/// Difference between the distances from two parts up to which a vertex is bound to both, m. Judgement: a smaller one
-/// makes a crease where parts meet.
+/// Difference between the distances from two parts up to which a vertex is bound to both, m. Judgement.
 const MIXING: f64 = 0.08;
 
-/// Number of smoothing passes where trunk and limbs meet, and step of a pass. Judgement: fewer leave a crease.
+/// Number of smoothing passes where trunk and limbs meet, and step of a pass. Judgement.
 const EVENING_PASSES: usize = 30;
 const EVENING_STEP: f64 = 0.6;
 

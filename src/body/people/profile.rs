@@ -5,7 +5,7 @@ use super::survey::{Expected, Survey};
 use crate::{BodyError, Measurements, Sex};
 
 /// Deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are refused.
-/// Judgement: smaller ones refuse rare people, greater ones accept errors of writing.
+/// Judgement.
 const IMPOSSIBLE_GIRTH: f64 = 8.0;
 const IMPOSSIBLE_LENGTH: f64 = 5.0;
 

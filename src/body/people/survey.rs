@@ -99,8 +99,7 @@ impl Survey {
 /// Share of each variance that is taken as independent of all other dimensions, against rounding.
 const RIDGE: f64 = 1e-3;
 
-/// Least share of a variance that remains, however much is given. Judgement: a smaller one takes rounded correlations
-/// as exact.
+/// Least share of a variance that remains, however much is given. Judgement.
 const LEAST_SHARE: f64 = 0.02;
 
 static MALE: Survey = Survey {

@@ -8,15 +8,14 @@ use crate::measure::sites::{CHEST, usual_chest};
 use crate::measure::slices::steps;
 use crate::{BodyError, Sex};
 
-/// Height of the ISO 8559-1 waist as a share of stature, men and women [Gordon 2014].
+/// Height of the ISO 8559-1 waist / stature, men and women [Gordon 2014].
 const WAIST: [f64; 2] = [0.6212, 0.6299];
 
 /// Distance from the median plane of the most prominent points of breasts and buttocks, as a share of half the width:
 /// in the side view they are nearer to the camera by it. Judgement.
 const NEARER: f64 = 0.4;
 
-/// Range of height of the narrowest section of the neck, as shares of stature. Judgement: a wider range reaches jaw or
-/// shoulders.
+/// Range of height of the narrowest section of the neck, as shares of stature. Judgement.
 const NECK: [f64; 2] = [0.83, 0.90];
 
 /// Least width or depth of a neck, as a share of stature. Model bodies have at least 0.045.
@@ -25,8 +24,7 @@ const LEAST_NECK: f64 = 0.03;
 /// Mean height of the narrowest section, as a share of stature, of the 160 model bodies of [`crate::shape::atlas`].
 const USUAL_NECK: f64 = 0.8714;
 
-/// Radius of the crown as a share of stature. Seen from below or above, the edge of the head is not its highest point.
-/// Judgement.
+/// Radius of the crown / stature. Seen from below or above, the edge of the head is not its highest point. Judgement.
 const CROWN: f64 = 0.05;
 
 /// Distance by which the nearest edge of the soles lies in front of the subject's axis, as a share of stature. The edge
@@ -43,7 +41,7 @@ const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 const MISFIT: f64 = 0.03;
 
 /// Range of heights, from thigh to waist, at which the subject's axis is found in the side view, as shares of stature,
-/// and number of these heights. Judgement: a wider range reaches knees or breasts.
+/// and number of these heights. Judgement.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
 const UPRIGHTS: u32 = 33;
 

@@ -11,8 +11,7 @@ use crate::{BodyError, Dimension, Measurements, Sex};
 use image::DynamicImage;
 use std::io::Cursor;
 
-/// Greatest number of pixels of a picture, and length of its longer side at the working size, pixels. Judgement: more
-/// pixels take more time and memory than they add precision.
+/// Greatest number of pixels of a picture, and length of its longer side at the working size, pixels. Judgement.
 const MOST_PIXELS: u64 = 120_000_000;
 const WORKING: u32 = 2400;
 

@@ -8,8 +8,7 @@
 use super::silhouette::Mask;
 use nalgebra::{SMatrix, SVector};
 
-/// Number of terms of the background: a cubic polynomial in `x` and `y`. Judgement: a higher degree would fit the
-/// person.
+/// Number of terms of the background: a cubic polynomial in `x` and `y`. Judgement.
 const TERMS: usize = 10;
 
 /// Stride of the pixels that are fitted. It divides no usual picture width, so that they do not form columns.
@@ -18,7 +17,7 @@ const STRIDE: usize = 31;
 /// Number of rounds of fitting the background and choosing its pixels. Judgement.
 const ROUNDS: usize = 4;
 
-/// Width of the border as a share of each side. Judgement: a wider border meets the person.
+/// Width of the border as a share of each side. Judgement.
 const BORDER: f64 = 0.04;
 
 /// Least difference between a pixel of the person and the background (log of intensity): in standard deviations of the
@@ -36,7 +35,7 @@ const FEET_ZONE: f64 = 0.10;
 /// colours for shadow.
 const HUE: f64 = 0.08;
 
-/// Number of pixels over which an edge may be blurred. Judgement: a greater one trims thin limbs.
+/// Number of pixels over which an edge may be blurred. Judgement.
 const BLUR: usize = 3;
 
 /// Standard deviation from which a background is not plain. Judgement.

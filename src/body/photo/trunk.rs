@@ -233,7 +233,7 @@ impl Learned {
     }
 }
 
-/// Depth of a fitted trunk at a height as a share of stature, by linear interpolation.
+/// Depth of a fitted trunk at a height (a share of stature), by linear interpolation.
 fn depth_at(trunk: &[f64], height: f64) -> f64 {
     let place = ((height - LOWEST) / STEP).clamp(0.0, (SIDES - 1) as f64);
     let below = (place as usize).min(SIDES - 2);

@@ -80,14 +80,14 @@ impl Pose {
 const FRONTAL: [usize; 2] = [0, 2];
 const SAGITTAL: [usize; 2] = [1, 2];
 
-/// Accepted angles of arms and legs, degrees. Judgement: beyond them arms or legs touch the body, or the skin folds.
+/// Accepted angles of arms and legs, degrees. Judgement.
 const ARM_DEG: [f64; 2] = [5.0, 90.0];
 const LEG_DEG: [f64; 2] = [0.0, 30.0];
 const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
 const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
 /// Distances from the armscye over which the rotation of the arm fades into the shoulder and grows to the whole in the
-/// arm, as shares of stature. Judgement: shorter ones fold the armpit.
+/// arm, as shares of stature. Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
 /// Rotation of the leg, as shares of stature: distance below the hip level at which it begins, distance below the
@@ -101,8 +101,7 @@ const BETWEEN_LEGS: f64 = 0.075;
 /// armpit.
 const APART: f64 = 0.008;
 
-/// Distance past [`APART`] over which the skin of the arm below the armpit begins to move with the arm, m. Judgement: a
-/// shorter one folds the skin.
+/// Distance past [`APART`] over which the skin of the arm below the armpit begins to move with the arm, m. Judgement.
 const PARTING: f64 = 0.03;
 
 /// Clearance between the girth levels of the trunk and the skin that moves, m, so that the girths stay.

@@ -13,8 +13,7 @@ const SECOND_BODY: f64 = 0.5;
 /// Least / greatest standard deviation below which a piece is flat: a floor or a wall. Judgement.
 const FLAT: f64 = 0.02;
 
-/// Greatest sine of the tilt of a floor triangle, and thickness of a floor as a share of stature. Judgement: a thicker
-/// floor would take the soles along.
+/// Greatest sine of the tilt of a floor triangle, and thickness of a floor / stature. Judgement.
 const FLOOR_TILT: f64 = 0.2;
 const FLOOR_THICKNESS: f64 = 0.008;
 

@@ -9,8 +9,8 @@ use geom::{TriMesh, V2, V3, hull};
 /// Height of the examined end of a leg, as a share of the height of the mesh. No instep is higher.
 const END: f64 = 0.06;
 
-/// Least length of a foot as a share of stature. People have 0.15, with a standard deviation of 0.005 [Gordon 2014],
-/// model bodies at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
+/// Least length of a foot / stature. People have 0.15, with a standard deviation of 0.005 [Gordon 2014], model bodies
+/// at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
 const FOOT: f64 = 0.130;
 
 /// The same for a leg without a hole. A shoe or a raised heel shortens what stands on the floor, and no hole suggests

@@ -10,7 +10,7 @@ use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of Taubin's low-pass filter, inwards and outwards, and number of passes [Taubin 1995]. The outward step is the
-/// greater one, so that the volume is kept. Judgement: more passes smooth away features.
+/// greater one, to keep the volume. Judgement.
 const SMOOTHING: [f64; 2] = [0.5, -0.53];
 const PASSES: usize = 12;
 

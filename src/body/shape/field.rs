@@ -9,7 +9,7 @@ const TABLE_STEP: f64 = 0.004;
 /// Distance from a part beyond which its field is that of a bounding cylinder, m: beyond the reach of all unions.
 pub(crate) const NEAR: f64 = 0.12;
 
-/// Width of the rounding between skin and floor, m. Judgement: a wider one takes area from the sole.
+/// Width of the rounding between skin and floor, m. Judgement.
 const SOLE_EDGE: f64 = 0.006;
 
 /// Reach of the smooth unions between parts, m. Judgement: a smaller reach leaves creases, a larger one fills armpit
@@ -26,7 +26,7 @@ const ARM_SEAM: f64 = 0.040;
 const LEG_SEAM: f64 = 0.045;
 
 /// Distance from the arm up to which skin counts as that of the hand, and length along the hand over which its fairing
-/// sets in, m. Then the weight of that fairing. Judgement: a greater weight shrinks the hand.
+/// sets in, m. Then the weight of that fairing. Judgement.
 const HAND_SKIN: f64 = 0.04;
 const HAND_FAIRING: f64 = 0.04;
 

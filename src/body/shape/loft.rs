@@ -12,8 +12,7 @@ pub(super) type Shape = [f64; 9];
 /// Number of tabulated directions of a section: twelve per period of the highest harmonic.
 pub(super) const DIRECTIONS: usize = 96;
 
-/// Bound on the slope of the outline along the axis, by which the field is divided. Judgement: steeper outlines, at the
-/// ends of parts, would flatten the field.
+/// Bound on the slope of the outline along the axis, by which the field is divided. Judgement.
 const MAX_SLOPE: f64 = 4.0;
 
 /// Bound on the relative change of the radius with the angle, by which the field is divided. Judgement.

@@ -16,7 +16,7 @@ const FAIRING_STEP: f64 = 0.25;
 /// Step of the tangential smoothing during the fairing. Judgement.
 const SPREADING_STEP: f64 = 0.3;
 
-/// Weight of the fairing of the whole skin. Judgement: a greater one shrinks thin parts, a smaller one leaves facets.
+/// Weight of the fairing of the whole skin. Judgement.
 const BASE_FAIRING: f64 = 0.4;
 
 /// A quadrilateral mesh of the skin, with the neighbours of its vertices.

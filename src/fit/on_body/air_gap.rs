@@ -9,8 +9,7 @@ use geom::{TriMesh, V2, V3};
 const BELOW_FOLD_M: f64 = 0.025;
 /// Number of directions in which the gap is reported: every 10 degrees.
 pub const DIRECTIONS: usize = 36;
-/// Number of directions over which the area of air is integrated: every half degree. Judgement: fewer miss folds
-/// between them.
+/// Number of directions over which the area of air is integrated: every half degree.
 const FINE: usize = 720;
 
 /// A plane that cuts a body.

@@ -2,8 +2,7 @@
 
 use geom::V3;
 
-/// Half angle of the sectors that count as front, back and sides, radians (15 degrees). Judgement: a wider sector
-/// averages the slope of the edge away, a narrower one has few vertices.
+/// Half angle of the sectors that count as front, back and sides, radians (15 degrees). Judgement.
 const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 
 /// Heights of a closed edge above the floor, m. `None` for a side without cloth, as at the opening of a coat.

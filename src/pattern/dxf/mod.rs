@@ -43,7 +43,7 @@ pub const NO_BLOCK: &str = "(no block)";
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
 pub struct DxfError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Line number. `None` if the error has no line.
     pub line: Option<usize>,

@@ -14,7 +14,7 @@ const ON_OUTLINE_M: f64 = 0.1e-3;
 /// piece.
 ///
 /// # Errors
-/// A sentence for messages if layer 14 does not hold one closed line.
+/// A message if layer 14 does not hold one closed line.
 pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
     let mut line = if on_14.is_empty() {
         let is_sew_line = |line: &Line| {

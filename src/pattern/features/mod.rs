@@ -26,7 +26,7 @@ const GREATEST_MM: f64 = 100_000.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct FeaturesError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Piece, or place in the JSON.
     pub place: String,

@@ -33,7 +33,7 @@ const RIGHT_WRONG: &str = "right_wrong";
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Panel, edge or stitch.
     pub place: String,

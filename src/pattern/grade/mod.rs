@@ -122,7 +122,7 @@ struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// # Errors
-    /// A sentence for messages if a rule is missing, two rules meet in one point, or fewer than two points are graded.
+    /// A message if a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];

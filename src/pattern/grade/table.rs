@@ -35,7 +35,7 @@ const PAIRS_A_LINE: usize = 4;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct GradeError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Line number. `None` if the error has no line.
     pub line: Option<usize>,

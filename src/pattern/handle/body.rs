@@ -67,8 +67,7 @@ pub struct Armhole {
     pub underarm: EdgeEnd,
     /// Edges of the side seam from the underarm downwards.
     pub side: Chain,
-    /// Half of the sleeve cap that is sewn to this part of the armhole. `None` if there is no sleeve, or its half cap
-    /// is not one piece.
+    /// Half of the sleeve cap that is sewn here. `None` without a sleeve, or if the half cap is not one piece.
     pub cap: Option<HalfCap>,
 }
 
@@ -218,7 +217,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
 /// Both sides of each side seam of a skirt, front and back, directed downwards from its upper edge.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let all = skirt::side_seams(anatomy);
-    // The parts of a side seam sewn in several parts are joined from its uppermost part downwards.
+    // A side seam sewn in parts begins at its uppermost part.
     let begins = |[front, _]: &&[Chain; 2]| {
         let before = anatomy.style().over_corner(start(front));
         !all.iter().any(|[other, _]| end(other) == before)
@@ -352,9 +351,9 @@ impl HalfCap {
         is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
     }
 
-    /// Displacement of the underarm point per unit of displacement of the underarm seam at the bicep level: 1 for a
-    /// seam that bends there, L / (L - b) for a straight seam of length L with the bicep at b from its upper end.
-    /// `None` for a sleeve that ends above the bicep.
+    /// Ratio of the displacement of the underarm point to that of the bicep: 1 where the underarm seam bends, L / (L -
+    /// b) for a straight seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the
+    /// bicep.
     pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
         let seam_m = self.seam_m(anatomy);
         match self.bicep(anatomy) {

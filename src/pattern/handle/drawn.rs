@@ -159,7 +159,7 @@ impl Carrier<'_> {
         carried
     }
 
-    /// Appends the displaced end of a segment, after those of its parts if it must be divided.
+    /// Appends the displaced points of a segment after its start.
     fn segment(&self, [from, to]: [V2; 2], carried: &mut Vec<V2>) {
         let middle = from.lerp(&to, 0.5);
         let bend = self.carried(middle) - self.carried(from).lerp(&self.carried(to), 0.5);

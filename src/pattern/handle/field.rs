@@ -25,9 +25,9 @@ impl Field {
         place + self.by_at(place)
     }
 
-    /// Displacement at a point: on the outline, linear along its segment. Elsewhere the mean over all vertices with the
-    /// weights (tan(a/2) + tan(b/2)) / r, where a and b are the angles that the two adjacent segments subtend, and r is
-    /// the distance of the vertex.
+    /// Displacement at a point: on the outline, linear along its segment. Elsewhere the mean over all vertices with
+    /// weights (tan(a/2) + tan(b/2)) / r, for the angles a and b that the adjacent segments subtend, and the distance
+    /// r.
     pub fn by_at(&self, place: V2) -> V2 {
         let n = self.outline.len();
         let next = |k: usize| (k + 1) % n;

@@ -55,8 +55,8 @@ fn shares_girth(limb: Limb, other: Limb, handle: Handle) -> bool {
     }
 }
 
-/// Drives a side outwards by `by` at the level of a handle, holds its other levels, and interpolates between by the
-/// smooth cubic step.
+/// Drives a side outwards at the level of a handle, holds its other levels, and interpolates between by
+/// [`smooth_step`].
 pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: f64) {
     let value = |level: Handle| if level == handle { by } else { 0.0 };
     let mut levels = Vec::new();

@@ -449,8 +449,8 @@ impl Style {
         Ok(style)
     }
 
-    /// Applies one handle, halving the amount up to `halvings` times where the whole of it fails: the two sides of a
-    /// seam may stay equally long in two small steps and not in a large one.
+    /// Applies one handle. If the two sides of a seam do not stay equally long, halves the amount up to `halvings`
+    /// times.
     fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<Course, HandleError> {
         let halves = || -> Result<Course, HandleError> {
             let Course { style, mut steps } = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;

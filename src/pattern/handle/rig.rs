@@ -276,8 +276,8 @@ impl Section {
         }
     }
 
-    /// Displacement at a position along the section: cubic Hermite interpolation whose derivative at each end is the
-    /// component of the change along the outline there.
+    /// Displacement at a position along the section, by cubic Hermite interpolation with the component of the change
+    /// along the outline as slope at either end.
     fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
         let change = to - from;
         if self.is_stiff {

@@ -1,5 +1,5 @@
-//! Handles of shoulder, neck and armhole, and of the sleeve that is sewn to it. Plans *drive*, *hold* and *give* as
-//! [`Plan`] says: points move with the amount, stay, or yield so that lengths hold.
+//! Handles of shoulder, neck and armhole, and of the sleeve that is sewn to it. Their plans drive points by the amount,
+//! hold points in place, and let points give way so that lengths are kept ([`Plan`]).
 
 use super::body::{Armhole, Body, HalfCap, NEAR_M};
 use super::plan::{Condition, Move, Plan, Term, along, end, start};
@@ -37,8 +37,8 @@ pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Widens the neck: both high points of the shoulder (where it meets the neck) move outwards along the shoulder, each
-/// by half of the amount. The centres of the neckline stay.
+/// Widens the neck: the high points of the shoulder (at the neck) move outwards along the shoulder, each by half of the
+/// amount. The centres of the neckline stay.
 pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -61,7 +61,7 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Points of the neckline at its centre, front or back: one, or one on each half of a piece that is cut in two.
+/// Points of the neckline at its centre, front or back: one, or one on each half.
 fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
@@ -118,7 +118,7 @@ fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
 }
 
 /// Keeps the length of every armhole: its two underarm points give way down the side seam, by one factor for front and
-/// back. A lower end of the side seam that is in no seam gives way by itself, for what then remains between both sides.
+/// back. A free lower end of the side seam gives way for the small difference between both sides.
 fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     for faces in body.armholes.chunks(Face::BOTH.len()) {
         let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();

@@ -26,7 +26,7 @@ const GRAIN_SHARE: f64 = 0.5;
     row.map(|row| format!(", row {row}")).unwrap_or_default(),
     column.as_ref().map(|column| format!(", column `{column}`")).unwrap_or_default())]
 pub struct InfoError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Row number. The row of column names is 1.
     pub row: Option<usize>,

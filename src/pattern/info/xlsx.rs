@@ -22,7 +22,7 @@ const END: [u8; 4] = *b"PK\x05\x06";
 /// Rows with their numbers in the sheet.
 ///
 /// # Errors
-/// A sentence for messages on the fault of the workbook.
+/// A message on the fault of the workbook.
 pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     let archive = Archive::open(bytes)?;
     let shared = match archive.find("xl/sharedStrings.xml") {

@@ -33,7 +33,7 @@ pub struct Triangulation {
 /// Triangulates a counter-clockwise polygon with edges of length about `h`.
 ///
 /// # Errors
-/// A sentence for messages on the fault of the polygon.
+/// A message on the fault of the polygon.
 pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if let Some(place) = self_crossing(outline) {
         return Err(format!("its sampled outline crosses itself at ({:.1}, {:.1}) mm", place.x * 1e3, place.y * 1e3));

@@ -9,16 +9,16 @@ use std::sync::LazyLock;
 use super::words::{CLASSES, FACES, HANDS, PARTS, PLAIN};
 use super::{Class, Face, Hand, PartName};
 
-/// Statement of a name about a piece.
+/// Statement of a name about a piece. `None` for what the name does not say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Named {
-    /// Kind of piece. `None` if the name does not say.
+    /// Kind of piece.
     pub class: Option<Class>,
-    /// Front or back. `None` if the name does not say.
+    /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer. `None` if the name does not say.
+    /// Side of the wearer.
     pub hand: Option<Hand>,
-    /// Part of a kind. `None` if the name does not say.
+    /// Part of a kind.
     pub part: Option<PartName>,
 }
 
