@@ -67,8 +67,7 @@ struct Candidate {
 
 /// Greatest number of passes over all lines. A pass without gain ends the search earlier.
 const ROUNDS: usize = 40;
-/// Shares of the people left out at either end for a start, %: a small share spreads the sizes, a large one gathers
-/// them round the middle.
+/// Shares of the people left out at either end for a start, %: large ones gather the sizes round the middle.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
 /// Number of perturbations of the best series from which the search starts again. Judgement.
 const SHAKES: usize = 30;

@@ -32,8 +32,8 @@ pub struct DistanceField {
 #[error("the stored distance field is damaged: {0}")]
 pub struct FieldError(&'static str);
 
-/// Width of the exact shell outside the surface, in grid cells. The nodes of the spline at a point of the surface lie
-/// up to 1.5 sqrt(3) = 2.6 cells away.
+/// Width of the exact shell outside the surface, in grid cells. The spline at a point of the surface uses nodes up to
+/// 1.5 sqrt(3) = 2.6 cells away.
 const SHELL_CELLS: f64 = 2.5;
 /// Marks a node whose nearest triangle is unknown.
 const NONE: u32 = u32::MAX;

@@ -1,6 +1,5 @@
-//! Checks of a pattern and its seam file. They find what is allowed and may still be a mistake: edges in no seam,
-//! unused pieces, gathers, reversed seams, girths that do not close, no girth to judge the fit by, lengths that leap
-//! between sizes.
+//! Checks for what a pattern and its seam file may contain by mistake: edges in no seam, unused pieces, gathers,
+//! reversed seams, girths that do not close, no girth to judge the fit by, lengths that leap between sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,11 +16,10 @@ use geom::units::mm;
 const GATHERED_RATIO: f64 = 1.2;
 /// Greatest distance of a notch from the edge that it marks, m.
 const ON_EDGE_M: f64 = 12e-3;
-/// Least improvement of the match of the notches by reversing one side for which that side is reported, as a share of
-/// the length of the seam.
+/// Least improvement of the notch match by reversing one side for a finding, as a share of the seam.
 const TURNED_GAIN: f64 = 0.05;
 
-/// Something in a pattern or its seam file that a person should look at.
+/// Something that a person should look at.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// Kind of the finding.
@@ -188,9 +186,8 @@ fn gathered(style: &Style, seam: &Seam) -> Option<Finding> {
     })
 }
 
-/// Finding on a seam of which one side seems reversed. The outlines are counter-clockwise as seen from outside, so the
-/// sides of a seam run in opposite directions. If the seam file agrees, one side still counts as reversed where the
-/// notches match better that way.
+/// Finding on a seam of which one side seems reversed. Outlines are counter-clockwise, so the sides of a seam must run
+/// in opposite directions. If they do, one side still seems reversed where the notches match better that way.
 fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     let found = if seam.b_forwards {
         "both sides run counter-clockwise: one of the pieces is sewn inside out".to_owned()

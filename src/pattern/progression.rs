@@ -11,8 +11,7 @@ use geom::units::mm;
 
 /// Greatest regular ratio of a step to the greater of its neighbouring steps of the same sign.
 const GREATEST_RATIO: f64 = 3.0;
-/// Least step to compare with, m: the tolerance on the lengths of the two sides of a seam. Lengths that hardly grow
-/// would otherwise all leap.
+/// Least step to compare with, m, for lengths that hardly grow: the tolerance on both sides of a seam.
 const LEAST_STEP_M: f64 = 1e-3;
 /// Number of sizes from which steps alone tell an outlier. With three sizes there are two steps, and either may be the
 /// outlier.

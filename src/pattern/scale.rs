@@ -16,8 +16,8 @@ pub fn extent_m(outline: &[V2]) -> f64 {
     if outline.is_empty() { 0.0 } else { (high - low).max() }
 }
 
-/// Objection to a unit in which the longest piece would have the length `longest_m`, with the units that would fit.
-/// `None` if a person could wear such a piece.
+/// Objection to a unit in which the longest piece is `longest_m` long, with the units that would fit. `None` if a
+/// person could wear it.
 #[must_use]
 pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     if WORN_M.contains(&longest_m) {

@@ -143,7 +143,7 @@ pub struct PieceEntry {
 
 /// Relative difference between sizes, in the length ratio of both sides of a seam, from which the user is asked.
 pub(crate) const RATIO_DOUBT: f64 = 0.05;
-/// Difference of the ease between sizes, as a share of the length tolerance, up to which they count as equal.
+/// Difference up to which the eases of sizes count as equal, as a share of the length tolerance.
 pub(crate) const SAME_EASE: f64 = 0.5;
 
 /// A seam between two chains of edges.

@@ -6,15 +6,14 @@ use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
 /// Step along the arm, and greatest distance of the middle of a section from the extrapolated line, as shares of
-/// stature. Judgement: a greater distance takes another part for the arm.
+/// stature. Judgement: another outline is another part.
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
 /// Distance outside the armpit of the first section of an arm that is spread wide, as a share of stature. Judgement.
 const SPREAD: f64 = 0.05;
 
-/// Range of the girths of sections of an arm, as shares of stature. Judgement: a greater girth is that of arm and
-/// trunk.
+/// Range of the girths of sections of an arm, as shares of stature. Judgement.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
 /// Greatest number of steps. Arms are shorter.

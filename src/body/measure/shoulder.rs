@@ -17,11 +17,10 @@ use geom::{TriMesh, V3};
 const SHOULDER: f64 = 0.1148;
 const CERVICALE: f64 = 0.8617;
 
-/// Slope of the line over the shoulder at which it turns into the arm: about 42 degrees. Judgement.
+/// Slope of the line over the shoulder at which it turns into the arm. Judgement.
 const TURN: f64 = 0.90;
 
-/// Distance from the median plane at which the height of the trapezius is read, as a share of stature: between neck and
-/// shoulder point.
+/// Distance from the median plane at which the height of the trapezius is read / stature. Judgement.
 const TRAPEZIUS: f64 = 0.07;
 
 /// Ranges of shoulder point and back neck point / stature, to which the rules are clamped: somewhat wider than those of

@@ -1,4 +1,4 @@
-//! Horizontal sections of a mesh at many heights. The triangles are sorted by height, so that each section reads few.
+//! Horizontal sections of a mesh at many heights, by triangles sorted by height.
 
 use geom::TriMesh;
 use geom::section::{Outline, Plane, section, section_of};

@@ -23,8 +23,8 @@ const CORRECTIONS: usize = 6;
 const CORRECTED: f64 = 3e-4;
 const FITTED: f64 = 8e-4;
 
-/// Greatest accepted deviation of a girth, and of a length, from the request, m. Judgement: no more than the error of a
-/// trained measurer ([`crate::people::likely`]).
+/// Greatest accepted deviation of a girth, and of a length, from the request, m. Judgement: at most the error of a
+/// measurer ([`crate::people::likely`]).
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 

@@ -18,8 +18,7 @@ use std::sync::LazyLock;
 /// template is carried.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
-/// Grid spacing / stature: of the body, and of the thinner arms (along x) and feet (along z). Judgement: a narrower
-/// grid makes more triangles.
+/// Grid spacing / stature: of the body, and of the thinner arms (along x) and feet (along z). Judgement.
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 

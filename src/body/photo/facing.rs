@@ -12,7 +12,7 @@ const FEET: [f64; 2] = [0.0, 0.05];
 const ANKLES: [f64; 2] = [0.10, 0.14];
 
 /// Least distance between the middles of feet and ankles that tells the direction, as a share of stature. Toes reach
-/// about 0.08 in front of the ankle and heels 0.02 behind it, so the distance is about 0.03. This is a third of it.
+/// 0.08 in front of the ankle and heels 0.02 behind it, so the distance is about 0.03, of which this is a third.
 const FORWARD: f64 = 0.01;
 
 /// Least correlation that tells the direction: of the line through the middle of the trunk, from thigh to shoulders,

@@ -15,7 +15,7 @@ use std::io::Cursor;
 const MOST_PIXELS: u64 = 120_000_000;
 const WORKING: u32 = 2400;
 
-/// Least height of a person at the working size, pixels. Judgement: a pixel is then 7 mm of a person of 1.75 m.
+/// Least height of a person at the working size, pixels. Judgement: a pixel is then 7 mm.
 const LEAST_HEIGHT: usize = 250;
 
 /// Greatest lean of the figure in front and side view, degrees. In the side view posture adds to it. Judgement.

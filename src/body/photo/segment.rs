@@ -21,18 +21,16 @@ const ROUNDS: usize = 4;
 const BORDER: f64 = 0.04;
 
 /// Least difference between a pixel of the person and the background (log of intensity): in standard deviations of the
-/// background, and in absolute terms. Judgement: smaller ones take noise for the person.
+/// background, and in absolute terms. Judgement.
 const OFF: f64 = 5.0;
 const LEAST: f64 = 0.06;
 
 /// Least share of the light that a shadow leaves: on the wall behind the person, and near the feet, where it is
-/// darkest. Then the share of the figure, from below, that counts as feet. Judgement: smaller ones take dark clothes
-/// for shadow.
+/// darkest. Then the share of the figure, from below, that counts as feet. Judgement.
 const DARKEST: [f64; 2] = [0.62, 0.45];
 const FEET_ZONE: f64 = 0.10;
 
-/// Greatest spread of the channels (log of intensity, from their mean) in a shadow. Judgement: a greater one takes dull
-/// colours for shadow.
+/// Greatest spread of the channels (log of intensity, from their mean) in a shadow. Judgement.
 const HUE: f64 = 0.08;
 
 /// Number of pixels over which an edge may be blurred. Judgement.

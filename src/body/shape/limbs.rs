@@ -20,8 +20,7 @@ const HAND: f64 = 0.107;
 /// Position of the upper arm girth as a share of the distance from shoulder joint to elbow. Judgement.
 pub(crate) const UPPER_ARM: f64 = 0.58;
 
-/// Least height of the armpit, without its fillet, above the chest level, as a share of stature. The chest girth is
-/// then clear of the arms.
+/// Least height of the armpit, without its fillet, above the chest level, as a share of stature.
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
 
 impl Figure<'_> {

@@ -1,7 +1,7 @@
 //! Women's dress, drafted from eleven lengths, in one size: a sleeveless bodice down to the hip and a short pegged
 //! skirt.
 //!
-//! The constants are choices that the published numbers leave open.
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::marks::{mirrored, mirrored_notch, net, notch, notches_along};

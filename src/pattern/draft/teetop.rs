@@ -1,6 +1,6 @@
 //! Women's tee-top, drafted from the same nine lengths per size as the T-shirt.
 //!
-//! The constants are choices that the published numbers leave open.
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};

@@ -1,6 +1,6 @@
 //! Men's T-shirt, drafted from nine lengths per size.
 //!
-//! The constants are choices that the published numbers leave open.
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};

@@ -14,8 +14,8 @@ const SAME_M: f64 = 1e-6;
 const MOST_VERTICES: usize = 20_000;
 /// Greatest number of lines of an outline. An outline that is drawn segment by segment has some hundreds.
 pub const MOST_LINES: usize = 5_000;
-/// Greatest area of the loops of a cut line, as a share of the area of the piece. The loops of trousers with pockets
-/// enclose a thousandth.
+/// Greatest area of the loops of a cut line, as a share of the piece. The loops of trousers with pockets enclose a
+/// thousandth.
 pub const LOOPS_SHARE: f64 = 0.01;
 /// Greatest area of the loops of an outline that is sewn, m2: a knot from grading, smaller than scissors could follow.
 pub const TRIFLE_M2: f64 = 1e-5;

@@ -4,8 +4,8 @@ use super::outline::{JOIN_M, Line, chains, check_simple, closed, counter_clockwi
 use geom::V2;
 use geom::polyline::{contains, signed_area};
 
-/// Least area of a closed line on layer 8 that is a sew line, as a share of the area of the outline. Old Valentina
-/// files draw it there.
+/// Least area of a closed line on layer 8 that is a sew line, as a share of the outline. Old Valentina files draw it
+/// there.
 const SEW_LINE_SHARE: f64 = 0.5;
 /// Distance below which a sew line ends on the outline, m.
 const ON_OUTLINE_M: f64 = 0.1e-3;

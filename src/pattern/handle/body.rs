@@ -291,7 +291,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     Some(HalfCap { piece, underarm: corner, spans, top, seam, down, out: across * -inwards.signum() })
 }
 
-/// Upper end of the cap of a panel that begins at an underarm corner: the last edge sewn to the trunk ends there.
+/// Upper end of the cap that begins at an underarm corner: the end of the last edge sewn to the trunk.
 fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     let is_cap = |edge: EdgeRef| {
         anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))

@@ -13,8 +13,8 @@ use geom::V2;
 /// Distance along a band below which two of its corners count as the same end, m.
 const END_M: f64 = 20e-3;
 
-/// Drives the tips of darts by the mean displacement of their mouths, and lets the tips give way so that both edges of
-/// a dart stay equally long.
+/// Drives the tips of darts by the mean displacement of their mouths, and lets them give way so that both edges stay
+/// equally long.
 pub fn darts(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
     let touched = touched(plan);

@@ -40,8 +40,7 @@ use geom::units::mm;
 
 /// Greatest amount of a handle in either direction, m. A larger change would make another garment.
 const MOST_M: f64 = 0.3;
-/// Greatest accepted change of the length difference of the two sides of a seam, and residual of a condition on
-/// lengths, m.
+/// Greatest change of the length difference of the sides of a seam, and residual of a condition on lengths, m.
 const PAIRED_M: f64 = 0.1e-3;
 
 /// Tolerance on the change of the point of measure of `Handle::aim`, m, and greatest number of iterations.
@@ -51,7 +50,7 @@ const MOST_AIMS: usize = 8;
 /// of measure has jumped to another place.
 const AIM_RATIOS: Range<f64> = 0.5..2.0;
 
-/// Greatest number of times that an amount is halved when the two sides of a seam do not stay equally long.
+/// Greatest number of halvings of an amount at which the sides of a seam do not stay equally long.
 const HALVINGS: u32 = 2;
 
 /// Displacement fields of the changed pieces, by the index of the piece.
@@ -62,7 +61,7 @@ struct Change {
     fields: Fields,
 }
 
-/// A style after a handle was applied in one or several steps.
+/// A style changed by a handle in several steps.
 struct Course {
     style: Style,
     /// Displacement fields of each step.
@@ -349,10 +348,10 @@ pub enum HandleError {
         style: String,
         /// Requested handle.
         handle: Handle,
-        /// Names of the handles that the style has.
+        /// Names of the style's handles.
         accepted: String,
     },
-    /// The two sides of a seam do not stay equally long, or a condition on lengths cannot be met.
+    /// The sides of a seam do not stay equally long, or a length cannot be kept.
     #[error(
         "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
     )]
@@ -426,9 +425,8 @@ impl Style {
 
     /// Applies handles with their amounts, m, one after the other.
     ///
-    /// # Errors
-    /// [`HandleError`] if an amount is out of range, the style has no such handle, the two sides of a seam do not stay
-    /// equally long, or an outline would cross itself.
+    /// # Errors [`HandleError`] if an amount is out of range, the style has no such handle, the sides of a seam do not
+    /// stay equally long, or an outline would cross itself.
     ///
     /// # Examples
     /// ```

@@ -1,5 +1,5 @@
-//! Plan of a handle. A point is *driven* (moves with the amount), *held* (driven by zero), or *gives* way along a given
-//! direction by an unknown factor, which `solve` finds so that the conditions on lengths hold.
+//! Plan of a handle. A point is *driven* (moves with the amount), *held* (driven by zero), or *gives* way along a
+//! direction by a factor that `solve` finds so that the conditions on lengths hold.
 
 use crate::pom::anatomy::{Anatomy, Chain};
 use crate::style::openings::EdgeEnd;

@@ -202,7 +202,7 @@ impl Outline {
     }
 }
 
-/// Refines a line: adds vertices at the arc lengths of the knots, and divides segments longer than `SEGMENT_M`.
+/// Adds vertices to a line at the arc lengths of knots, and divides long segments.
 fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     let mut ends = line.arcs().to_vec();
     for knot in knots.iter().filter(|knot| (0.0..line.length()).contains(*knot)) {
@@ -277,7 +277,7 @@ impl Section {
     }
 
     /// Displacement at a position along the section, by cubic Hermite interpolation with the component of the change
-    /// along the outline as slope at either end.
+    /// along the outline as slope at each end.
     fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
         let change = to - from;
         if self.is_stiff {

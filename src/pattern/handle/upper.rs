@@ -74,8 +74,8 @@ fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     Some(centres.collect())
 }
 
-/// Lowers the underarm points along the side seam. The underarm points of the sleeve move as far down the arm, and give
-/// way across the arm so that the cap stays as long as its armhole.
+/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and give way across
+/// the arm so that the cap fits the armhole.
 pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     if body.armholes.is_empty() {
         return None;
@@ -90,8 +90,8 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
         }
     }
     for faces in body.armholes.chunks(Face::BOTH.len()) {
-        // The side seam may slant differently in front and back. A shared factor of opposite signs keeps its two sides
-        // equally long.
+        // The side seam may slant differently in front and back. One factor of opposite signs keeps both sides equally
+        // long.
         let apart = faces.iter().zip([0.5, -0.5]);
         plan.gives.push(apart.map(|(face, by)| Move::new(body.point(face.underarm), face.down(body) * by)).collect());
     }
@@ -154,7 +154,7 @@ impl Armhole {
     }
 }
 
-/// Holds the armholes at half their height, the level of the points of measure across front and back.
+/// Holds the armholes at half their height, where the widths across front and back are measured.
 pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
     plan.moves.extend(
         body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())),

@@ -139,7 +139,7 @@ impl PieceTable {
         Ok(())
     }
 
-    /// Indices of the pieces that a row means: in the size of the row, or in all sizes if it names none.
+    /// Indices of the pieces of a row: of its size, or of all sizes if it names none.
     fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
         let is_of =
             |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));

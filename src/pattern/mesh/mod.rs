@@ -1,5 +1,5 @@
-//! Meshing of a style into a garment: nearly equilateral triangles of one size, with corresponding vertices on both
-//! sides of each seam.
+//! Meshing of a style into a garment: nearly equilateral triangles, and corresponding vertices on both sides of each
+//! seam.
 
 mod paths;
 mod sampling;

@@ -5,7 +5,7 @@
 
 use crate::style::{EdgePoint, EdgeRef, PathPart, Seam, Style};
 
-/// Distance, in target edge lengths, below which a mark of one side of a seam and a mark of the other become one vertex pair.
+/// Distance, in target edge lengths, below which marks of different sides of a seam become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
 /// Difference below which arc lengths count as equal, m.
 const SAME_M: f64 = 1e-9;

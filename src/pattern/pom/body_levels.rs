@@ -45,7 +45,7 @@ pub struct WornLength {
 
 /// Greatest distance of a sleeve end above the wrist for it to count as a cuff at the wrist, m.
 const SHORT_OF_WRIST_M: f64 = 0.040;
-/// Greatest distance of a waist seam from the waist for the seam to count as the waist of the garment, m.
+/// Greatest distance from the waist of a seam that counts as the garment's waist, m.
 const AT_WAIST_M: f64 = 0.060;
 
 impl Style {

@@ -407,8 +407,8 @@ pub enum Centre {
     Corner(EdgeEnd),
 }
 
-/// Distance of the waist of a top below the armhole, m: that of the narrowest girth if the sides are shaped, otherwise
-/// a usual one. `girths` are (distance below the armhole, girth), m.
+/// Distance of the waist of a top below the armhole, m: that of the narrowest girth, or for straight sides a usual one.
+/// `girths` are (distance below the armhole, girth), m.
 fn waist(girths: &[(f64, f64)]) -> f64 {
     let narrowest = girths.iter().min_by(|candidate, other| candidate.1.total_cmp(&other.1));
     match (girths, narrowest) {

@@ -264,8 +264,8 @@ impl Reached {
     }
 }
 
-/// Goodness of a section for a part, at most 1: the cosine of the angle between both directions, less the weighted
-/// penalties of this file for place, turning, length and bow.
+/// Goodness of a section for a part, at most 1: cosine of the angle between both directions, less weighted penalties
+/// for place, turning, length and bow.
 fn goodness(section: &Section, part: &Part, size: V2, total: f64) -> f64 {
     let direction = part.direction_deg.to_radians();
     let along = section.chord.try_normalize(1e-9).map_or(-1.0, |c| c.dot(&V2::new(direction.cos(), direction.sin())));

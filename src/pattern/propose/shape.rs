@@ -4,11 +4,11 @@ use crate::piece::Piece;
 use crate::style::corners::corner_vertices;
 use geom::V2;
 
-/// Turning angle to the right from which a corner is the apex of a dart, degrees. A dart turns back almost by 180.
+/// Turning angle to the right from which a corner is the apex of a dart, degrees.
 const APEX_TURN_DEG: f64 = 120.0;
 /// Greatest relative length difference between both edges of a dart.
 const LEG_DIFFERENCE: f64 = 0.04;
-/// Greatest width of the mouth of a dart, as a share of the length of its edges. A wider one is a V-neck.
+/// Greatest mouth of a dart, as a share of its edges. A wider one is a V-neck.
 const WIDEST_MOUTH: f64 = 0.7;
 /// Least length of the edges of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;

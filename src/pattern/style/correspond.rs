@@ -9,8 +9,8 @@ use super::corners::corner_vertices;
 use crate::piece::Piece;
 use geom::V2;
 
-/// Penalty of a vertex that is no corner, as a distance divided by the size of the piece: such a vertex is taken only
-/// if it is nearer by this than every corner.
+/// Penalty of a vertex that is no corner, as a distance divided by the size of the piece: it is taken only if nearer by
+/// this than every corner.
 pub(super) const CORNER_WORTH: f64 = 0.03;
 /// Greatest distance of corresponding corners, divided by the size of the piece.
 const TOO_FAR: f64 = 0.15;

@@ -21,8 +21,8 @@ const SAME_HEADING: f64 = 0.35;
 const ON_VERTEX_M: f64 = 0.5e-3;
 
 /// Corners, as vertices of an outline, that the edges of a seam file refer to. `places` are the shares in its
-/// `corners_at`; without any, the corners are those of the piece. They are found on the size `made_on` and tracked from
-/// there, or found on the piece itself if its nest does not have that size.
+/// `corners_at`; without any, the corners are those of the piece. They are found on the size `made_on`, if the nest has
+/// it, and tracked from there.
 ///
 /// # Errors
 /// [`Lost`] if a corner has no counterpart.
