@@ -1,4 +1,4 @@
-//! Constants that decide results. A stored result has them by name and value, so it is known with which it was made.
+//! Constants that decide results. A stored result lists their names and values.
 
 /// A constant that decides results.
 #[derive(Clone, Copy, Debug)]

@@ -100,7 +100,7 @@ impl DistanceField {
 
     /// Gives the nodes of the shell their signs. Two neighbours whose distances to the surface sum to more than the
     /// spacing have no surface between them, so all nodes connected in this way are on one side. The side of some of
-    /// them is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest feature
+    /// these is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest feature
     /// can point the wrong way.
     fn tell_sides(&mut self, surface: &Surface, nearest: &[u32]) {
         // Across a flat surface normal to the axis the two distances sum to the spacing, up to rounding.

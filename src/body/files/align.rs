@@ -86,8 +86,8 @@ pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<S
     }
 }
 
-/// Triangles of a mesh without the part of one leg below the end of the other. Without them, a leg that is cut off does
-/// not make the body lean.
+/// Triangles of a mesh without the part of one leg below the end of the other: a leg that is cut off would make the
+/// body lean.
 fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     let Some((low, high)) = mesh.bounds() else { return Cow::Borrowed(&mesh.triangles) };
     let middle = (low.x + high.x) / 2.0;

@@ -172,7 +172,7 @@ pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
 
 /// Estimate of the sex by neck, hip and waist girth / stature: linear discriminant for the 6,068 people of the ANSUR II
 /// survey [Gordon 2014], of whom it classifies 97 % correctly. That is optimistic, because their waists at the navel
-/// were converted into ISO waists by a mean factor for each sex. Only the height of the waist depends on it.
+/// were converted into ISO waists by a mean factor for each sex. Only the height of the waist depends on the sex.
 fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
     if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }

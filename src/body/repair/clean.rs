@@ -49,7 +49,7 @@ pub(crate) fn several(mesh: &TriMesh) -> bool {
     areas.get(1).is_some_and(|second| *second > SECOND_BODY * areas[0])
 }
 
-/// Removes the floor under an upright body whose feet are joined to it. `None` without a floor.
+/// Removes the floor that is joined to the feet of an upright body. `None` without a floor.
 pub(crate) fn drop_floor(mesh: &TriMesh, notes: &mut Vec<String>) -> Option<TriMesh> {
     let (low, high) = mesh.bounds()?;
     let stature = high.z - low.z;

@@ -114,9 +114,8 @@ struct Ray {
 impl Section {
     /// Cuts a body and the sewn cloth on it. `None` if the plane does not meet the body.
     ///
-    /// The trunk or limb is the outline round the origin of the plane, or else the nearest outline. A cloth outline
-    /// belongs to it if that outline contains its centroid, or lies nearer to it than to the other outlines of the
-    /// body.
+    /// The trunk or limb is the outline round the origin of the plane, or else the nearest outline. Cloth belongs to
+    /// this outline if it encloses its centroid, or lies nearer to this outline than to the others of the body.
     #[must_use]
     pub fn cut(site: Site, body: &TriMesh, cloth: &TriMesh) -> Option<Self> {
         let mut outlines: Vec<Outline> =

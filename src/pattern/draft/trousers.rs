@@ -1,5 +1,5 @@
 //! Men's trousers, drafted from six lengths per size: a front and a back for each leg, without darts and waistband. The
-//! published numbers leave its constants open.
+//! published numbers leave the constants open.
 //!
 //! A leg piece is drawn with the crease on `u = 0`, the outseam on `-u` and the hem at `v = 0`: the right front as seen
 //! from outside. The right back is the mirror image of such a drawing.

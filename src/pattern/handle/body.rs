@@ -351,8 +351,8 @@ impl HalfCap {
         is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
     }
 
-    /// Ratio of the displacement of the underarm point to that of the bicep: 1 where the underarm seam bends, L / (L -
-    /// b) for a straight seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the
+    /// Ratio of the displacement of the underarm point to that of the bicep: 1 where the underarm seam bends, otherwise
+    /// L / (L - b) for a seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the
     /// bicep.
     pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
         let seam_m = self.seam_m(anatomy);

@@ -425,8 +425,9 @@ impl Style {
 
     /// Applies handles with their amounts, m, one after the other.
     ///
-    /// # Errors [`HandleError`] if an amount is out of range, the style has no such handle, the sides of a seam do not
-    /// stay equally long, or an outline would cross itself.
+    /// # Errors
+    /// [`HandleError`] if an amount is out of range, the style has no such handle, the sides of a seam do not stay
+    /// equally long, or an outline would cross itself.
     ///
     /// # Examples
     /// ```
