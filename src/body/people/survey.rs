@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, DVector};
 /// negative.
 ///
 /// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. Dimensions of the survey are
-/// converted into those of ISO 8559-1 by constant factors for men and women: from waist at the navel 0.997 and 0.968,
-/// from flexed to relaxed upper arm and forearm 0.92 and 0.95, from lower thigh to knee 0.93, from biacromial breadth
-/// to tape across the back neck point 1.066 and 1.115 (means of three reference bodies of each sex). The under-bust
-/// girth follows from chest and waist, by least squares for 80 model bodies of each sex (MakeHuman, CC0-1.0).
+/// converted into those of ISO 8559-1 by constant factors for men and women. From the waist at the navel they are 0.997
+/// and 0.968, from flexed to relaxed upper arm and forearm 0.92 and 0.95, from lower thigh to knee 0.93. From
+/// biacromial breadth to tape across the back neck point they are 1.066 and 1.115 (means of three reference bodies of
+/// each sex). The under-bust girth follows from chest and waist, by least squares for 80 model bodies of each sex
+/// (MakeHuman, CC0-1.0).
 pub(crate) struct Survey {
     mean: [f64; COUNT],
     sd: [f64; COUNT],

@@ -90,9 +90,8 @@ const STEP_DEG: [f64; 2] = [0.0, 25.0];
 /// arm, as shares of stature. Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
-/// Rotation of the leg, as shares of stature: distance below the hip level at which it begins, distance below the
-/// crotch at which it is complete, and distance from the lowest point of the crotch over which it fades between the
-/// legs. Judgement.
+/// Rotation of the leg, as shares of stature: depth below the hip level at which it begins, depth below the crotch at
+/// which it is complete, distance from the lowest point of the crotch over which it fades. Judgement.
 const LEG_BEGINS: f64 = 0.006;
 const LEG_COMPLETE: f64 = 0.10;
 const BETWEEN_LEGS: f64 = 0.075;

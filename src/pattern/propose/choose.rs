@@ -128,8 +128,8 @@ fn is_round_band(candidate: &Recognised) -> bool {
     candidate.class == Class::Waistband && candidate.face.is_none() && candidate.hand.is_none()
 }
 
-/// Arranges waistbands whose names give neither a side nor front or back, by the ratio of their length to that of the
-/// edges that they are sewn to: one all round, a right and a left one, or one that is cut twice. Further bands are
+/// Arranges waistbands whose names give neither a side nor front or back: one all round, a right and a left one, or one
+/// that is cut twice. The ratio of their length to that of the edges that they are sewn to decides. Further bands are
 /// dropped.
 fn go_round(chosen: &mut Vec<Recognised>) {
     let bands: Vec<usize> = (0..chosen.len()).filter(|&i| is_round_band(&chosen[i])).collect();
