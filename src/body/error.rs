@@ -5,7 +5,7 @@ use geom::units::mm;
 /// Reason for which no body could be made or measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyError {
-    /// A measurement outside the range of adults.
+    /// A measurement is outside the range of adults.
     #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
     OutOfRange {
         /// Key of the measurement.
@@ -25,12 +25,12 @@ pub enum BodyError {
         mm(*height_m)
     )]
     MissingPart {
-        /// Body part, in words, such as `chest`.
+        /// Name of the body part, such as `chest`.
         part: &'static str,
-        /// Height of the search, m.
+        /// Height that was searched, m.
         height_m: f64,
     },
-    /// Two measurements that do not occur together in an adult.
+    /// Two measurements do not occur together in an adult.
     #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]
     Contradiction {
         /// One measurement, with its value.
@@ -44,13 +44,13 @@ pub enum BodyError {
         /// Unit of the numbers.
         unit: &'static str,
     },
-    /// Measurements that are possible by themselves but not together in one body.
+    /// Measurements are each possible, but not together in one body.
     #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
     Inconsistent {
-        /// The part that cannot be formed, or the measurement that is not reached.
+        /// Part that cannot be formed, or measurement that is not reached.
         reason: String,
     },
-    /// A file of measurements that cannot be used.
+    /// A file of measurements cannot be used.
     #[error("found {found}; accepted: {accepted}")]
     Measurements {
         /// Content that was found.
@@ -58,7 +58,7 @@ pub enum BodyError {
         /// Content that would be accepted.
         accepted: String,
     },
-    /// A mesh file that cannot be read.
+    /// A mesh file cannot be read.
     #[error("{format}, {place}: {problem}; accepted: OBJ, PLY, STL or GLB with triangles or polygons")]
     File {
         /// Format of the file.
@@ -68,7 +68,7 @@ pub enum BodyError {
         /// Problem at that place.
         problem: String,
     },
-    /// A picture that no body can be read from.
+    /// No body can be read from a picture.
     #[error(
         "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
     )]
@@ -78,38 +78,38 @@ pub enum BodyError {
         /// Problem of the picture.
         problem: String,
     },
-    /// A pose that the limbs cannot take.
+    /// The limbs cannot take a pose.
     #[error("no such pose: {problem}")]
     Pose {
-        /// The refused angle or contact, and what is accepted.
+        /// Refused angle or contact, and what is accepted.
         problem: String,
     },
-    /// A surface that cannot bound a solid body.
+    /// A surface does not bound a solid body.
     #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
     Open {
         /// Description of the opening.
         problem: String,
     },
-    /// A scan without both feet.
+    /// A scan lacks a foot.
     #[error(
         "a foot is missing, and a body that wears garments stands on both; accepted: a scan with its feet, or the girths that are read on \
          this one, given as measurements with the stature (--stature-mm)"
     )]
     Feet,
-    /// A mesh with more than one body.
+    /// A mesh has more than one body.
     #[error(
         "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
     )]
     Several,
-    /// A mesh whose height in the given unit is not that of an adult.
+    /// The height of a mesh, in the given unit, is not that of an adult.
     #[error("the body is {} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?", short(.extent))]
     WrongUnit {
-        /// Height in the unit given.
+        /// Height in the given unit.
         extent: f64,
-        /// Unit given, as its symbol.
+        /// Symbol of the given unit.
         unit: &'static str,
     },
-    /// A mesh whose height is that of an adult in none of the units.
+    /// The height of a mesh is that of an adult in none of the units.
     #[error(
         "the body is {} high, which is no adult in mm, cm, dm, m or inches; accepted: 1.2 to 2.4 m, or say the unit",
         short(.extent)
@@ -120,7 +120,7 @@ pub enum BodyError {
     },
 }
 
-/// Formats a length of unknown unit with five significant digits, and four decimals at most.
+/// Formats a length of unknown unit with five significant digits and at most four decimals.
 fn short(length: &f64) -> String {
     let decimals = 4.0 - length.abs().max(1.0).log10().floor();
     format!("{length:.*}", decimals.clamp(0.0, 4.0) as usize)

@@ -83,7 +83,7 @@ pub enum Joint {
     AnkleLeft,
 }
 
-/// Joint positions in the world frame, metres, indexed by [`Joint`].
+/// Joint positions in the world frame, m, indexed by [`Joint`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Skeleton {
     /// Positions in the order of [`Joint`].
@@ -98,7 +98,7 @@ impl Skeleton {
     }
 }
 
-/// Landmarks on the fine mesh, metres. Pairs are `[right, left]`.
+/// Landmarks on the fine mesh, m. Pairs are `[right, left]`.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Landmarks {
     /// Side neck points: intersections of the shoulder lines with the base of the neck.
@@ -117,7 +117,7 @@ pub struct Landmarks {
     pub crotch: V3,
 }
 
-/// Heights of the girth levels above the floor, metres.
+/// Heights of the girth levels above the floor, m.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Levels {
     /// Chest or bust.
@@ -137,31 +137,31 @@ pub struct Levels {
 /// A human model that can be dressed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
-    /// Sex, which decides its mean shape and its waist level.
+    /// Sex, which decides mean shape and waist level.
     pub sex: Sex,
-    /// Closed fine mesh, metres.
+    /// Closed fine mesh, m.
     pub mesh: TriMesh,
-    /// Joint positions, metres. A pose turns the limbs about them.
+    /// Joint positions, m, about which a pose turns the limbs.
     pub skeleton: Skeleton,
-    /// Feature points that patterns and measurements refer to.
+    /// Landmarks that patterns and measurements refer to.
     pub landmarks: Landmarks,
     /// Heights of the girth levels.
     pub levels: Levels,
     /// Coarse control mesh of rings on the skin [T 3.2.2].
     pub control: ControlMesh,
-    /// Girths that a tape reads on the fine mesh.
+    /// Girths that the tape reads on the fine mesh.
     pub girths: Girths,
 }
 
 impl Body {
-    /// Girth of the trunk at a height above the floor, m, as a taut tape reads it. `None` where there is no trunk.
+    /// Girth of the trunk at a height above the floor, m, as a taut tape reads it. `None` at a height without a trunk.
     #[must_use]
     pub fn trunk_girth_at(&self, height_m: f64) -> Option<f64> {
         measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
     }
 
-    /// Returns the same body inside a garment, which `mesh` encloses. Its girths of the trunk are read over `on_trunk`,
-    /// the cloth that is worn there.
+    /// Returns the body inside a garment that `mesh` encloses. Girths of the trunk are read over `on_trunk`, the cloth
+    /// on the trunk.
     #[must_use]
     pub fn enclosed(&self, mesh: TriMesh, on_trunk: &TriMesh) -> Self {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
@@ -184,20 +184,20 @@ impl Body {
         Self { mesh, girths, ..self.clone() }
     }
 
-    /// Tailor's measurements beside the girths.
+    /// Tailor's measurements other than girths.
     #[must_use]
     pub fn tailor(&self) -> Vec<Taken> {
         measure::tailor::of_body(self)
     }
 
-    /// Bands on the skin that show the tape round chest, under-bust, waist and hip; metres.
+    /// Bands on the skin that show the tape round chest, under-bust, waist and hip, m.
     #[must_use]
     pub fn tapes(&self) -> TriMesh {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
         measure::tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
     }
 
-    /// Bands on the skin that show the lines of the tailor's measurements; metres.
+    /// Bands on the skin that show the lines of the tailor's measurements, m.
     #[must_use]
     pub fn lines(&self) -> TriMesh {
         let mut bands = TriMesh::default();

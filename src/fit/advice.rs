@@ -1,20 +1,20 @@
-//! The picture that a customer is shown.
+//! Picture for a customer.
 
 use super::class::Simulator;
 
-/// Drape that a customer is shown [T 6.4.2].
+/// Drape to show to a customer [T 6.4.2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
     /// FEM-GS: the garment is large enough, and hanging cloth is what the customer would see.
     FemDrape,
-    /// Hybrid-GS: it keeps the pattern's size.
+    /// Hybrid-GS: keeps the pattern's size.
     HybridDrape,
     /// Hybrid-GS with its gap map: the garment does not reach round the body, and the customer must see where.
     HybridGap,
 }
 
 impl Shown {
-    /// Its name in tables and reports, such as `FEM-GS drape`.
+    /// Name in tables and reports, such as `FEM-GS drape`.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -25,8 +25,8 @@ impl Shown {
     }
 }
 
-/// Chooses the picture for a customer: the gap map of a garment smaller than the body, otherwise the drape of the
-/// simulator that is recommended for the fit.
+/// Chooses the picture: the gap map of a garment smaller than the body, otherwise the drape of the simulator that is
+/// recommended for the fit.
 #[must_use]
 pub fn shown(recommended: Simulator, is_undersized: bool) -> Shown {
     match (is_undersized, recommended) {

@@ -1,16 +1,16 @@
-//! Least change of a pattern that brings its levels into their bands: a quadratic programme.
+//! Least change of a pattern that brings its levels into their target bands: a quadratic programme.
 
-/// A quantity of a garment that should lie in a band.
+/// Quantity of a garment that should lie in a band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// Its present value.
+    /// Present value.
     pub value: f64,
-    /// Its derivative by each handle.
+    /// Derivative with respect to each handle.
     pub sensitivity: Vec<f64>,
     /// Least and greatest wanted value.
     pub band: [f64; 2],
-    /// Compliance of the band: missing it by `m` costs `m^2 / gives` beside the squares of the scaled changes. It is
-    /// for quantities that scatter. `None` where the band is to be met by whatever change.
+    /// Compliance of the band, for a quantity that scatters: missing the band by `m` costs `m^2 / gives`, to be added
+    /// to the squares of the scaled changes. `None` if the band must be met whatever the change.
     pub gives: Option<f64>,
 }
 
@@ -23,19 +23,19 @@ pub struct Change {
     pub values: Vec<f64>,
 }
 
-/// Weight of a goal against the change that it takes. A goal that the limits allow is then missed by a ten-thousandth
-/// of what is asked.
+/// Ratio of the stiffness of a goal to that of the handles. A goal within the limits is then missed by a ten-thousandth
+/// of the change that it asks for.
 const FIRMNESS: f64 = 1e4;
 /// Greatest number of sweeps over all constraints. Each sweep reduces the error by a constant factor.
 const SWEEPS: usize = 20_000;
-/// Change of a multiplier, times the root of its stiffness, below which the iteration has converged.
+/// Change of a multiplier, multiplied by the root of its stiffness, below which the iteration has converged.
 const STILL: f64 = 1e-12;
 
 /// Finds the change with the least sum of squares, in units of `scale`, that brings goals into their bands within the
-/// limits of each handle. Where limits forbid that, the goals are missed by as little as they allow.
+/// limits of each handle. If the limits forbid that, the goals are missed by as little as the limits allow.
 ///
 /// Solves the dual quadratic programme by coordinate ascent (Hildreth's method): each constraint in turn takes the
-/// multiplier that meets it exactly, at least 0. Goals have a compliance, limits have none.
+/// multiplier, at least 0, that meets it exactly. Goals have a compliance, limits have none.
 #[must_use]
 pub fn least_change(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
     let rows = constraints(goals, limits, scale);
@@ -68,14 +68,14 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A constraint on scaled handles, `normal . h <= most + give * multiplier`.
+/// Constraint on scaled handles h: `normal . h <= most + give * multiplier`.
 struct Constraint {
     normal: Vec<f64>,
     most: f64,
     give: f64,
 }
 
-/// Constraints of both ends of every band and of every limit.
+/// Constraints of both ends of every band and every limit.
 fn constraints(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Vec<Constraint> {
     let mut rows = Vec::new();
     for goal in goals {

@@ -7,7 +7,7 @@ use super::resample::{interval, sign_flip};
 use super::statistics::{effect_size, equivalence, mean, sd};
 use super::{ALPHA, MARGIN};
 
-/// Statistics of pairs of both simulators, subject by subject. A difference is the EI of FEM-GS less the EI of
+/// Statistics of pairs of drapes by both simulators, subject by subject. A difference is the EI of FEM-GS minus that of
 /// Hybrid-GS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
@@ -17,45 +17,45 @@ pub struct Analysis {
     pub wins: [usize; 2],
     /// Mean difference of each subject.
     pub subjects: Vec<f64>,
-    /// Estimate from these means. `None` without subjects.
+    /// Estimate from these means. `None` without any subject.
     pub estimate: Option<Estimate>,
-    /// Means without each measurement in turn.
+    /// Mean differences without each measurement in turn.
     pub without: Vec<Without>,
-    /// Means without the free edges, and without the measurements that a simulator restores by construction.
+    /// Mean differences without the free edges, and without the measurements that a simulator restores by construction.
     pub told_apart: Vec<Without>,
-    /// Number of measurements that a simulator restores by construction. If it restores all, [`Analysis::told_apart`]
-    /// has no mean without them.
+    /// Number of measurements that a simulator restores by construction. If that is all, [`Analysis::told_apart`] has
+    /// no mean without them.
     pub controlled: usize,
 }
 
-/// Value of [`Without::what`] where the measurements that a simulator restores by construction are left out.
+/// [`Without::what`] for the measurements that a simulator restores by construction.
 pub(super) const CONTROLLED: &str = "controlled measurements";
 
-/// Mean difference over subjects, with its uncertainty.
+/// Mean difference over subjects with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Mean over subjects.
     pub mean: f64,
-    /// Its bootstrap interval at 95 %. `None` of fewer than two subjects.
+    /// Bootstrap interval of the mean at 95 %. `None` for fewer than two subjects.
     pub interval: Option<(f64, f64)>,
-    /// Paired effect size.
+    /// Paired effect size. `None` for fewer than three subjects, or equal differences.
     pub size: Option<f64>,
     /// Sample standard deviation over subjects.
     pub sd: Option<f64>,
     /// Two-sided p of the sign-flip test.
     pub p: f64,
-    /// p of the two one-sided tests that the difference lies within the margin.
+    /// p of the two one-sided tests of equivalence: that the difference lies within the margin.
     pub p_equivalence: Option<f64>,
 }
 
 /// Mean difference without some of the measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Without {
-    /// Name of what is left out (`#6 Neck Opening`, `free edges`).
+    /// Name of the measurements left out (`#6 Neck Opening`, `free edges`).
     pub what: String,
-    /// Mean difference over subjects from the other measurements.
+    /// Mean difference over subjects by the remaining measurements.
     pub mean: f64,
-    /// Number of cases in which FEM-GS and in which Hybrid-GS then has the lower EI.
+    /// Number of cases in which FEM-GS and in which Hybrid-GS has the lower EI by these.
     pub wins: [usize; 2],
 }
 
@@ -88,13 +88,13 @@ impl Analysis {
         }
     }
 
-    /// True if a simulator restores every measurement by construction, which makes their comparison circular.
+    /// True if a simulator restores every measurement by construction, so that a comparison is circular.
     #[must_use]
     pub fn is_circular(&self) -> bool {
         self.controlled > 0 && !self.told_apart.iter().any(|rest| rest.what == CONTROLLED)
     }
 
-    /// First measurement whose omission changes the sign of the mean difference. `None` where none does.
+    /// First measurement without which the mean difference changes its sign. `None` if there is none.
     #[must_use]
     pub fn turned_by(&self) -> Option<&Without> {
         let mean = self.estimate?.mean;

@@ -3,11 +3,11 @@
 use super::resample::quantile;
 use super::target::{off_m, weight_m};
 
-/// Confidence level of every interval here.
+/// Confidence level of every interval in this module.
 pub const TOLD: f64 = 0.8;
-/// Standard normal quantile of its upper end, at (1 + [`TOLD`]) / 2 = 0.9.
+/// Standard normal quantile at (1 + [`TOLD`]) / 2 = 0.9, the upper end of such an interval.
 const Z: f64 = 1.281_551_565_544_6;
-/// Least departure from a band that counts, m: a smaller one rounds to zero in millimetres.
+/// Least departure from a band that counts, m. Any smaller one rounds to zero in millimetres.
 const DEPARTURE_M: f64 = 0.5e-3;
 
 /// Fit of a size.
@@ -35,10 +35,10 @@ pub fn sitting(ease_m: f64, band_m: [f64; 2]) -> Sitting {
 /// Fit of a size in one draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// Its fit.
+    /// Fit of the size.
     pub sitting: Sitting,
-    /// Index of the level that lies farthest outside its band, tight departures counting double. `None` for a size that
-    /// fits.
+    /// Index of the level that lies farthest outside its band, with departures to the tight side doubled. `None` for a
+    /// size that fits.
     pub decides: Option<usize>,
     /// Weighted departure of that level, m ([`weight_m`]).
     pub weight_m: f64,
@@ -59,14 +59,15 @@ pub fn verdict(eases_m: &[f64], bands_m: &[Option<[f64; 2]>]) -> Verdict {
     worst
 }
 
-/// The size to wear: that with the least weighted departure of its worst level, the first of equal ones.
+/// Size to wear: the one whose worst level has the least weighted departure, or the first of equals. `None` without
+/// sizes.
 #[must_use]
 pub fn to_wear(sizes: &[Verdict]) -> Option<usize> {
-    // `min_by` returns the first of equal ones.
+    // `min_by` returns the first of equals.
     (0..sizes.len()).min_by(|&a, &b| sizes[a].weight_m.total_cmp(&sizes[b].weight_m))
 }
 
-/// Share of draws, with the 80 % Wilson interval of the probability that it estimates [Wilson 1927].
+/// Share of draws, with the 80 % Wilson interval of the estimated probability [Wilson 1927].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Share {
     /// Share of the draws, 0 to 1.
@@ -76,7 +77,7 @@ pub struct Share {
 }
 
 impl Share {
-    /// Share of `count` in `draws`. Without draws the share is NaN and the interval all of 0 to 1.
+    /// Share of `count` in `draws`. Without draws, NaN with the interval 0 to 1.
     #[must_use]
     pub fn of(count: usize, draws: usize) -> Self {
         if draws == 0 {

@@ -47,7 +47,7 @@ impl FitClass {
         }
     }
 
-    /// Simulator that the thesis's rule names for this class [T 6.4.2, 6.5]: FEM-GS for loose fits, Hybrid-GS
+    /// Simulator that the rule of the thesis names for this class [T 6.4.2, 6.5]: FEM-GS for loose fits, Hybrid-GS
     /// otherwise.
     #[must_use]
     pub fn rule_says(self) -> Simulator {

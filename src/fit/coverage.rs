@@ -1,79 +1,79 @@
 //! Search for the sizes that fit the most people.
 //!
-//! A pattern is graded by some of its parameters, here called knobs. The turn of a knob is the number of its steps from
-//! the pattern as it is, and a size is given by the turns of all knobs. A size fits a person if every length that the
-//! person asks of it lies in its band. A series covers a person if one of its sizes fits.
+//! A pattern is graded by some of its parameters, here called *knobs*. The *turn* of a knob is the number of its steps
+//! away from the present pattern, and a size is the turns of all knobs. A size fits a person if every length that the
+//! person asks for lies in its band. A series covers a person if one of its sizes fits.
 //!
-//! Lengths are linear in the turns. Along a line in the space of turns, those that fit a person are therefore a few
+//! Lengths are linear in the turns. Along a line in the space of turns, a person is therefore fitted on a few
 //! intervals, and the best point of the line is found exactly. The search optimises along many lines in turn, from many
-//! starts, and from perturbations of the best series (iterated local search [Lourenco 2003]).
+//! starts and from perturbations of the best series (iterated local search [Lourenco 2003]).
 
 use crate::Draw;
 
-/// A length of a size that a person needs to lie in a band.
+/// Length of a size that a person needs to lie in a band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// Its change with one step of each knob.
+    /// Change of the length with one step of each knob.
     pub per_step: Vec<f64>,
-    /// Least and greatest admissible change from the length with no knob turned.
+    /// Least and greatest admissible change, from the length with no knob turned.
     pub band: [f64; 2],
 }
 
 impl Asked {
-    /// Its change at some turns.
+    /// Change of the length at some turns.
     #[must_use]
     pub fn change(&self, turns: &[i32]) -> f64 {
         self.per_step.iter().zip(turns).map(|(a, turn)| a * f64::from(*turn)).sum()
     }
 }
 
-/// All lengths that a person needs of a size.
+/// All lengths that a person asks of a size.
 pub type Asks = Vec<Asked>;
 
-/// Rule by which the sizes of a series follow each other.
+/// Rule for the steps from size to size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Series {
-    /// Steps may differ, and no knob turns back from one size to the next.
+    /// Steps may differ, but no knob turns back from one size to the next.
     #[default]
     Rising,
-    /// The step between all sizes is the same.
+    /// All steps are equal.
     Even,
 }
 
-/// A problem of the search.
+/// Problem of the search.
 #[derive(Clone, Debug)]
 pub struct Search<'a> {
-    /// Lengths that each person needs of each size, by size and person.
+    /// Lengths that people ask of sizes, by size, then by person.
     pub asks: &'a [Vec<Asks>],
     /// Least and greatest turn of each knob.
     pub limits: &'a [[i32; 2]],
-    /// Default grade: steps of each knob to one step of the first.
+    /// Default grade: steps of each knob per step of the first knob.
     pub habits: &'a [f64],
-    /// People that a size must fit in addition for each step by which a knob departs from its default grade.
+    /// Number of further people that must be covered for each step by which a knob departs from its default grade.
     pub price: f64,
-    /// Rule by which the sizes follow each other.
+    /// Rule for the steps from size to size.
     pub series: Series,
 }
 
 /// Turns of the knobs of every size, the smallest size first.
 pub type Turns = Vec<Vec<i32>>;
 
-/// A series with its value of the objective.
+/// A series with the value of its objective.
 #[derive(Clone)]
 struct Candidate {
     worth: f64,
     turns: Turns,
 }
 
-/// Greatest number of passes over all lines. Judgement.
+/// Greatest number of passes over all lines. A pass without gain ends the search earlier.
 const ROUNDS: usize = 40;
-/// Shares of the people that are left out at either end for a start, %. Judgement.
+/// Shares of the people left out at either end for a start, %: large ones gather the sizes round the middle.
 const TAILS: [usize; 4] = [0, 10, 20, 30];
-/// Number of perturbations of the best series from which the search begins again. Judgement.
+/// Number of perturbations of the best series from which the search starts again. Judgement.
 const SHAKES: usize = 30;
-/// Greatest perturbation of a turn, steps. Judgement.
+/// Greatest perturbation of a turn, steps. Judgement: a smaller one may lead back to the same optimum.
 const SHAKE: usize = 25;
-/// Sweeps of coordinate descent for the turns that suit one person. Judgement.
+/// Number of sweeps of coordinate descent for the turns that suit one person. Judgement.
 const SWEEPS: usize = 60;
 
 impl Search<'_> {
@@ -83,18 +83,18 @@ impl Search<'_> {
         (0..self.people()).filter(|&person| (0..turns.len()).any(|size| self.fits(size, person, &turns[size]))).count()
     }
 
-    /// Objective: the people that a series covers, less the price of its departures from the default grade.
+    /// Objective: number of people that a series covers, less the price of its departures from the default grade.
     fn worth(&self, turns: &Turns) -> f64 {
         self.covered(turns) as f64 - self.price * turns.iter().map(|size| self.departure(size)).sum::<f64>()
     }
 
-    /// Sum of the departures of a size's knobs from the default grade, steps.
+    /// Sum of the departures of the knobs of a size from the default grade, steps.
     fn departure(&self, size: &[i32]) -> f64 {
         let first = size.first().map_or(0.0, |turn| f64::from(*turn));
         size.iter().zip(self.habits).skip(1).map(|(turn, habit)| (f64::from(*turn) - habit * first).abs()).sum()
     }
 
-    /// Best series found, with as many sizes as there are in [`Search::asks`].
+    /// Best series found, with as many sizes as [`Search::asks`] has.
     #[must_use]
     pub fn best(&self, seed: u64) -> Turns {
         let mut random = Draw::new(seed);
@@ -106,7 +106,7 @@ impl Search<'_> {
         best.map_or_else(Vec::new, |best| best.turns)
     }
 
-    /// Local optimum reached from a series.
+    /// Local optimum that the search reaches from a series.
     #[must_use]
     pub fn near(&self, turns: &Turns) -> Turns {
         self.improved(turns.clone()).turns
@@ -120,8 +120,8 @@ impl Search<'_> {
         is_met(&self.asks[size][person], turns)
     }
 
-    /// Turns that bring a person's lengths nearest to the middles of their bands, by least squares in units of the
-    /// bands' widths, within the limits.
+    /// Turns, within the limits, that bring the lengths of a person nearest to the middles of their bands: least
+    /// squares in units of the widths of the bands.
     fn ideal(&self, person: usize) -> Vec<f64> {
         let mut turns = vec![0.0; self.limits.len()];
         for _ in 0..SWEEPS {
@@ -141,8 +141,8 @@ impl Search<'_> {
         turns
     }
 
-    /// Initial series: the people, sorted by their ideal turn of the first knob, in as many groups as there are sizes,
-    /// without a share of them at either end.
+    /// Initial series: people sorted by their ideal turn of the first knob, a share left out at either end, and the
+    /// rest in as many groups as there are sizes.
     fn starts(&self) -> Vec<Turns> {
         let count = self.asks.len();
         let mut ideals: Vec<Vec<f64>> = (0..self.people()).map(|person| self.ideal(person)).collect();
@@ -160,7 +160,7 @@ impl Search<'_> {
         TAILS.into_iter().map(|tail| self.ordered(start(tail))).collect()
     }
 
-    /// Sorts a series, and makes its steps even if asked, as nearly as whole steps allow.
+    /// Sorts a series. In an even series also makes the steps equal, as nearly as whole steps allow.
     fn ordered(&self, mut turns: Turns) -> Turns {
         let count = turns.len();
         for knob in 0..self.limits.len() {
@@ -204,12 +204,12 @@ impl Search<'_> {
                 break;
             }
         }
-        // Evaluated again: at the very end of an interval a person may be fitted by rounding only.
+        // Evaluated again: at the very end of an interval, a person may be fitted by rounding alone.
         Candidate { worth: self.worth(&turns), turns }
     }
 
-    /// Search directions. In a rising series: one knob or two of one size, and one knob of all sizes from one on. In an
-    /// even series: one knob of all sizes, and the step of one knob about each of the sizes.
+    /// Search directions. In a rising series: one or two knobs of one size, and one knob of all sizes from a size
+    /// upwards. In an even series: one knob of all sizes, and the step of one knob with one of the sizes fixed.
     fn lines(&self, count: usize) -> Vec<Turns> {
         let knobs = self.limits.len();
         let still = vec![vec![0; knobs]; count];
@@ -239,8 +239,8 @@ impl Search<'_> {
         lines
     }
 
-    /// Greatest objective along a line, and the number of steps along it. Among equal points it takes the middle of the
-    /// longest interval.
+    /// Greatest objective along a line, and the number of steps to it: among equal points, to the middle of the longest
+    /// interval.
     fn along(&self, turns: &Turns, line: &Turns) -> (f64, i32) {
         let [least, most] = self.reach(turns, line);
         let mut steps = vec![0; (most - least + 2) as usize];
@@ -262,7 +262,7 @@ impl Search<'_> {
                     intervals.push(interval);
                 }
             }
-            // Each person counts once, however their intervals overlap.
+            // Each person counts once, even if intervals overlap.
             intervals.sort_unstable();
             let mut end = least - 1;
             for &[from, to] in &intervals {
@@ -287,12 +287,12 @@ impl Search<'_> {
         (worth, least + by)
     }
 
-    /// Least and greatest number of steps along a line, within the limits and such that no knob turns back from size to
-    /// size.
+    /// Least and greatest number of steps along a line, such that turns stay within the limits and no knob turns back
+    /// from size to size.
     fn reach(&self, turns: &Turns, line: &Turns) -> [i32; 2] {
         let mut reach = [i32::MIN, i32::MAX];
         let mut keep = |room: i32, way: i32| match way.signum() {
-            // `room + t way` must stay at least 0.
+            // `room + t way >= 0` must hold.
             1 => reach[0] = reach[0].max(-(room.max(0) / way)),
             -1 => reach[1] = reach[1].min(room.max(0) / -way),
             _ => {}
@@ -317,12 +317,12 @@ pub fn is_met(asks: &Asks, turns: &[i32]) -> bool {
     asks.iter().all(|asked| (asked.band[0]..=asked.band[1]).contains(&asked.change(turns)))
 }
 
-/// The better of two candidates, the first of equal ones.
+/// Better of two candidates, or the first of equals.
 fn better(best: Option<Candidate>, next: Candidate) -> Option<Candidate> {
     best.filter(|best| best.worth >= next.worth).or(Some(next))
 }
 
-/// Intersects an interval along a line with the steps that leave a length in its band.
+/// Intersects an interval of steps along a line with those for which a length stays in its band.
 fn narrow(interval: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
     let (value, by) = (asked.change(turns), asked.change(way));
     let [least, most] = asked.band.map(|bound| bound - value);
@@ -333,11 +333,11 @@ fn narrow(interval: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
         return;
     }
     let [from, to] = if by > 0.0 { [least / by, most / by] } else { [most / by, least / by] };
-    // Casts saturate, and the interval is bounded already.
+    // Casts saturate, and the interval is bounded.
     *interval = [interval[0].max(from.ceil() as i32), interval[1].min(to.floor() as i32)];
 }
 
-/// Greatest of some values, and the index in the middle of the longest run of it.
+/// Greatest of some values, and the index at the middle of the longest run of that value.
 fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
     let (mut best, mut run, mut length) = (f64::NEG_INFINITY, 0, 0);
     let mut open: Option<usize> = None;

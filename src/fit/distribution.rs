@@ -16,13 +16,13 @@ pub(super) fn normal(x: f64) -> f64 {
     if x > 0.0 { 1.0 - density / tail } else { density / tail }
 }
 
-/// Distribution function of Student's t with whole degrees of freedom, 1 or more: the finite sums of
-/// [Abramowitz & Stegun 26.7.3, 26.7.4].
+/// Distribution function of Student's t with whole degrees of freedom, 1 or more: the finite sums of [Abramowitz &
+/// Stegun 26.7.3, 26.7.4].
 pub(super) fn student(t: f64, dof: usize) -> f64 {
     let angle = (t / (dof as f64).sqrt()).atan();
     let square = angle.cos().powi(2);
     let odd = dof % 2 == 1;
-    // The powers of the cosine below `dof - 1`, from the first (odd) or the zeroth (even).
+    // Powers of the cosine below `dof - 1`, from the first (odd `dof`) or zeroth (even).
     let (mut term, mut sum) = (if odd { angle.cos() } else { 1.0 }, 0.0);
     for k in (if odd { 1 } else { 0 }..dof.saturating_sub(1)).step_by(2) {
         sum += term;
@@ -32,7 +32,7 @@ pub(super) fn student(t: f64, dof: usize) -> f64 {
     0.5 + 0.5 * between
 }
 
-/// Quantile of Student's t, the value below which lies a share `p` of the distribution, by bisection.
+/// Quantile of Student's t at the share `p` of the distribution, by bisection.
 pub(super) fn student_quantile(p: f64, dof: usize) -> f64 {
     let (mut low, mut high) = (-1.0, 1.0);
     while student(low, dof) > p && low > -1e12 {

@@ -1,8 +1,8 @@
-//! Ease at the levels of a body, and the fit class that it means [T 6.2.3].
+//! Ease at the levels of a body, and its fit class [T 6.2.3].
 
 use super::class::FitClass;
 
-/// Limits between the fit classes, m of ease.
+/// Limits between the fit classes, as ease, m.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Cuts {
     /// Ease below which a fit is tight.
@@ -30,8 +30,8 @@ impl Cuts {
         }
     }
 
-    /// True if an ease lies where the ranges printed in the thesis overlap: up to 1 cm below the lower limit, up to 2
-    /// cm above the upper one.
+    /// True for an ease at which the ranges printed in the thesis overlap: up to 1 cm below the lower limit, up to 2 cm
+    /// above the upper one.
     #[must_use]
     pub fn is_borderline(&self, ease_m: f64) -> bool {
         (self.tight_below_m - 0.01..self.tight_below_m).contains(&ease_m)
@@ -44,11 +44,11 @@ impl Cuts {
 pub struct Ease {
     /// Body level (`chest`, `hip`, ...).
     pub level: String,
-    /// Girth of the pattern there, m.
+    /// Girth of the pattern at the level, m.
     pub pattern_girth_m: f64,
-    /// Girth of the body there, m.
+    /// Girth of the body at the level, m.
     pub body_girth_m: f64,
-    /// Fit class of that ease.
+    /// Fit class of the ease.
     pub class: FitClass,
     /// True if the ease lies in an overlap of the thesis's ranges.
     pub borderline: bool,
@@ -68,8 +68,8 @@ impl Ease {
     }
 }
 
-/// Ease at each of a garment's fit levels, given by name and pattern girth, m. Levels whose body girth is unknown are
-/// left out.
+/// Ease at each fit level of a garment, given by name and pattern girth, m. A level whose body girth is unknown is left
+/// out.
 #[must_use]
 pub fn ease<'l>(
     levels: impl IntoIterator<Item = (&'l str, f64)>,

@@ -9,7 +9,7 @@ pub enum Finding {
     Fem,
     /// Hybrid-GS is truer to the pattern.
     Hybrid,
-    /// The two are equivalent within the margin.
+    /// Both are equivalent within the margin.
     NoDifference,
     /// The data do not suffice for a verdict.
     InsufficientEvidence,
@@ -27,14 +27,14 @@ impl Finding {
         }
     }
 
-    /// The finding with a name in SQL.
+    /// Finding with a name in SQL. `None` if there is none.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let all = [Self::Fem, Self::Hybrid, Self::NoDifference, Self::InsufficientEvidence];
         all.into_iter().find(|finding| finding.as_str() == name)
     }
 
-    /// The simulator that it names, if any.
+    /// Simulator that the finding names. `None` for one that names none.
     #[must_use]
     pub fn simulator(self) -> Option<Simulator> {
         match self {
@@ -48,9 +48,9 @@ impl Finding {
 /// Basis of a recommendation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
-    /// The thesis's rule.
+    /// Rule of the thesis.
     Rule,
-    /// The study's own numbers.
+    /// Numbers of the study.
     Evidence,
 }
 

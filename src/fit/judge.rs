@@ -1,5 +1,5 @@
-//! The simulator recommended for every garment and fit class: by the evidence where it suffices, otherwise by the
-//! thesis's rule.
+//! Simulator to use for every garment and fit class: by the evidence if it suffices, otherwise by the rule of the
+//! thesis.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::pair::{Pair, by_subject};
 use super::statistics::{holm, mean};
 use super::weigh::{LEAST, Verdict, Weighed};
 
-/// A garment and fit class that needs an answer.
+/// A garment and a fit class that need an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
     /// Name of the garment, as in [`Pair::garment`].
@@ -19,63 +19,63 @@ pub struct Cell {
     pub class: FitClass,
 }
 
-/// The answer for one garment and fit class.
+/// Answer for a garment and fit class.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Name of the garment.
     pub garment: String,
-    /// Fit class that it is for.
+    /// Fit class.
     pub class: FitClass,
-    /// Verdict of the numbers by themselves.
+    /// Verdict of the numbers alone.
     pub finding: Finding,
-    /// Statistics of the cases that the finding rests on.
+    /// Statistics of the cases.
     pub analysis: Analysis,
-    /// p of the sign-flip test, adjusted by Holm over all answers with enough subjects. `None` with too few.
+    /// p of the sign-flip test, adjusted by Holm over all answers with enough subjects. `None` for too few subjects.
     pub p_holm: Option<f64>,
-    /// Mean regret in EI on held-out subjects: of the choice from the other subjects of this garment and fit, and of
-    /// the one simulator that is best over the whole study.
+    /// Mean regret in EI on held-out subjects: of the choice from the other subjects of this garment and fit class, and
+    /// of the one simulator that is best in the whole study. `None` if no subject can be held out.
     pub regret: Option<[f64; 2]>,
-    /// Reason in one or two sentences.
+    /// Reason, in one or two sentences.
     pub reason: String,
     /// Further data that would settle or reverse the finding.
     pub would_settle: String,
 }
 
 impl Answer {
-    /// The simulator to use.
+    /// Simulator to use.
     #[must_use]
     pub fn recommended(&self) -> Simulator {
         self.finding.simulator().unwrap_or_else(|| self.class.rule_says())
     }
 
-    /// Basis of that recommendation.
+    /// Basis of the recommendation.
     #[must_use]
     pub fn basis(&self) -> Basis {
         if self.finding.simulator().is_some() { Basis::Evidence } else { Basis::Rule }
     }
 }
 
-/// Answers for every cell, and the statistics of each garment over all fits.
+/// Answers for every cell, and statistics of each garment over all fit classes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// One answer for each cell, in the order given.
+    /// One answer for each cell, in the order of the cells.
     pub answers: Vec<Answer>,
-    /// Every garment over all its fits.
+    /// Statistics of each garment over all fit classes.
     pub garments: Vec<GarmentEvidence>,
 }
 
-/// Statistics of one garment over all fits.
+/// Statistics of a garment over all fit classes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GarmentEvidence {
     /// Name of the garment.
     pub garment: String,
-    /// Statistics of all its cases.
+    /// Statistics of its cases.
     pub analysis: Analysis,
-    /// p of the sign-flip test, adjusted by Holm over the garments with enough subjects. `None` with too few.
+    /// p of the sign-flip test, adjusted by Holm over all garments with enough subjects. `None` for too few subjects.
     pub p_holm: Option<f64>,
 }
 
-/// Judges every cell from the study's pairs.
+/// Judges every cell by the pairs of a study.
 #[must_use]
 pub fn judge(cells: &[Cell], pairs: &[Pair]) -> Evidence {
     let pairs_of = |cell: &Cell| -> Vec<&Pair> {
@@ -94,7 +94,7 @@ pub fn judge(cells: &[Cell], pairs: &[Pair]) -> Evidence {
     Evidence { answers: answers.collect(), garments: garments(pairs) }
 }
 
-/// Statistics of every garment over all its fits, in the order of the pairs.
+/// Statistics of every garment over all fit classes, in the order of the pairs.
 fn garments(pairs: &[Pair]) -> Vec<GarmentEvidence> {
     let mut names: Vec<&str> = Vec::new();
     for pair in pairs {
@@ -113,8 +113,8 @@ fn garments(pairs: &[Pair]) -> Vec<GarmentEvidence> {
     names.iter().zip(analyses).zip(adjusted).map(garment).collect()
 }
 
-/// Holm-adjusted p of the analyses with enough subjects for a verdict. The number of subjects was known before anything
-/// was measured, so the others may be left out of the family.
+/// Holm-adjusted p of each analysis with enough subjects for a verdict. The number of subjects is known before anything
+/// is measured, so the others may be left out of the family.
 fn adjusted(analyses: &[Analysis]) -> Vec<Option<f64>> {
     let testable = |a: &&Analysis| a.subjects.len() >= LEAST;
     let p: Vec<f64> = analyses.iter().filter(testable).filter_map(|a| a.estimate).map(|e| e.p).collect();
@@ -122,7 +122,7 @@ fn adjusted(analyses: &[Analysis]) -> Vec<Option<f64>> {
     analyses.iter().map(|a| if testable(&a) { adjusted.next() } else { None }).collect()
 }
 
-/// Held-out regret, see [`Answer::regret`]. `None` where no subject can be held out.
+/// Held-out regret, see [`Answer::regret`]. `None` if no subject can be held out.
 fn regret(cell: &[&Pair], all: &[Pair]) -> Option<[f64; 2]> {
     let mut cases: BTreeMap<&str, Vec<&Pair>> = BTreeMap::new();
     for pair in cell {

@@ -1,9 +1,9 @@
-//! Fit and evidence: ease at the levels of a body and the fit class that it means [T 6.2.3], the simulator that the
-//! thesis's rule then names [T 6.4.2], and the verdict of a study's own numbers.
+//! Fit and evidence: ease at the levels of a body, its fit class [T 6.2.3], the simulator that the rule of the thesis
+//! names for that class [T 6.4.2], and the verdict of the numbers of a study.
 //!
 //! The subject is the statistical unit: several sizes of one subject count once. [`judge()`] takes the errors of both
-//! simulators on the same cases ([`Pair`]). It gives an [`Answer`] for every garment and fit class. [`Analysis`] holds
-//! the statistics behind it, [`crossover`] the ease at which the better simulator changes.
+//! simulators on the same cases ([`Pair`]) and gives an [`Answer`] for every garment and fit class. [`Analysis`] is the
+//! statistics of an answer, and [`crossover`] the ease at which the better simulator changes.
 
 mod advice;
 pub mod alter;
@@ -39,5 +39,5 @@ pub use threshold::{Crossover, CrossoverEase, crossover};
 /// Significance level of every test.
 pub const ALPHA: f64 = 0.05;
 
-/// Judgement: EI difference below which the simulators count as equivalent in practice.
+/// EI difference below which the simulators count as equivalent in practice: 1 % of the pattern's lengths. Judgement.
 pub const MARGIN: f64 = 0.01;

@@ -61,7 +61,7 @@ pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
     garment.measurements.iter().map(chi).collect()
 }
 
-/// E, SD, EI and the greatest error of a set of measurements. `None` when there are none.
+/// E, SD, EI and the greatest error of a set of measurements. `None` without measurements.
 #[must_use]
 pub fn metrics(chis: &[Chi]) -> Option<Metrics> {
     if chis.is_empty() {

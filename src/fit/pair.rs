@@ -1,4 +1,4 @@
-//! Errors of both simulators on the same case: one garment in one size on one subject.
+//! Errors of both simulators on the same case: a garment in a size on a subject.
 
 use std::collections::BTreeMap;
 
@@ -16,9 +16,9 @@ pub struct Errors {
     pub fem: f64,
     /// |chi - 1| of Hybrid-GS.
     pub hybrid: f64,
-    /// True if it lies on an edge that nothing is sewn to.
+    /// True if the measurement lies on an edge to which nothing is sewn.
     pub free_edge: bool,
-    /// True if one of the simulators restores it by construction, which makes scoring it circular.
+    /// True if a simulator restores the measurement by construction, so that scoring it is circular.
     pub controlled: bool,
 }
 
@@ -33,14 +33,15 @@ pub struct Pair {
     pub subject: String,
     /// Fit class of the deciding ease.
     pub class: FitClass,
-    /// Ease that decides it, m.
+    /// Ease that decides the class, m.
     pub ease_m: f64,
     /// Errors at every measurement that both drapes have.
     pub errors: Vec<Errors>,
 }
 
 impl Pair {
-    /// EI of a simulator, mean |chi - 1|, over the measurements for which `keep` holds. `None` when there are none.
+    /// EI of a simulator (mean |chi - 1|) over the measurements for which `keep` is true. `None` without such
+    /// measurements.
     #[must_use]
     pub fn ei(&self, simulator: Simulator, keep: impl Fn(&Errors) -> bool) -> Option<f64> {
         let error = |e: &Errors| match simulator {
@@ -51,14 +52,15 @@ impl Pair {
         (!errors.is_empty()).then(|| mean(&errors))
     }
 
-    /// EI of FEM-GS less EI of Hybrid-GS over the same measurements. It is below 0 where FEM-GS is truer.
+    /// EI of FEM-GS minus that of Hybrid-GS over the measurements for which `keep` is true. Negative if FEM-GS is
+    /// truer. `None` without such measurements.
     #[must_use]
     pub fn d_ei(&self, keep: impl Fn(&Errors) -> bool) -> Option<f64> {
         Some(self.ei(Simulator::Fem, &keep)? - self.ei(Simulator::Hybrid, &keep)?)
     }
 }
 
-/// Mean difference of every subject over its cases, in the order of the subjects' names.
+/// Mean difference of every subject over its cases, in the order of the names of the subjects.
 pub(super) fn by_subject(pairs: &[&Pair], keep: impl Fn(&Errors) -> bool) -> Vec<f64> {
     let mut subjects: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for pair in pairs {
@@ -74,17 +76,17 @@ pub fn wins(pairs: &[&Pair], keep: impl Fn(&Errors) -> bool) -> [usize; 2] {
     [differences.iter().filter(|d| **d < 0.0).count(), differences.iter().filter(|d| **d > 0.0).count()]
 }
 
-/// Score of a rule that names a simulator.
+/// Score of a rule that names a simulator by fit class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RuleScore {
-    /// Cases in which it names the simulator with the lower EI.
+    /// Number of cases in which the named simulator has the lower EI.
     pub right: usize,
-    /// Cases for which it names a simulator.
+    /// Number of cases for which the rule names a simulator.
     pub of: usize,
 }
 
-/// Scores the rule "FEM-GS for loose fits, Hybrid-GS for tight ones" by the lower EI. The thesis claims nothing about
-/// the accuracy of just fits, so they do not count.
+/// Scores the rule "FEM-GS for loose fits, Hybrid-GS for tight ones" by the lower EI. Just fits do not count, because
+/// the thesis claims nothing about their accuracy.
 #[must_use]
 pub fn rule_score(pairs: &[Pair]) -> RuleScore {
     let mut score = RuleScore::default();

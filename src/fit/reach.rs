@@ -1,23 +1,23 @@
-//! Displacement of a garment's openings by a movement: a hem rises, a cuff is drawn up the arm.
+//! Displacement of the openings of a garment by a movement: a hem rises, a cuff is drawn up the arm.
 
 use geom::V3;
 use nalgebra::Matrix3;
 use pattern::{Garment, Measurement, MeasurementKind};
 
-/// Displacement of an opening along the body, positive into the garment: of a hem upwards, of a cuff towards the
-/// shoulder, of a neckline downwards.
+/// Displacement of an opening along the body, positive into the garment: upwards for a hem, towards the shoulder for a
+/// cuff, downwards for a neckline.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Drawn {
     /// Name of the measurement along the opening.
     pub opening: String,
     /// Mean along the opening, m.
     pub mean_m: f64,
-    /// Greatest along the opening, m.
+    /// Greatest displacement along the opening, m.
     pub most_m: f64,
 }
 
-/// Displacement of each closed free edge. The garment's vertices lie at `after`. They would lie at `kept` had they kept
-/// their places on the body.
+/// Displacement of each closed free edge. The vertices of the garment are at `after`, and would be at `kept` if they
+/// had stayed in place on the body.
 #[must_use]
 pub fn drawn(garment: &Garment, kept: &[V3], after: &[V3]) -> Vec<Drawn> {
     let is_opening = |m: &&Measurement| m.is_free_edge && m.kind == MeasurementKind::ClosedGirth;
@@ -43,7 +43,7 @@ fn mean(points: impl Iterator<Item = V3> + Clone) -> V3 {
     points.sum::<V3>() / count
 }
 
-/// Normal of the least-squares plane of some points, on the side of `middle`.
+/// Normal of the least-squares plane of some points, towards `middle`.
 fn axis(points: &[V3], middle: V3) -> V3 {
     let centre = mean(points.iter().copied());
     let spread: Matrix3<f64> = points.iter().map(|p| (p - centre) * (p - centre).transpose()).sum();

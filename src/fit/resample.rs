@@ -2,10 +2,10 @@
 
 use super::distribution::{normal, student_quantile};
 
-/// Number of subjects up to which all assignments of signs are enumerated: about a million. Beyond it, [`DRAWS`] of
-/// them are drawn.
+/// Greatest number of subjects for which all assignments of signs are enumerated: about a million. For more, [`DRAWS`]
+/// assignments are drawn.
 const EXACT: usize = 20;
-/// Number of random draws of signs or of subjects: 10,000 with the observed one.
+/// Number of random draws of signs or subjects: 10,000 with the observed sample.
 const DRAWS: usize = 9999;
 
 /// Pseudo-random numbers, the same for the same seed [Steele 2014: SplitMix64].
@@ -47,14 +47,13 @@ impl Draw {
 
 /// Two-sided p of the sign-flip test [Fisher 1935, section 21].
 ///
-/// It is the share of all assignments of signs to the differences whose absolute sum is at least that of the
-/// differences themselves. It is exact for up to 20 differences, and estimated by seeded draws beyond. Without
-/// differences it is 1.
+/// Share of all assignments of signs to the differences whose absolute sum is at least that of the differences: exact
+/// for up to 20 differences, estimated by seeded draws for more. Without differences, 1.
 #[must_use]
 pub fn sign_flip(differences: &[f64]) -> f64 {
     let n = differences.len();
     let sum: f64 = differences.iter().sum();
-    // Sums that are equal but for rounding count as equal.
+    // Sums that are equal up to rounding count as equal.
     let reached = sum.abs() - 1e-9 * differences.iter().map(|d| d.abs()).sum::<f64>();
     if n > EXACT {
         let mut draw = Draw::new(0x5167);
@@ -67,7 +66,7 @@ pub fn sign_flip(differences: &[f64]) -> f64 {
     let assignments = 1_u64 << n;
     let mut turned = sum;
     let mut extreme = u64::from(turned.abs() >= reached);
-    // In a Gray code each assignment differs from the one before in one sign.
+    // In a Gray code each assignment differs from the preceding one in one sign.
     for step in 1..assignments {
         let place = step.trailing_zeros() as usize;
         let now_negative = (step ^ (step >> 1)) >> place & 1 == 1;
@@ -77,9 +76,8 @@ pub fn sign_flip(differences: &[f64]) -> f64 {
     extreme as f64 / assignments as f64
 }
 
-/// Bootstrap interval of the mean of subjects' values with coverage `1 - alpha`: expanded percentiles of the means of
-/// subjects drawn with replacement [Hesterberg 2015]. It is seeded, so that the same values give the same interval.
-/// `None` of fewer than two values.
+/// Bootstrap interval of the mean with coverage `1 - alpha`: expanded percentiles of the means of subjects drawn with
+/// replacement [Hesterberg 2015]. Seeded, so the same values give the same interval. `None` for fewer than two values.
 #[must_use]
 pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
     let share = share(values.len(), alpha)?;
@@ -88,15 +86,15 @@ pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
     Some((quantile(&means, share), quantile(&means, 1.0 - share)))
 }
 
-/// Expanded percentile that replaces `alpha / 2` in a sample of `n`. It corrects for Student's t and for the divisor n
-/// - 1.
+/// Expanded percentile in place of `alpha / 2` for a sample of `n`, which corrects for Student's t and for the divisor
+/// n - 1. `None` for fewer than two values.
 pub(super) fn share(n: usize, alpha: f64) -> Option<f64> {
     let dof = n.checked_sub(1).filter(|&dof| dof > 0)?;
     let expand = (n as f64 / dof as f64).sqrt();
     Some(normal(expand * student_quantile(alpha / 2.0, dof)))
 }
 
-/// Values of a statistic over [`DRAWS`] samples of `n` subjects with replacement, given by their indices.
+/// Values of a statistic for [`DRAWS`] samples, each given as the indices of `n` subjects drawn with replacement.
 pub(super) fn bootstrap(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) -> Vec<f64> {
     let mut draw = Draw::new(0xb007);
     let mut drawn = vec![0; n];

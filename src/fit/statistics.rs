@@ -2,19 +2,19 @@
 
 use super::distribution::student;
 
-/// Mean; NaN for no values.
+/// Mean. NaN without values.
 pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Sample standard deviation (n - 1); NaN for fewer than two values.
+/// Sample standard deviation (n - 1). NaN for fewer than two values.
 pub(super) fn sd(values: &[f64]) -> f64 {
     let mean = mean(values);
     (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// Paired effect size: the mean difference in units of its standard deviation (Cohen's d_z) [Cohen 1988], corrected for
-/// small samples by `1 - 3 / (4 (n - 1) - 1)` [Hedges 1981]. `None` of fewer than three values or of equal ones.
+/// Paired effect size: mean difference / its standard deviation (Cohen's d_z) [Cohen 1988], corrected for small samples
+/// by `1 - 3 / (4 (n - 1) - 1)` [Hedges 1981]. `None` for fewer than three values, or equal values.
 #[must_use]
 pub fn effect_size(differences: &[f64]) -> Option<f64> {
     let dof = differences.len().checked_sub(1).filter(|&dof| dof > 1)? as f64;
@@ -22,8 +22,8 @@ pub fn effect_size(differences: &[f64]) -> Option<f64> {
     size.is_finite().then_some(size)
 }
 
-/// Holm's step-down adjustment of the p values of several tests, in the order given: the probability of any false
-/// rejection among them stays below the level of one test [Holm 1979].
+/// Holm's step-down adjustment of the p values of several tests, in the given order. It keeps the probability of any
+/// false rejection among them below the level of one test [Holm 1979].
 #[must_use]
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
@@ -37,8 +37,8 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// p of the two one-sided t tests that a mean lies within `margin` of 0: the greater of the two [Schuirmann 1987].
-/// `error` is the standard error of the mean, `dof` its degrees of freedom (1 or more).
+/// p of the two one-sided t tests that a mean lies within `margin` of 0, the greater of both [Schuirmann 1987]. `error`
+/// is the standard error of the mean with `dof` degrees of freedom, 1 or more.
 #[must_use]
 pub fn equivalence(mean: f64, error: f64, dof: usize, margin: f64) -> f64 {
     if error <= 0.0 {

@@ -1,4 +1,4 @@
-//! Target ease of an intended fit at each level.
+//! Target ease of an intended fit, by level.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Intended {
-    /// Smaller than the body, of cloth that stretches.
+    /// Smaller than the body, of stretch cloth.
     Compression,
     /// Close to the body.
     Slim,
@@ -32,7 +32,7 @@ impl Intended {
         }
     }
 
-    /// The fit of that name.
+    /// Intended fit with a name. `None` if there is none.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|fit| fit.as_str() == name)
@@ -44,7 +44,8 @@ impl Intended {
 pub struct TargetLevel {
     /// Name of the level.
     pub level: &'static str,
-    /// `Some(true)` if it applies to garments that cover the chest only, `Some(false)` to others only, `None` to all.
+    /// `Some(true)` for garments that cover the chest only, `Some(false)` for all others only, `None` for every
+    /// garment.
     pub of_top: Option<bool>,
     /// Least and greatest ease of each intended fit, mm.
     eases_mm: [[i32; 2]; 4],
@@ -58,8 +59,8 @@ impl TargetLevel {
     }
 }
 
-/// Target eases by level and fit. Chest and hip begin and end where the fit classes do [T 6.2.3]. The others are the
-/// same share of the girth, and on limbs allow for bending (docs/fit.md).
+/// Target eases by level and fit. The bands of chest and hip end where the fit classes do [T 6.2.3]. The other bands
+/// are the same share of the girth, and allow for bending of limbs (docs/fit.md).
 pub const TARGETS: [TargetLevel; 12] = [
     row("across_shoulder", None, [[-20, 5], [-10, 20], [0, 50], [20, 140]]),
     row("chest", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
@@ -82,15 +83,15 @@ const fn row(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4])
 /// Target ease of a garment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Fit that the maker intends. It gives the ease of levels that are not in `own_m`.
+    /// Fit that the maker intends. Gives the ease of levels that are not in `own_m`.
     pub intended: Intended,
-    /// Least and greatest ease of levels for which the garment has its own, m.
+    /// Least and greatest ease of some levels, for this garment alone, m.
     pub own_m: BTreeMap<String, [f64; 2]>,
 }
 
 impl Target {
-    /// Least and greatest ease at a level, m. `None` where there is no target, as at the neckline of a garment without
-    /// a collar. `is_top` tells whether the garment covers the chest.
+    /// Least and greatest ease at a level, m. `None` without a target, as at the neckline of a garment without a
+    /// collar. `is_top` is true if the garment covers the chest.
     #[must_use]
     pub fn band_m(&self, level: &str, is_top: bool) -> Option<[f64; 2]> {
         let is_asked = |row: &&TargetLevel| row.level == level && row.of_top.is_none_or(|of_top| of_top == is_top);
@@ -101,13 +102,13 @@ impl Target {
     }
 }
 
-/// Departure of an ease from its band, m. It is negative where the garment is too tight.
+/// Departure of an ease from its band, m, negative if the garment is too tight.
 #[must_use]
 pub fn off_m(ease_m: f64, [least, most]: [f64; 2]) -> f64 {
     (ease_m - least).min(0.0) + (ease_m - most).max(0.0)
 }
 
-/// Weighted departure, m. Too tight counts double, since it cannot be worn (`v_fit.weight_mm`).
+/// Weighted departure, m. A tight departure counts double, because a tight garment cannot be worn (`v_fit.weight_mm`).
 #[must_use]
 pub fn weight_m(off_m: f64) -> f64 {
     if off_m < 0.0 { -2.0 * off_m } else { off_m }
@@ -116,8 +117,8 @@ pub fn weight_m(off_m: f64) -> f64 {
 /// Grade step, m of girth: the step of the drafted letter sizes from S to M and from M to L.
 pub const GRADE_STEP_M: f64 = 0.06;
 
-/// True if a size whose worst level has this weighted departure, m, may be worn. Beyond a grade step the next size of
-/// the same grade would lie nearer. As there is none, the sizes do not reach this body.
+/// True if a size whose worst level departs by `weight_m` may be worn. Beyond a grade step a further size of the grade
+/// would lie nearer: as there is none, the sizes do not reach this body.
 #[must_use]
 pub fn is_within_reach(weight_m: f64) -> bool {
     weight_m <= GRADE_STEP_M

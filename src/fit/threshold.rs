@@ -20,14 +20,14 @@ pub struct CrossoverEase {
 /// Regression line of the EI difference on ease, and its zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossover {
-    /// EI difference at an ease of 0.
+    /// EI difference at zero ease.
     pub at_zero: f64,
-    /// Change of the EI difference with ease, 1/m. It is below 0 where FEM-GS gains with ease.
+    /// Change of the EI difference with ease, 1/m. Negative if FEM-GS gains with ease.
     pub slope_per_m: f64,
     /// Bootstrap interval of the slope over subjects at 95 %.
     pub slope_interval: (f64, f64),
-    /// Ease above which FEM-GS is truer. `None` where the interval of the slope reaches 0, since the zero is then
-    /// undetermined.
+    /// Ease above which FEM-GS is truer. `None` if the interval of the slope contains 0, because the zero of the line
+    /// is then undetermined.
     pub ease: Option<CrossoverEase>,
     /// Least and greatest ease of the cases, m.
     pub range_m: (f64, f64),
@@ -59,8 +59,8 @@ impl std::fmt::Display for Crossover {
     }
 }
 
-/// Fits the line by least squares over the cases, and its intervals by a bootstrap over subjects. `None` of fewer than
-/// three subjects or where all eases are the same.
+/// Fits the line by least squares to the cases, with intervals by a bootstrap over subjects. `None` for fewer than
+/// three subjects, or if all eases are equal.
 #[must_use]
 pub fn crossover(pairs: &[&Pair]) -> Option<Crossover> {
     let mut cases: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
@@ -98,7 +98,7 @@ pub fn crossover(pairs: &[&Pair]) -> Option<Crossover> {
     })
 }
 
-/// Intercept and slope of the least-squares line; `None` where all abscissae are the same.
+/// Intercept and slope of the least-squares line. `None` if all abscissae are equal.
 fn line<'a>(points: impl Iterator<Item = &'a (f64, f64)> + Clone) -> Option<(f64, f64)> {
     let n = points.clone().count() as f64;
     let sums = points.clone().fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));

@@ -1,4 +1,4 @@
-//! Decides one answer: the conditions of a verdict in turn, and the words for the one that decides.
+//! Decision on one answer: checks the conditions of a verdict in turn, and words the one that decides.
 
 use super::analysis::{Analysis, CONTROLLED, Estimate};
 use super::class::{FitClass, Simulator};
@@ -6,12 +6,12 @@ use super::distribution::student_quantile;
 use super::finding::Finding;
 use super::{ALPHA, MARGIN};
 
-/// Fewest subjects with which the two-sided sign-flip test can reach [`ALPHA`]: its least p is 2^(1 - 6) = 0.031.
+/// Fewest subjects for which the two-sided sign-flip test can reach [`ALPHA`]: the least p is then 2^(1 - 6) = 0.031.
 pub(super) const LEAST: usize = 6;
-/// Fewest subjects with which a one-sided sign-flip test can: its least p is 2^-5 = 0.031. The test of equivalence
-/// consists of two of those.
+/// Fewest subjects for which a one-sided sign-flip test can reach it, with the least p 2^-5 = 0.031. The test of
+/// equivalence is two of these.
 const LEAST_EQUAL: usize = 5;
-/// Judgement: number of subjects beyond which the exact number that is missing is not of interest.
+/// Number of missing subjects beyond which the exact number does not matter.
 const MOST: usize = 200;
 
 /// A finding with its reason and the further data that would settle or reverse it.
@@ -24,16 +24,17 @@ pub(super) struct Verdict {
 /// Statistics that decide one answer.
 pub(super) struct Weighed<'a> {
     pub analysis: &'a Analysis,
-    /// Holm-adjusted p. `None` with too few subjects.
+    /// Holm-adjusted p. `None` for too few subjects.
     pub p_holm: Option<f64>,
-    /// Held-out regret of the answer's own choice, and of one simulator for the whole study.
+    /// Held-out regret of the choice of this answer, and of one simulator for the whole study. `None` if no subject can
+    /// be held out.
     pub regret: Option<[f64; 2]>,
-    /// Number of answers tested together.
+    /// Number of answers that are tested together.
     pub family: usize,
 }
 
 impl Weighed<'_> {
-    /// Decides on the finding, with its reason and what would settle or reverse it.
+    /// Decides on the finding, with the reason and the data that would settle or reverse it.
     pub fn decide(&self, class: FitClass) -> Verdict {
         let n = self.analysis.subjects.len();
         let Some(estimate) = self.analysis.estimate.filter(|estimate| n >= least(estimate)) else {
@@ -66,7 +67,7 @@ impl Weighed<'_> {
         self.abstain(format!("{reason}; a test of fewer than {least} cannot reach p = {ALPHA}, so the rule stands."))
     }
 
-    /// The interval lies within the margin.
+    /// Verdict if the interval lies within the margin.
     fn within(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if estimate.p_equivalence.is_none_or(|p| p > ALPHA) {
@@ -91,12 +92,12 @@ impl Weighed<'_> {
         Verdict { finding: Finding::NoDifference, reason, would_settle }
     }
 
-    /// Greatest absolute difference in the interval.
+    /// Greatest absolute difference that the interval contains.
     fn reach(&self, estimate: &Estimate) -> f64 {
         estimate.interval.map_or(estimate.mean.abs(), |(low, high)| low.abs().max(high.abs()))
     }
 
-    /// The interval lies beyond the margin.
+    /// Verdict if the interval lies outside the margin.
     fn beyond(&self, estimate: &Estimate, class: FitClass) -> Verdict {
         let said = format!("The mean EI difference is {}", told(estimate));
         if self.p_holm.is_none_or(|p| p > ALPHA) {
@@ -139,8 +140,8 @@ impl Weighed<'_> {
         Verdict { finding, reason, would_settle: self.nearest_to_turning() }
     }
 
-    /// Reason for which a verdict for Hybrid-GS would be circular, if it would: it rests on measurements that Hybrid-GS
-    /// restores by construction.
+    /// Reason for which a verdict for Hybrid-GS would be circular: it rests on measurements that Hybrid-GS restores by
+    /// construction. `None` if it would not be.
     fn circular(&self) -> Option<String> {
         let controlled = self.analysis.controlled;
         let rest = self.analysis.told_apart.iter().find(|rest| rest.what == CONTROLLED);
@@ -157,7 +158,7 @@ impl Weighed<'_> {
         }
     }
 
-    /// The omission that comes nearest to reversing a verdict, in words.
+    /// In words, the omission of measurements that comes nearest to reversing a verdict.
     fn nearest_to_turning(&self) -> String {
         let nearest = self.analysis.without.iter().min_by(|a, b| a.mean.abs().total_cmp(&b.mean.abs()));
         nearest.map_or_else(String::new, |rest| {
@@ -165,7 +166,7 @@ impl Weighed<'_> {
         })
     }
 
-    /// Number of further subjects that a verdict needs if the mean and the deviation stay as they are, in words.
+    /// In words, the number of further subjects that a verdict needs if mean and deviation stay the same.
     fn more_subjects(&self) -> String {
         let have = self.analysis.subjects.len();
         let enough = |n: &usize| {
@@ -189,13 +190,13 @@ impl Weighed<'_> {
     }
 }
 
-/// Ends of the interval. Where there is none, it is unbounded.
+/// Ends of the interval. Without an interval, infinite.
 fn ends(estimate: &Estimate) -> (f64, f64) {
     estimate.interval.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
 }
 
-/// Fewest subjects with which the relevant test can give a verdict: the test of equivalence where the interval lies
-/// within the margin, of a difference elsewhere.
+/// Fewest subjects for which the relevant test can give a verdict: the test of equivalence if the interval lies within
+/// the margin, otherwise that of a difference.
 fn least(estimate: &Estimate) -> usize {
     let (low, high) = ends(estimate);
     if low > -MARGIN && high < MARGIN { LEAST_EQUAL } else { LEAST }

@@ -1,18 +1,18 @@
-//! Constants that decide results. Each is kept by name and value, so that a stored result knows the values it was made
-//! with.
+//! Constants that decide results. A stored result lists their names and values.
 
 /// A constant that decides results.
 #[derive(Clone, Copy, Debug)]
 pub struct Constant {
-    /// Its room (the path of its file when it was introduced) and its name, such as `contact.ccd.KEPT_SHARE`.
+    /// Its room and its name, such as `contact.ccd.KEPT_SHARE`. The room is the path of the file when the constant was
+    /// introduced.
     pub name: &'static str,
-    /// Its value as text.
+    /// Value as text.
     pub value: fn() -> String,
 }
 
 /// Defines the constants of a file that decide results, and the list `CONSTANTS` of them.
 ///
-/// The room is part of their names. It is written out, so that a file may move and stored results stay good.
+/// The room is written out, so that a file may move without making stored results invalid.
 #[macro_export]
 macro_rules! constants {
     ($room:literal, $($(#[$meta:meta])* $vis:vis const $name:ident: $type:ty = $value:expr;)+) => {

@@ -1,11 +1,11 @@
 //! Polygonisation of an implicit surface by dual marching cubes on a rectilinear grid.
 //!
-//! Each sheet of the surface inside a cell gets a vertex of its own. Close sheets (thighs, armpits) therefore stay
-//! apart, and the result is a closed manifold [Nielson 2004, Dual Marching Cubes].
+//! Each sheet of the surface in a cell gets its own vertex. Close sheets (thighs, armpits) therefore stay apart, and
+//! the result is a closed manifold [Nielson 2004, Dual Marching Cubes].
 
 use super::V3;
 
-/// A rectilinear grid. Each axis has at least two node coordinates, increasing, metres.
+/// A rectilinear grid. Each axis has at least two node coordinates, increasing, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Coordinates of the nodes along x, y, z.
@@ -19,13 +19,13 @@ impl Grid {
         [self.axes[0].len(), self.axes[1].len(), self.axes[2].len()]
     }
 
-    /// Position of a node, metres.
+    /// Position of a node, m.
     #[must_use]
     pub fn node(&self, at: [usize; 3]) -> V3 {
         V3::new(self.axes[0][at[0]], self.axes[1][at[1]], self.axes[2][at[2]])
     }
 
-    /// Index of a node's value in an array that runs through x first, then y, then z.
+    /// Index of the value of a node in an array ordered by z, then y, then x, with x running fastest.
     #[must_use]
     pub fn index(&self, at: [usize; 3]) -> usize {
         (at[2] * self.axes[1].len() + at[1]) * self.axes[0].len() + at[0]
@@ -35,26 +35,26 @@ impl Grid {
 /// A closed mesh of quadrilaterals, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadMesh {
-    /// Vertex positions, metres.
+    /// Vertex positions, m.
     pub positions: Vec<V3>,
     /// Vertex indices of each quadrilateral.
     pub quads: Vec<[usize; 4]>,
 }
 
-/// Corners of the twelve edges of a cell. Bit 0 of a corner's number is +x, bit 1 is +y, bit 2 is +z. Edges 0-3 run
-/// along x, 4-7 along y, 8-11 along z.
+/// Corners of the twelve edges of a cell. Bit 0 of the number of a corner is +x, bit 1 is +y, bit 2 is +z. Edges 0-3
+/// run along x, 4-7 along y, 8-11 along z.
 const EDGES: [(usize, usize); 12] =
     [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)];
 
 /// Corners of the six faces of a cell, in order round each face.
 const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
-/// Marks an edge of a cell that has no vertex, and a cell that has none.
+/// Marks an edge of a cell, or a cell, without a vertex.
 const NONE: usize = usize::MAX;
 
 /// Polygonises the zero level set of `values` (negative inside, in the order of [`Grid::index`]).
 ///
-/// Values on the border of the grid should be positive. Otherwise the mesh is left open there.
+/// Values on the border of the grid should be positive. Where they are not, the mesh stays open.
 #[must_use]
 pub fn contour(grid: &Grid, values: &[f64]) -> QuadMesh {
     let mut mesh = QuadMesh::default();
@@ -103,16 +103,16 @@ fn place_vertices(grid: &Grid, cell: [usize; 3], corners: &[f64; 8], positions: 
     vertices
 }
 
-/// Zero of the linear interpolant along an edge, in units of the cell.
+/// Zero of the linear interpolant along an edge, in cells.
 fn crossing((a, b): (usize, usize), corners: &[f64; 8]) -> V3 {
     let corner = |c: usize| V3::new((c & 1) as f64, (c >> 1 & 1) as f64, (c >> 2) as f64);
     corner(a) + (corner(b) - corner(a)) * (corners[a] / (corners[a] - corners[b]))
 }
 
-/// The sheet of each edge with a sign change, named by its least edge. Other edges have [`NONE`].
+/// Sheet of each edge with a sign change, named by its least edge. [`NONE`] for any other edge.
 ///
-/// Edges that change sign on a common face belong together. On a face with four changes, the two edges at each inner
-/// corner do.
+/// Edges that change sign on a common face belong to one sheet. On a face with four changes, the two edges at each
+/// inner corner do.
 fn sheets(corners: &[f64; 8]) -> [usize; 12] {
     let inside = |corner: usize| corners[corner] < 0.0;
     let changes = |edge: usize| inside(EDGES[edge].0) != inside(EDGES[edge].1);
@@ -181,7 +181,7 @@ fn emit_quads(
     }
 }
 
-/// Number of the cell edge along `axis`, on the upper or lower side of each of the next two axes.
+/// Number of the cell edge along `axis` on the upper or lower side of each of the two other axes, in cyclic order.
 fn cell_edge(axis: usize, upper_p: bool, upper_q: bool) -> usize {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     let corner = usize::from(upper_p) << p | usize::from(upper_q) << q;

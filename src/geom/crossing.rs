@@ -5,7 +5,7 @@ use super::{TriMesh, V3};
 /// Pairs of triangles that intersect each other without sharing an edge, the lesser index first, sorted. Triangles that
 /// only touch do not count.
 ///
-/// A sweep over the heights of the triangles compares each only with those whose heights overlap its own.
+/// Sweeps over the heights of the triangles, and compares each triangle only with those of overlapping height.
 #[must_use]
 pub fn self_crossings(mesh: &TriMesh) -> Vec<[usize; 2]> {
     let boxes: Vec<(V3, V3)> = mesh.triangles.iter().map(|triangle| bounds(mesh, triangle)).collect();
@@ -26,7 +26,7 @@ fn bounds(mesh: &TriMesh, triangle: &[usize; 3]) -> (V3, V3) {
     (a.inf(&b).inf(&c), a.sup(&b).sup(&c))
 }
 
-/// True if an edge of one triangle pierces the other. Edges that end in a corner of the other are left out.
+/// True if an edge of one triangle pierces the other, apart from edges that end in a corner of the other.
 fn cross(mesh: &TriMesh, a: usize, b: usize) -> bool {
     let (first, second) = (mesh.triangles[a], mesh.triangles[b]);
     if first.iter().filter(|vertex| second.contains(vertex)).count() > 1 {
@@ -41,7 +41,8 @@ fn cross(mesh: &TriMesh, a: usize, b: usize) -> bool {
     pierces(first, second) || pierces(second, first)
 }
 
-/// True if a segment passes through the interior of a triangle, by the signs of the tetrahedron volumes that they span.
+/// True if a segment passes through the interior of a triangle, by the signs of the volumes of the tetrahedra that both
+/// span.
 fn segment_hits([p, q]: [V3; 2], [a, b, c]: [V3; 3]) -> bool {
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     if volume(a, b, c, p) * volume(a, b, c, q) >= 0.0 {

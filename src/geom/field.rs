@@ -1,13 +1,13 @@
-//! A signed distance field on a regular grid, with which the contact solver represents the body.
+//! Signed distance field of the body on a regular grid, for the contact solver.
 //!
 //! Values are exact at every node inside the surface and in a thin shell outside it, and constant beyond. Between nodes
-//! the field is a quadratic B-spline, so that value and gradient are continuous. A vertex that rests in a crease (an
-//! armpit) therefore does not jump between two contact planes. The spline adds `spacing^2 / 8` times the Laplacian of
-//! the distance, which is `2 H` at a surface of mean curvature `H`. That moves the surface inwards where it bulges and
-//! outwards where it is hollow, by `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
+//! the field is a quadratic B-spline with continuous value and gradient, so a vertex that rests in a crease (an armpit)
+//! does not jump between two contact planes. The spline adds `spacing^2 / 8` times the Laplacian of the distance, which
+//! is `2 H` at a surface of mean curvature `H`. It thus moves the surface inwards where it bulges and outwards where it
+//! is hollow, by `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
 //!
-//! The grid has a node at the middle of the surface's bounding box and as many on either side. Sums along x run from
-//! both ends inwards. A body mirrored left to right therefore has the mirrored field, to the bit.
+//! The grid has a node at the middle of the surface's bounding box, equally many nodes on either side, and sums along x
+//! run from both ends inwards. A body mirrored left to right therefore has the mirrored field, to the bit.
 
 use nalgebra::Matrix3;
 use wide::f64x2;
@@ -16,28 +16,29 @@ use super::contour::{Grid, QuadMesh, contour};
 use super::surface::{Surface, SurfaceError};
 use super::{TriMesh, V3};
 
-/// Signed distance on a grid, m; negative inside.
+/// Signed distance on a grid, m, negative inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
     /// Position of the middle node, m.
     middle: V3,
     spacing_m: f64,
-    /// Number of nodes along each axis, odd.
+    /// Number of nodes along each axis, which is odd.
     size: [usize; 3],
     values: Vec<f32>,
 }
 
-/// Error of a field that could not be read back.
+/// Error of reading a field back.
 #[derive(Debug, thiserror::Error)]
 #[error("the stored distance field is damaged: {0}")]
 pub struct FieldError(&'static str);
 
-/// Width of the exact shell outside the surface, in grid cells. Judgement.
+/// Width of the exact shell outside the surface, in grid cells. The spline at a point of the surface uses nodes up to
+/// 1.5 sqrt(3) = 2.6 cells away.
 const SHELL_CELLS: f64 = 2.5;
-/// Marks a node whose nearest triangle is not known.
+/// Marks a node whose nearest triangle is unknown.
 const NONE: u32 = u32::MAX;
-/// Greatest number of nodes of a connected region whose side of the surface is computed; their majority decides.
-/// Judgement.
+/// Greatest number of nodes of a connected region whose side of the surface is computed. Their majority decides, so
+/// that a few wrong pseudo-normals do not.
 const MOST_ASKED: usize = 64;
 /// Bound on the rounding of a distance to single precision, m.
 const ROUNDED_M: f64 = 1e-5;
@@ -47,7 +48,7 @@ impl DistanceField {
     /// Samples the distance to a closed surface at nodes `spacing_m` apart.
     ///
     /// # Errors
-    /// When the mesh is empty or does not bound a solid.
+    /// [`SurfaceError`] if the mesh is empty or does not bound a solid.
     pub fn build(mesh: &TriMesh, spacing_m: f64) -> Result<Self, SurfaceError> {
         let surface = Surface::new(mesh)?;
         let (low, high) = mesh.bounds().unwrap_or_default();
@@ -79,8 +80,8 @@ impl DistanceField {
                 for j in along_y.clone() {
                     for i in along_x.clone() {
                         let (node, p) = (self.node(i, j, k), self.position(i, j, k));
-                        // The distances to its plane and to its box bound the distance to it from below, but for
-                        // rounding.
+                        // The distances to the plane and the bounding box of the triangle are lower bounds of the
+                        // distance to it, up to rounding.
                         let known_m = f64::from(self.values[node]) + ROUNDED_M;
                         let to_box = (lowest - p).sup(&(p - highest)).sup(&V3::zeros());
                         if normal.dot(&(p - a)).abs() > known_m || to_box.norm_squared() > known_m * known_m {
@@ -97,12 +98,12 @@ impl DistanceField {
         nearest
     }
 
-    /// Gives the nodes of the shell their signs. Two neighbours whose distances to the surface exceed together the
-    /// distance between them have no surface between them. Nodes that are joined so are on one side. The side of some
-    /// of them is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest
-    /// feature can point the wrong way.
+    /// Gives the nodes of the shell their signs. Two neighbours whose distances to the surface sum to more than the
+    /// spacing have no surface between them, so all nodes connected in this way are on one side. The side of some of
+    /// these is computed, and the majority decides for all: on a crumpled mesh the pseudo-normal of the nearest feature
+    /// can point the wrong way.
     fn tell_sides(&mut self, surface: &Surface, nearest: &[u32]) {
-        // Across a flat surface normal to the axis the two distances sum to the spacing, but for rounding.
+        // Across a flat surface normal to the axis the two distances sum to the spacing, up to rounding.
         let apart = 1.05 * self.spacing_m as f32;
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         let mut seen: Vec<bool> = nearest.iter().map(|triangle| *triangle == NONE).collect();
@@ -115,7 +116,7 @@ impl DistanceField {
             let mut next = 0;
             while let Some(&node) = side.get(next) {
                 next += 1;
-                // The shell ends before the grid does, so that an index plus or minus a stride is that of a neighbour.
+                // The shell ends before the grid, so an index plus or minus a stride is that of a neighbour.
                 for stride in strides {
                     for other in [node.wrapping_sub(stride), node + stride] {
                         if seen.get(other) == Some(&false) && self.values[node] + self.values[other] > apart {
@@ -134,7 +135,8 @@ impl DistanceField {
         }
     }
 
-    /// Computes the distance at the nodes deeper inside than the shell. Such a node follows along x on a node inside.
+    /// Computes the distance at the nodes deeper inside than the shell. Along x, such a node follows another node
+    /// inside.
     fn fill_inside(&mut self, surface: &Surface, nearest: &mut [u32]) {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
         for k in 0..self.size[2] {
@@ -142,7 +144,7 @@ impl DistanceField {
                 for i in 1..self.size[0] {
                     let node = self.node(i, j, k);
                     if self.values[node] == far && self.values[node - 1] < 0.0 {
-                        // The triangle nearest to the node before bounds the distance here from above.
+                        // The distance to the triangle nearest to the preceding node is an upper bound.
                         let p = self.position(i, j, k);
                         let most_m = surface.distance_to(nearest[node - 1], &p).map_or(f64::MAX, f64::from);
                         let (distance_m, triangle) = surface.nearest_within(&p, most_m);
@@ -175,20 +177,20 @@ impl DistanceField {
         (p - self.middle) / self.spacing_m
     }
 
-    /// Index along an axis of the node at a whole number of spacings from the middle one, clamped to the grid.
+    /// Index along an axis of the node `from_middle` spacings from the middle node, clamped to the grid.
     fn index(&self, axis: usize, from_middle: f64) -> usize {
         ((from_middle + (self.size[axis] / 2) as f64).max(0.0) as usize).min(self.size[axis] - 1)
     }
 
-    /// Index along an axis of the first of the three nodes that support the spline at a coordinate, and the coordinate
-    /// relative to the middle one of them, in spacings. `None` at the grid's ends.
+    /// Index along an axis of the first of the three nodes of the spline at a coordinate, and the coordinate relative
+    /// to the middle one of the three, in spacings. `None` at the ends of the grid.
     fn about(&self, axis: usize, local: f64) -> Option<(usize, f64)> {
         let centre = local.round();
         let is_within = centre.abs() < (self.size[axis] / 2) as f64;
         is_within.then(|| (self.index(axis, centre) - 1, local - centre))
     }
 
-    /// The nodes within a box: index, position and value, m.
+    /// Nodes in a box: index, position (m) and value (m).
     pub fn nodes_within(&self, low: V3, high: V3) -> impl Iterator<Item = (usize, V3, f64)> {
         let [low, high] = [self.local(&low).map(f64::ceil), self.local(&high).map(f64::floor)];
         let [along_x, along_y, along_z] = [0, 1, 2].map(|k| self.index(k, low[k])..=self.index(k, high[k]));
@@ -199,7 +201,7 @@ impl DistanceField {
         })
     }
 
-    /// Returns the field with other values, m, at some nodes, by their indices.
+    /// Returns the field with the values of some nodes changed: (index, value in m).
     #[must_use]
     pub fn with(&self, changes: impl Iterator<Item = (usize, f64)>) -> Self {
         let mut field = self.clone();
@@ -218,7 +220,7 @@ impl DistanceField {
         self.spacing_m
     }
 
-    /// Returns the field on a larger grid, which has the same nodes and contains a box and the shell about it.
+    /// Returns the field on a larger grid with the same nodes, which contains a box and a shell round the box.
     #[must_use]
     pub fn widened(&self, low: V3, high: V3) -> Self {
         let far = SHELL_CELLS * self.spacing_m;
@@ -251,8 +253,7 @@ impl DistanceField {
         TriMesh { positions, triangles: quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect() }
     }
 
-    /// Signed distance (m) and its gradient at a point. Beyond the exact shell these are the width of the shell and
-    /// zero.
+    /// Signed distance (m) and its gradient at a point. Beyond the exact shell, the width of the shell and zero.
     #[must_use]
     pub fn value_and_gradient(&self, p: &V3) -> (f64, V3) {
         let local = self.local(p);
@@ -268,7 +269,7 @@ impl DistanceField {
             slope[k] = [t - 0.5, -2.0 * t, t + 0.5];
         }
         let ([wx, wy, wz], [sx, sy, sz]) = (weight, slope);
-        // One register sums the value and its derivative along x, the other the derivatives along y and z.
+        // One register sums value and derivative along x, the other the derivatives along y and z.
         let pair = |a: f64, b: f64| f64x2::from([a, b]);
         let along_x = [0, 1, 2].map(|k| pair(wx[k], sx[k]));
         let (mut value_gx, mut gy_gz) = (f64x2::ZERO, f64x2::ZERO);
@@ -292,7 +293,7 @@ impl DistanceField {
     pub fn hessian(&self, p: &V3) -> Matrix3<f64> {
         let local = self.local(p);
         let mut first = [0_usize; 3];
-        // Weights of the value, of the first and of the second derivative along each axis.
+        // Weights of the value, the first and the second derivative along each axis.
         let mut weight = [[[0.0; 3]; 3]; 3];
         for k in 0..3 {
             let Some((from, t)) = self.about(k, local[k]) else {
@@ -318,7 +319,7 @@ impl DistanceField {
         Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz) / (self.spacing_m * self.spacing_m)
     }
 
-    /// Serialises the field, for a cache.
+    /// Serialises the field for a cache.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 * self.values.len());
@@ -337,7 +338,7 @@ impl DistanceField {
     /// Reads what [`DistanceField::to_bytes`] wrote.
     ///
     /// # Errors
-    /// When the length does not fit the header.
+    /// [`FieldError`] if the length does not match the header.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, FieldError> {
         if bytes.len() < HEADER_BYTES {
             return Err(FieldError("its header is cut off"));

@@ -4,7 +4,7 @@ use super::V2;
 
 /// Convex hull of `points`, counter-clockwise, without collinear points (Andrew's monotone chain).
 ///
-/// Fewer than three distinct points give those points back.
+/// Returns fewer than three distinct points as they are.
 #[must_use]
 pub fn convex_hull(points: &[V2]) -> Vec<V2> {
     let mut sorted = points.to_vec();
@@ -21,7 +21,7 @@ pub fn convex_hull(points: &[V2]) -> Vec<V2> {
     lower
 }
 
-/// One chain of the hull over points in sweep order, both ends included.
+/// One chain of the hull of points in sweep order, with both ends.
 fn half_hull<'a>(points: impl Iterator<Item = &'a V2>) -> Vec<V2> {
     let mut chain: Vec<V2> = Vec::new();
     for &point in points {

@@ -20,12 +20,12 @@ pub use field::DistanceField;
 pub use mesh::TriMesh;
 pub use surface::Surface;
 
-/// A point or vector of the plane, metres.
+/// A point or vector of the plane, m.
 pub type V2 = nalgebra::Vector2<f64>;
-/// A point or vector of space, metres.
+/// A point or vector of space, m.
 pub type V3 = nalgebra::Vector3<f64>;
 
-/// Cubic smooth step `3 t^2 - 2 t^3` from 0 to 1, with zero slope at both ends; `t` is clamped to 0..1.
+/// Cubic smooth step `3 t^2 - 2 t^3`, with zero slope at 0 and 1. `t` is clamped to 0..=1.
 #[must_use]
 pub fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::V3;
 
-/// Boundary edges of a mesh, which belong to one triangle only: the lesser vertex first, sorted.
+/// Edges of only one triangle, each as `[lesser, greater]` vertex index, sorted.
 #[must_use]
 pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
@@ -17,10 +17,10 @@ pub fn free_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     uses.into_iter().filter(|(_, count)| *count == 1).map(|(ends, _)| ends).collect()
 }
 
-/// A triangle mesh; triangles are counter-clockwise seen from outside.
+/// A triangle mesh with triangles counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TriMesh {
-    /// Vertex positions, metres.
+    /// Vertex positions, m.
     pub positions: Vec<V3>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[usize; 3]>,
@@ -34,7 +34,8 @@ impl TriMesh {
         self.triangles.iter().map(|&[a, b, c]| (corner(b) - corner(a)).cross(&(corner(c) - corner(a)))).collect()
     }
 
-    /// Unit vertex normals, averaged over the adjacent triangles by area. Zero where there are none.
+    /// Unit vertex normals: means of the adjacent triangle normals, weighted by area. Zero for a vertex without
+    /// triangles.
     #[must_use]
     pub fn vertex_normals(&self) -> Vec<V3> {
         let mut normals = vec![V3::zeros(); self.positions.len()];
@@ -66,8 +67,8 @@ impl TriMesh {
         self.triangle_normals().iter().map(V3::norm).sum::<f64>() / 2.0
     }
 
-    /// The triangles with at least one vertex for which `keep` holds, as a mesh of their own. Vertices and triangles
-    /// keep their order, so that a plane that meets no other triangle gives the same section.
+    /// Mesh of the triangles with at least one vertex for which `keep` is true. Vertices and triangles keep their
+    /// order, so the mesh gives the same section by any plane that meets no other triangle.
     #[must_use]
     pub fn part(&self, keep: impl Fn(V3) -> bool) -> Self {
         let kept: Vec<bool> = self.positions.iter().map(|&p| keep(p)).collect();
@@ -89,7 +90,7 @@ impl TriMesh {
         Self { positions, triangles }
     }
 
-    /// All undirected edges, each once as `[lesser, greater]` vertex index, sorted.
+    /// Undirected edges, each once as `[lesser, greater]` vertex index, sorted.
     #[must_use]
     pub fn edges(&self) -> Vec<[usize; 2]> {
         let mut edges: Vec<[usize; 2]> = self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();

@@ -1,8 +1,8 @@
-//! Polylines and polygons of the plane. Lengths are in the unit of their points.
+//! Polylines and polygons of the plane. Lengths are in the unit of the points.
 
 use super::V2;
 
-/// An open polyline with its cumulative arc length.
+/// An open polyline with cumulative arc lengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
     points: Vec<V2>,
@@ -11,7 +11,7 @@ pub struct Polyline {
 }
 
 impl Polyline {
-    /// A polyline through `points`; `None` for fewer than two points.
+    /// Polyline through `points`. `None` for fewer than two points.
     #[must_use]
     pub fn new(points: Vec<V2>) -> Option<Self> {
         if points.len() < 2 {
@@ -34,7 +34,7 @@ impl Polyline {
         Self::new(points).unwrap_or_else(|| self.clone())
     }
 
-    /// Its vertices, from start to end.
+    /// Vertices, from start to end.
     #[must_use]
     pub fn points(&self) -> &[V2] {
         &self.points
@@ -63,12 +63,12 @@ impl Polyline {
     }
 }
 
-/// Sides of a closed polygon. The last one returns to the first point.
+/// Sides of a closed polygon, the last one back to the first point.
 fn sides(polygon: &[V2]) -> impl Iterator<Item = (V2, V2)> + '_ {
     polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
 }
 
-/// Area of a closed polygon, positive when counter-clockwise.
+/// Area of a closed polygon, positive if counter-clockwise.
 #[must_use]
 pub fn signed_area(polygon: &[V2]) -> f64 {
     0.5 * sides(polygon).map(|(a, b)| a.perp(&b)).sum::<f64>()
@@ -104,7 +104,7 @@ pub fn boundary_distance(polygon: &[V2], point: &V2) -> f64 {
     sides(polygon).map(|(a, b)| segment_distance(&a, &b, point)).fold(f64::INFINITY, f64::min)
 }
 
-/// Parameters 0..1 along both segments of their intersection. `None` when they do not meet or are parallel.
+/// Parameters in 0..=1 of the intersection of two segments, along each. `None` if they do not meet or are parallel.
 #[must_use]
 pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     let (da, db, offset) = (a.1 - a.0, b.1 - b.0, b.0 - a.0);
@@ -116,16 +116,16 @@ pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// First intersection of two sides of a closed polygon that are not neighbours.
+/// First intersection of two sides of a closed polygon that are not neighbours. `None` if no such sides intersect.
 #[must_use]
 pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
     crossing_sides(polygon).map(|(_, place)| place)
 }
 
-/// First pair of sides of a closed polygon that intersect without being neighbours, and their intersection. A side is
-/// named by its first vertex; the lesser comes first.
+/// First pair of sides of a closed polygon that intersect without being neighbours, and their intersection. `None` if
+/// no such sides do. A side is named by its first vertex, and the lesser comes first.
 ///
-/// A sweep over the least `x` of the sides makes a polygon of many sides cost little more than sorting them.
+/// Sweeps over the least `x` of the sides, so that many sides cost little more than sorting them.
 #[must_use]
 pub fn crossing_sides(polygon: &[V2]) -> Option<([usize; 2], V2)> {
     let all: Vec<(V2, V2)> = sides(polygon).collect();

@@ -5,22 +5,22 @@ use super::{TriMesh, V2, V3};
 /// A plane with a frame. Its points are `origin + p.x u + p.y v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// A point of the plane, metres.
+    /// A point of the plane, m.
     pub origin: V3,
-    /// Unit first axis.
+    /// First axis, a unit vector.
     pub u: V3,
-    /// Unit second axis.
+    /// Second axis, a unit vector at right angles to the first.
     pub v: V3,
 }
 
 impl Plane {
-    /// The horizontal plane at height `z`, its axes those of the world.
+    /// Horizontal plane at height `z`, with the axes of the world.
     #[must_use]
     pub fn horizontal(z: f64) -> Self {
         Self { origin: V3::new(0.0, 0.0, z), u: V3::x(), v: V3::y() }
     }
 
-    /// The plane through `origin` with the unit `normal`; the first axis is horizontal.
+    /// Plane through `origin` with the unit vector `normal`. The first axis is horizontal.
     #[must_use]
     pub fn normal_to(origin: V3, normal: V3) -> Self {
         let horizontal = V3::new(normal.y, -normal.x, 0.0).try_normalize(1e-9).unwrap_or_else(V3::x);
@@ -34,20 +34,20 @@ impl Plane {
         self.u.cross(&self.v)
     }
 
-    /// Signed distance of a point, metres.
+    /// Signed distance of a point, m, positive on the side of the normal.
     #[must_use]
     pub fn distance(&self, point: V3) -> f64 {
         (point - self.origin).dot(&self.normal())
     }
 
-    /// Plane coordinates of a point's orthogonal projection.
+    /// Plane coordinates of the orthogonal projection of a point.
     #[must_use]
     pub fn project(&self, point: V3) -> V2 {
         let offset = point - self.origin;
         V2::new(offset.dot(&self.u), offset.dot(&self.v))
     }
 
-    /// The point of space at plane coordinates `p`.
+    /// Point of space at the plane coordinates `p`.
     #[must_use]
     pub fn lift(&self, p: V2) -> V3 {
         self.origin + self.u * p.x + self.v * p.y
@@ -57,9 +57,9 @@ impl Plane {
 /// One connected outline of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// Points in plane coordinates, metres; the first is not repeated.
+    /// Points in plane coordinates, m. The first is not repeated.
     pub points: Vec<V2>,
-    /// True if the outline is closed. An open one ends at a hole of the mesh.
+    /// True if the outline is closed. An open outline ends at a hole of the mesh.
     pub closed: bool,
 }
 
@@ -71,7 +71,7 @@ impl Outline {
         self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
     }
 
-    /// True if `point` lies inside (even-odd rule; an open outline is closed by a chord).
+    /// True if `point` lies inside, by the even-odd rule. An open outline is closed by a chord.
     #[must_use]
     pub fn contains(&self, point: V2) -> bool {
         let next = self.points.iter().cycle().skip(1);
@@ -82,13 +82,13 @@ impl Outline {
     }
 }
 
-/// An edge that the plane cuts, as its sorted vertex pair.
+/// Mesh edge that the plane cuts, by its vertices in increasing order.
 type CutEdge = (usize, usize);
 
 /// Section of `mesh` by `plane`.
 ///
-/// A vertex exactly in the plane counts as above it. Every triangle therefore gives one segment or none, and the
-/// outlines of a closed manifold all close.
+/// A vertex in the plane counts as above it. Every triangle therefore gives one segment or none, and all outlines of a
+/// closed manifold close.
 #[must_use]
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
@@ -96,14 +96,14 @@ pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     cut(&mesh.positions, &mesh.triangles, plane, |vertex| heights[vertex])
 }
 
-/// Section of some `triangles` over `positions` by `plane`.
+/// Section by `plane` of some `triangles` of the vertices `positions`.
 #[must_use]
 pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
     cut(positions, triangles, plane, |vertex| (positions[vertex] - plane.origin).dot(&normal))
 }
 
-/// Section by `plane`, with the signed `height` of each vertex above it.
+/// Section by `plane`, where `height` is the signed distance of a vertex from the plane.
 fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl Fn(usize) -> f64) -> Vec<Outline> {
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
     for &[a, b, c] in triangles {
@@ -133,11 +133,11 @@ fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl F
         .collect()
 }
 
-/// Connects cut edges along their links, each from one edge to the next. Returns the chains with true for closed ones,
-/// open chains first.
+/// Connects cut edges by links, each from one cut edge to the next. Returns chains, open ones first, with true for a
+/// closed chain.
 fn chain(mut links: Vec<(CutEdge, CutEdge)>) -> Vec<(Vec<CutEdge>, bool)> {
     links.sort_unstable();
-    // Where sheets meet, an edge is cut twice: the last link counts.
+    // Where sheets of a mesh meet in an edge, the edge is cut twice, and the last link counts.
     links.dedup_by(|next, kept| {
         let same = next.0 == kept.0;
         if same {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{TriMesh, V3};
 
-/// A sphere about the origin: `rings` bands from pole to pole, twice as many sectors.
+/// A sphere about the origin, with `rings` bands from pole to pole and twice as many sectors.
 #[must_use]
 pub fn sphere(radius_m: f64, rings: usize) -> TriMesh {
     let profile: Vec<(f64, f64)> = (0..=rings)
@@ -16,8 +16,8 @@ pub fn sphere(radius_m: f64, rings: usize) -> TriMesh {
     revolve(&profile, 2 * rings)
 }
 
-/// A closed surface of revolution about z. `profile` lists (radius, height) from the bottom pole to the top pole. The
-/// first and the last radius count as zero.
+/// A closed surface of revolution about z. `profile` has (radius, height) from the bottom pole to the top pole, in m.
+/// The first and the last radius count as zero.
 #[must_use]
 pub fn revolve(profile: &[(f64, f64)], sectors: usize) -> TriMesh {
     let last = profile.len() - 1;

@@ -1,9 +1,9 @@
 //! Exact signed distance to a closed triangle mesh, by parry's bounding volume hierarchy and pseudo-normals.
 //!
-//! Parry decides the side, and gives the distance but for rounding: which of two triangles with a common edge it
-//! returns, and so the last bits, depends on how the mesh is stored. The distance here is the least over all triangles
-//! within that distance. Each is computed with its corners in one order, so that a mirrored mesh has exactly the same
-//! distances.
+//! Parry decides the side, and gives the distance up to rounding. Which of two triangles with a common edge it returns,
+//! and so the last bits, depends on how the mesh is stored. Here the distance is the least of the distances to all
+//! triangles within that distance. Each is computed with its corners in sorted order, so that a mirrored mesh has
+//! exactly the same distances.
 
 use parry3d::partitioning::BvhNode;
 use parry3d::query::PointQuery;
@@ -19,11 +19,11 @@ pub struct Surface {
 /// Projection of a point onto the surface.
 struct Projection {
     is_inside: bool,
-    /// Distance from the surface but for rounding, m.
+    /// Distance from the surface up to rounding, m.
     about_m: f64,
 }
 
-/// Error of a mesh that cannot bound a solid.
+/// Error of a mesh that does not bound a solid.
 #[derive(Debug, thiserror::Error)]
 #[error("the surface cannot be used for distances: {0}")]
 pub struct SurfaceError(String);
@@ -32,7 +32,7 @@ impl Surface {
     /// Prepares a closed, outward-oriented mesh.
     ///
     /// # Errors
-    /// When the mesh is empty or its topology is not that of an oriented surface.
+    /// [`SurfaceError`] if the mesh is empty or is not a closed, oriented surface.
     pub fn new(mesh: &TriMesh) -> Result<Self, SurfaceError> {
         let vertices = mesh.positions.iter().map(to_parry).collect();
         let index = |i: usize| u32::try_from(i).map_err(|_| SurfaceError("more than 2^32 vertices".into()));
@@ -45,7 +45,7 @@ impl Surface {
             .map_err(|e| SurfaceError(e.to_string()))
     }
 
-    /// Distance to the surface, m; negative inside.
+    /// Distance to the surface, m, negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: &V3) -> f64 {
         let Projection { is_inside, about_m } = self.project(point);
@@ -53,7 +53,7 @@ impl Surface {
         if is_inside { -distance_m } else { distance_m }
     }
 
-    /// Depth of a point inside the surface, m. `None` for one outside, which costs less than its distance.
+    /// Depth of a point inside the surface, m. `None` for a point outside, which costs less than its distance.
     #[must_use]
     pub fn depth(&self, point: &V3) -> Option<f64> {
         let Projection { is_inside, about_m } = self.project(point);
@@ -73,9 +73,8 @@ impl Surface {
         Projection { is_inside: projection.is_inside, about_m }
     }
 
-    /// Unsigned distance to the surface, m, and the nearest triangle, given an upper bound `most_m` on it that holds
-    /// but for rounding. The tighter the bound, the fewer triangles are looked at. The bits of the distance do not
-    /// depend on it.
+    /// Unsigned distance to the surface, m, and the nearest triangle. `most_m` is an upper bound of the distance up to
+    /// rounding. A tighter bound makes the search faster and does not change a bit of the result.
     #[must_use]
     pub fn nearest_within(&self, point: &V3, most_m: f64) -> (f64, Option<u32>) {
         let p = to_parry(point);
@@ -88,7 +87,8 @@ impl Surface {
         found.map_or((most_m, None), |(index, (distance, ()))| (f64::from(distance), Some(index)))
     }
 
-    /// Distance of a point from a triangle, by its index in the mesh, m. `None` when there is no such triangle.
+    /// Distance of a point from a triangle, m, by the index of the triangle in the mesh. `None` if there is no such
+    /// triangle.
     #[must_use]
     pub fn distance_to(&self, triangle: u32, point: &V3) -> Option<f32> {
         self.distance_of(triangle, &from_parry(to_parry(point)))
@@ -104,7 +104,7 @@ impl Surface {
     }
 }
 
-/// Bound on the error of single precision, both relative and in m.
+/// Bound on the error of single precision, relative and in m.
 const ROUNDED: f32 = 1e-5;
 
 #[allow(clippy::cast_possible_truncation)]

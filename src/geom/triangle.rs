@@ -1,8 +1,8 @@
-//! Corners of a triangle in one order, and its point nearest to a point of space.
+//! Sorted corners of a triangle, and the point of a triangle nearest to a point of space.
 
 use super::V3;
 
-/// Sorted corners, whichever way the triangle is oriented, so that mirrored triangles are rounded alike.
+/// Sorted corners, whatever the orientation of the triangle, so that mirrored triangles are rounded alike.
 #[must_use]
 pub fn sorted<T: Ord>(mut corners: [T; 3]) -> [T; 3] {
     corners.sort_unstable();

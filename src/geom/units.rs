@@ -1,4 +1,4 @@
-//! Conversions at the edges of the program, and standard gravity. Inside, all is in SI units; users read and write
+//! Conversions at the edges of the program, and standard gravity. Inside, all is in SI units. Users read and write
 //! millimetres, degrees and milliseconds.
 
 /// Standard gravity, m/s2.
@@ -16,8 +16,8 @@ pub fn from_mm(millimetres: f64) -> f64 {
     millimetres * 1e-3
 }
 
-/// Formats a number with at most so many significant digits and no trailing zeros. Very small and very large ones get
-/// an exponent.
+/// Formats a number with at most `digits` significant digits and no trailing zeros. Very small and very large numbers
+/// get an exponent.
 #[must_use]
 pub fn significant(number: f64, digits: i32) -> String {
     if number == 0.0 || !number.is_finite() {
@@ -32,10 +32,10 @@ pub fn significant(number: f64, digits: i32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Formats a number with its sign and one decimal. Numbers that round to 0 are `+0.0`.
+/// Formats a number with its sign and one decimal. A number that rounds to 0 is `+0.0`.
 #[must_use]
 pub fn signed_tenths(number: f64) -> String {
-    // Adding 0 turns -0 into 0.
+    // `-0.0` becomes `0.0`.
     format!("{:+.1}", (number * 10.0).round() / 10.0 + 0.0)
 }
 

@@ -1,16 +1,16 @@
-//! Generalised winding number of a surface round a point: exactly for one point, with dipoles for many.
+//! Generalised winding number of a surface round a point: exact, or with dipoles for evaluation at many points.
 //!
-//! The winding number of a surface with openings is not an integer. It is about 1 behind cloth that hangs about a body,
-//! about 0 in front of it, and in between across an opening [Jacobson 2013]. A far part of the surface is approximated
-//! by a dipole [Barill 2018].
+//! The winding number of a surface with openings is not an integer: about 1 behind cloth that hangs about a body, about
+//! 0 in front of it, and in between across an opening [Jacobson 2013]. Distant parts of the surface are approximated by
+//! dipoles [Barill 2018].
 
 use std::f64::consts::PI;
 
 use super::{TriMesh, V3};
 
-/// Most triangles of a part that is not divided further. Judgement.
+/// Greatest number of triangles of an undivided part. Judgement: fewer make the hierarchy deeper.
 const LEAF: usize = 8;
-/// Ratio of distance to radius from which on a part is approximated by its dipole. The error of the winding number then
+/// Ratio of distance to radius from which a part is approximated by its dipole. The error of the winding number then
 /// stays below 0.02 in the tests.
 const FAR: f64 = 2.5;
 
@@ -30,16 +30,16 @@ fn solid_angle(corners: [V3; 3], point: V3) -> f64 {
     2.0 * a.dot(&b.cross(&c)).atan2(below)
 }
 
-/// A node of the hierarchy: a part of the surface.
+/// Node of the hierarchy: a part of the surface.
 struct Part {
     centre: V3,
     radius_m: f64,
-    /// Sum of its triangles' unit normals times their areas, m2.
+    /// Sum of the area vectors of the triangles (area times unit normal), m2.
     dipole_m2: V3,
-    /// The triangles `from..to` of the surface belong to it.
+    /// Range `from..to` of the triangles.
     from: usize,
     to: usize,
-    /// The second of its two halves; the first is the next part. `None` for a leaf.
+    /// Index of the second half. The first half is the next part. `None` for an undivided part.
     second: Option<usize>,
 }
 

@@ -1,12 +1,12 @@
 //! Cholesky factor of a sparse matrix of 6x6 blocks: the stiffness between the patches of the coarse space.
 //!
 //! It is computed in double precision and kept in single. Rounding the factor is harmless where rounding the matrix
-//! would not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square
-//! *root* of the condition number.
+//! would not be: `(L + dL)(L + dL)^T` stays positive definite, and the relative error of the softest mode is `eps`
+//! times the *square root* of the condition number.
 //!
 //! The factor is `L D L^T` with identity blocks on the diagonal of `L`. In a substitution each column waits for those
-//! before it. It does not wait for a product with a diagonal block, too: `D` is applied in between, to all rows at
-//! once. A solve is one pass through memory each way, over blocks that fill vector registers (`packed`).
+//! before it, but not for a product with a diagonal block: `D` is applied in between, to all rows at once. A solve is
+//! one pass through memory in each direction, over blocks that fill vector registers (`packed`).
 
 mod packed;
 
@@ -18,7 +18,7 @@ use super::quad::Quad;
 use super::simd::{self, Kernel, Simd, each};
 use packed::{Blockwise, Packed};
 
-/// Degrees of freedom of a patch, and so rows of a block.
+/// Degrees of freedom of a patch: rows of a block.
 pub const SIZE: usize = 6;
 
 /// A 6x6 block by columns.
@@ -26,39 +26,39 @@ pub type Dense = [[f64; SIZE]; SIZE];
 /// Forces and moments on a patch, or its translation and rotation.
 pub type Row = [f32; SIZE];
 
-/// Symbolic factor: the order of elimination and the pattern. It serves as long as the pattern of the matrix does.
+/// Symbolic factor: order of elimination and sparsity pattern. Valid for all matrices with the same pattern.
 pub struct Symbolic {
-    /// Position of each row in the order of elimination.
+    /// Position of each row of the matrix in the order of elimination.
     place: Vec<usize>,
-    /// First block below the diagonal of each column, and one entry more.
+    /// Index of the first block below the diagonal of each column, then the number of blocks.
     starts: Vec<usize>,
     /// Rows of these blocks, ascending in each column.
     rows: Vec<usize>,
-    /// The block of the factor that each pair of the matrix is added to.
+    /// Block of the factor to which each pair of the matrix is added.
     entries: Vec<Entry>,
 }
 
-/// The block of the factor that a pair of the matrix is added to.
+/// Block of the factor to which a pair of the matrix is added.
 #[derive(Clone, Copy)]
 struct Entry {
     column: usize,
-    /// Index of the block below the diagonal, or `None` on the diagonal.
+    /// Index of the block below the diagonal. `None` for a block on the diagonal.
     below: Option<usize>,
-    /// True if the pair's first row is eliminated later. Its block then stands as it is, and otherwise transposed.
+    /// True if the first row of the pair is eliminated later. Its block is then added as it is, otherwise transposed.
     is_upright: bool,
 }
 
 /// Numeric factor.
 pub struct Numeric {
-    /// Inverses of the pivots, which are the blocks of `D`.
+    /// Inverses of the pivots, the blocks of `D`.
     pivots: Vec<Packed>,
-    /// The blocks of `L` below its diagonal.
+    /// Blocks of `L` below the diagonal.
     below: Vec<Packed>,
 }
 
 impl Symbolic {
-    /// Analyses a symmetric matrix of `count` block rows with blocks at `pairs`, the smaller row first, the diagonal
-    /// among them.
+    /// Analyses a symmetric matrix of `count` block rows with blocks at `pairs`, the diagonal included, the smaller row
+    /// first.
     #[must_use]
     pub fn new(count: usize, pairs: &[[usize; 2]]) -> Self {
         let (place, columns) = eliminate(count, pairs);
@@ -86,20 +86,20 @@ impl Symbolic {
         self.starts.windows(2).map(|ends| ends[0]..ends[1]).enumerate()
     }
 
-    /// Index of the block below the diagonal at `row` of `column`.
+    /// Index of the block below the diagonal in `row` of `column`.
     fn below(&self, column: usize, row: usize) -> usize {
         let rows = &self.rows[self.starts[column]..self.starts[column + 1]];
         self.starts[column] + rows.binary_search(&row).expect("elimination has filled it in")
     }
 
-    /// Factorises the matrix with `blocks` at the pairs; the block of `[a, b]` is in the rows of `a`. `None` when the
-    /// matrix is not positive definite.
+    /// Factorises the matrix with `blocks` at the pairs, that of `[a, b]` in the rows of `a`. `None` if the matrix is
+    /// not positive definite.
     #[must_use]
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
         simd::dispatch(Factorisation { symbolic: self, blocks })
     }
 
-    /// Solves in place; `x` is in the matrix's order of rows.
+    /// Solves in place. The rows of `x` are in the order of the matrix.
     #[inline(always)]
     pub fn solve<S: Simd>(&self, simd: S, numeric: &Numeric, x: &mut [Row]) {
         let blockwise = Blockwise(simd);
@@ -152,8 +152,8 @@ impl Kernel for Factorisation<'_> {
                 Some(slot) => below[slot] = Padded::new(&if is_upright { *block } else { transposed(block) }),
             }
         }
-        // Right-looking elimination with `A = L L^T`. The inverses of the diagonal blocks of `L` take the place of the
-        // diagonal.
+        // Right-looking elimination with `A = L L^T`. The inverses of the diagonal blocks of `L` are stored in place of
+        // these.
         for (column, own) in symbolic.columns() {
             let root = Padded::new(&inverse_root(&diagonal[column].dense())?);
             diagonal[column] = root;
@@ -185,7 +185,7 @@ impl Kernel for Factorisation<'_> {
     }
 }
 
-/// A 6x6 block by columns, each padded with zeros to two registers of four.
+/// A 6x6 block by columns, each column padded with zeros to two registers of four.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 struct Padded([[f64; 8]; SIZE]);
@@ -241,8 +241,8 @@ fn product<S: Simd>(simd: S, a: &Padded, b: &Padded) -> Padded {
     negative
 }
 
-/// Eliminates rows in minimum degree order. Returns the position of each row, and for each position the rows that its
-/// elimination couples.
+/// Eliminates rows in the order of minimum degree. Returns the position of each row, and for each position the rows
+/// that its elimination couples.
 fn eliminate(count: usize, pairs: &[[usize; 2]]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut neighbours = vec![BTreeSet::new(); count];
     for &[a, b] in pairs.iter().filter(|[a, b]| a != b) {
@@ -270,7 +270,7 @@ fn transposed(block: &Dense) -> Dense {
     std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]))
 }
 
-/// Inverse `L^-1` of the Cholesky factor of `A = L L^T`. `None` when `A` is not positive definite.
+/// Inverse `L^-1` of the Cholesky factor of `A = L L^T`. `None` if `A` is not positive definite.
 fn inverse_root(a: &Dense) -> Option<Dense> {
     let mut l = [[0.0; SIZE]; SIZE];
     for c in 0..SIZE {

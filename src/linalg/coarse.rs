@@ -1,8 +1,8 @@
 //! Coarse space of the linear solves: patches of the cloth that move as rigid bodies.
 //!
 //! Block-Jacobi is slow at motions of many vertices together, such as a sleeve that swings or a fold that travels.
-//! Cloth hardly resists them where each of its patches moves rigidly. Rigid motions of patches, with six degrees of
-//! freedom each, therefore span them well: they are the near null space of smoothed aggregation [Vanek 1996], here
+//! Cloth hardly resists motions that move each of its patches rigidly. The rigid motions of patches, with six degrees
+//! of freedom each, therefore span these well: they are the near null space of smoothed aggregation [Vanek 1996], here
 //! without smoothing. The remaining error, at the borders of patches, is local, and block-Jacobi reduces it. The
 //! stiffness between patches is small enough to be factorised ([`super::cholesky`]), and one factor serves for several
 //! steps.
@@ -21,24 +21,24 @@ use geom::V3;
 
 geom::constants! {
     "linalg.coarse",
-    /// Least distance, in edges, between the centres of patches. A patch then has about twenty vertices.
+    /// Least distance between the centres of patches, in edges. A patch then has about twenty vertices.
     const APART: usize = 4;
-    /// The same in large cloth, where the factor between patches would outgrow the other costs.
+    /// Least distance in large cloth, where the factor between patches would cost most of a solve.
     const APART_IN_LARGE: usize = 5;
-    /// Vertices from which on cloth is large: solves between patches of four edges then cost more than the iterations
-    /// that they save.
+    /// Number of vertices from which cloth is large: the solves between patches of [`APART`] edges then cost more than
+    /// the iterations that they save.
     const LARGE: usize = 12_000;
-    /// Share of the stiffness of a patch, summed over the axes of translation and of rotation each, that is added to
-    /// each axis. The vertices of a patch may lie on a line, and a rotation about it moves none of them.
+    /// Share of the stiffness of a patch (summed over the three axes of translation, and over those of rotation) that
+    /// is added to each axis. Without it, a patch whose vertices lie on a line could turn about that line freely.
     const REGULARISATION: f64 = 1e-6;
 }
 
-/// A preconditioned residual `P r` in its two parts.
+/// A preconditioned residual `P r` in its two parts, which are to be added.
 #[derive(Clone, Copy)]
 pub struct Correction<'a> {
     /// Rigid motion of each patch.
     pub motions: &'a [Row],
-    /// Displacement of each vertex in addition.
+    /// Displacement of each vertex.
     pub z: &'a [f32x4],
 }
 
@@ -49,11 +49,11 @@ pub struct CoarseSpace {
     count: usize,
     /// Vertices, patch by patch.
     members: Vec<u32>,
-    /// End of each patch in `members`, preceded by the beginning of the first.
+    /// Beginning of each patch in `members`, then the end of the last.
     ends: Vec<usize>,
-    /// Pairs of patches that are coupled, the smaller first; each patch is coupled with itself, too.
+    /// Pairs of coupled patches, the smaller first. Each patch is coupled with itself as well.
     pairs: PairList,
-    /// Pair of patches of each membrane pair, each bending pair and each spring.
+    /// Index of the pair of patches of each membrane pair, each bending pair and each spring.
     slots: [Vec<usize>; 3],
     symbolic: Symbolic,
 }
@@ -120,7 +120,7 @@ impl CoarseSpace {
         CoarseFactor { arms, factor: self.symbolic.factorise(&blocks) }
     }
 
-    /// Vector from the centre of its patch to each vertex, m.
+    /// Vector from the centre of the patch of each vertex to the vertex, m.
     fn arms(&self, x: &[V3]) -> Vec<V3> {
         let mut sums = vec![(V3::zeros(), 0.0); self.count];
         for (a, p) in self.patch_of.iter().zip(x) {
@@ -130,8 +130,8 @@ impl CoarseSpace {
         self.patch_of.iter().zip(x).map(|(a, p)| p - sums[*a].0 / sums[*a].1).collect()
     }
 
-    /// Adds the contacts between patches that are coupled already. Between others, only the diagonal blocks have their
-    /// contacts.
+    /// Adds the contacts between patches that are coupled already. For other patches, contacts count in the diagonal
+    /// blocks only.
     fn add_contacts(&self, operator: &Operator, arms: &[V3], blocks: &mut [Matrix6<f64>]) {
         for contact in &operator.contacts {
             let wrench = |k: usize| {
@@ -142,7 +142,7 @@ impl CoarseSpace {
             for k in 0..4 {
                 for l in (0..4).filter(|l| *l != k) {
                     let [a, b] = [k, l].map(|k| self.patch_of[contact.vertices[k]]);
-                    // The transposed pair is the same block.
+                    // The transposed pair has the same block.
                     if a <= b
                         && let Some(slot) = self.pairs.slot(a, b)
                     {
@@ -153,8 +153,8 @@ impl CoarseSpace {
         }
     }
 
-    /// Computes the rigid motions of the patches under the forces `r`, in `motions`. Returns the work of the forces
-    /// along them.
+    /// Computes the rigid motions of the patches under the forces `r`, into `motions`. Returns the work of the forces
+    /// along these motions.
     #[inline(always)]
     pub fn restrict_and_solve<S: Simd>(
         &self,
@@ -202,15 +202,15 @@ impl CoarseSpace {
         }
     }
 
-    /// The vertices of each patch, with their arms.
+    /// Vertices of each patch, with their arms.
     #[inline(always)]
     fn members<'a>(&'a self, coarse: &'a CoarseFactor) -> impl Iterator<Item = (&'a [u32], &'a [Arm])> {
         self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]))
     }
 }
 
-/// Vector from the centre of a patch to a vertex, in the two cyclic orders (y, z, x) and (z, x, y) that cross products
-/// take.
+/// Vector from the centre of a patch to a vertex, in the cyclic orders (y, z, x) and (z, x, y) of the two terms of a
+/// cross product.
 #[derive(Clone, Copy)]
 struct Arm([f32x4; 2]);
 
@@ -220,7 +220,7 @@ impl Arm {
         Self([f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0])])
     }
 
-    /// Adds the two terms of the moment `arm x force`; the second is to be subtracted from the first.
+    /// Adds the two terms of the moment `arm x force`, of which the second must be subtracted from the first.
     #[inline(always)]
     fn add_moment<S: Simd>(&self, simd: S, force: f32x4, [plus, minus]: [f32x4; 2]) -> [f32x4; 2] {
         let [x, y, z, _] = force.to_array();
@@ -228,18 +228,18 @@ impl Arm {
         [simd.mul_add(self.0[0], from_z, plus), simd.mul_add(self.0[1], from_y, minus)]
     }
 
-    /// Adds the displacement `turn x arm` to `to`, with the rotation in the cyclic orders (y, z, x) and (z, x, y).
+    /// Adds the displacement `turn x arm` to `to`. The rotation is given in the cyclic orders (y, z, x) and (z, x, y).
     #[inline(always)]
     fn add_motion<S: Simd>(&self, simd: S, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
         simd.neg_mul_add(from_z, self.0[0], simd.mul_add(from_y, self.0[1], to))
     }
 }
 
-/// A factorised stiffness between patches.
+/// Factorised stiffness between patches.
 pub struct CoarseFactor {
-    /// Vector from the centre of its patch to each vertex, patch by patch.
+    /// Vector from the centre of the patch to each vertex, patch by patch.
     arms: Vec<Arm>,
-    /// `None` where the stiffness was not positive definite.
+    /// `None` if the stiffness is not positive definite.
     factor: Option<Numeric>,
 }
 
@@ -248,8 +248,8 @@ fn six([[a, b, c, _], [x, y, z, _]]: [[f32; 4]; 2]) -> Row {
     [a, b, c, x, y, z]
 }
 
-/// Coarse block `P^T m Q` for the rigid motions `P = [I, -[p]x]` and `Q = [I, -[q]x]` of two vertices at `p` and `q`
-/// from the centres of their patches.
+/// Coarse block `P^T m Q` of two vertices coupled by `m`, at `p` and `q` from the centres of their patches, with their
+/// rigid motions `P = [I, -[p]x]` and `Q = [I, -[q]x]`.
 fn between(p: &V3, m: &Matrix3<f64>, q: &V3) -> Matrix6<f64> {
     let [p, q] = [p.cross_matrix(), q.cross_matrix()];
     let (pm, mq) = (p * m, m * q);

@@ -1,9 +1,8 @@
 //! A stiffness in compressed sparse rows, for the product of conjugate gradients.
 //!
-//! Each coupling is stored once, in the row of its smaller vertex, and serves both vertices. That moves fewer bytes
-//! through the processor than a copy in each row, and a large cloth fills the caches with little else. Blocks are
-//! applied to differences of displacements: in single precision, membrane and bending would otherwise cancel each other
-//! out.
+//! Each coupling is stored once, in the row of its smaller vertex, and serves both vertices: that moves fewer bytes
+//! than a copy in each row, and memory limits the speed for a large cloth. Blocks are applied to differences of
+//! displacements, because in single precision membrane and bending would otherwise cancel each other.
 
 use std::borrow::Cow;
 
@@ -32,7 +31,7 @@ struct Arcs<'a, Q: Quad> {
     drawn: Vec<Q::Scalar>,
 }
 
-/// A [`Contact4`] with its direction scaled by the root of its stiffness.
+/// A [`Contact4`] whose direction is scaled by the root of its stiffness.
 struct Contact<Q> {
     vertices: [usize; 4],
     weights: [Q; 4],
@@ -60,7 +59,7 @@ impl<'a, Q: Quad> CsrMatrix<'a, Q> {
         }
     }
 
-    /// Computes `y = K x` for states `[x, y]`, which lie side by side since they are read together.
+    /// Computes `y = K x` for states `[x, y]`. Both lie side by side because they are read together.
     #[inline(always)]
     pub fn apply<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
         simd.run(Product { rows: self, states });
@@ -121,7 +120,7 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
         let count = self.slopes.len();
         let mut bends = vec![Q::ZERO; count];
         // Change of half of each squared arc length: by curvature alone, and by curvature and chord. Then the tension
-        // that each causes.
+        // that each change causes.
         let mut grown = vec![[0.0_f32; 2]; count];
         let mut tensions = vec![[0.0_f32; 2]; count];
         for (side, &[i, j]) in self.stiffness.pairs.pairs().iter().enumerate() {
@@ -136,7 +135,8 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
             let [aa, bb, cc, ab, bc, ca] = *couplings;
             for k in 0..2 {
                 let (x, y, z) = (grown[a][k], grown[b][k], grown[c][k]);
-                // In this order a mirrored triangle, whose sides come in the opposite order, has the same sums.
+                // In this order the sums of a mirrored triangle, whose sides come in the opposite order, are the same
+                // to the bit.
                 tensions[a][k] += (aa * x + ca * z) + ab * y;
                 tensions[b][k] += (ab * x + bc * z) + bb * y;
                 tensions[c][k] += (cc * z + ca * x) + bc * y;

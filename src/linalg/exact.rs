@@ -1,7 +1,7 @@
-//! Sparse Cholesky factor of a cloth's stiffness, kept over several steps as a preconditioner.
+//! Sparse Cholesky factor of the stiffness of a cloth, kept over several steps as a preconditioner.
 //!
-//! Block-Jacobi needs hundreds of iterations: cloth is a million times softer in bending than in its plane. A factor of
-//! the current stiffness needs one or two, and a factor of the stiffness a few steps ago still few.
+//! Block-Jacobi needs hundreds of iterations, because cloth is a million times softer in bending than in its plane. A
+//! factor of the present stiffness needs one or two, and that of a few steps ago still few.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
@@ -14,27 +14,30 @@ use super::operator::Operator;
 use super::pairs::PairList;
 use super::quad::{self, Quad};
 
-/// Pattern of a stiffness with its symbolic factor, and the latest numeric one.
+/// Sparsity pattern of a stiffness, symbolic factor, and latest numeric factor.
 pub struct Factor {
-    /// Lower triangle by columns, with three rows and columns a vertex.
+    /// Lower triangle by columns, with three rows and columns per vertex.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicLlt<usize>,
     numeric: Option<Llt<usize, f64>>,
     /// Vertex pairs with a block.
     pairs: PairList,
-    /// Block of each membrane pair, each bending pair and each spring.
+    /// Index of the block of each membrane pair, each bending pair and each spring.
     slots: [Vec<usize>; 3],
-    /// Rank of each pair's block among those of its smaller vertex.
+    /// Rank of the block of each pair among those of its smaller vertex.
     rank: Vec<usize>,
     values: Vec<f64>,
 }
 
 impl Factor {
-    /// When the memory is exhausted.
+    /// Analyses the sparsity pattern of an operator.
+    ///
+    /// # Panics
+    /// If the memory is exhausted.
     #[must_use]
     pub fn new(operator: &Operator) -> Self {
-        // Other threads run other simulations, so this one takes no threads of its own. Sums then do not depend on
-        // their number either.
+        // Other threads run other simulations, so this one stays single. Its sums then do not depend on the number of
+        // threads.
         faer::set_global_parallelism(Par::Seq);
         let n = operator.diagonal.len();
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
@@ -87,8 +90,8 @@ impl Factor {
         self.numeric = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
     }
 
-    /// Adds the off-diagonal block `K_ij`, `i < j`, and subtracts it from both diagonal blocks: rows of the stiffness
-    /// sum to zero.
+    /// Adds the off-diagonal block `K_ij`, `i < j`, and subtracts it from both diagonal blocks, because rows of the
+    /// stiffness sum to zero.
     fn add_pair(&mut self, slot: usize, block: &Matrix3<f64>) {
         let [i, j] = self.pairs.pairs()[slot];
         for c in 0..3 {
@@ -101,18 +104,18 @@ impl Factor {
         self.add_diagonal(j, &-block);
     }
 
-    /// Adds to a diagonal block, of which the lower triangle is stored.
+    /// Adds to a diagonal block, whose lower triangle is stored.
     fn add_diagonal(&mut self, v: usize, block: &Matrix3<f64>) {
         for c in 0..3 {
             let start = self.pattern.col_ptr()[3 * v + c];
             for r in c..3 {
-                // One membrane block need not be symmetric, but the sum of them is.
+                // A single membrane block may be asymmetric. The sum of all is symmetric.
                 self.values[start + r - c] += 0.5 * (block[(r, c)] + block[(c, r)]);
             }
         }
     }
 
-    /// Computes `z = K^-1 r` with the stiffness of the last [`Factor::refresh`]. Before the first, `z = r`.
+    /// Computes `z = K^-1 r` with the stiffness of the last [`Factor::refresh`], or `z = r` before the first.
     pub fn solve(&self, r: &[f64x4], z: &mut [f64x4]) {
         let mut flat: Vec<f64> = r.iter().flat_map(|v| <[f64; 3]>::from(v.vector())).collect();
         if let Some(factor) = &self.numeric {

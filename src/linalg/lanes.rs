@@ -1,20 +1,20 @@
-//! Arithmetic in which a formula is written once, for one number or for four at once.
+//! Arithmetic for formulas that are written once, for one number or for four at once.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use super::simd::Simd;
 
-/// A number, or a vector of numbers, that formulas are written in.
+/// Number, or vector of numbers, in which formulas are written.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// Broadcasts a constant to as many lanes as `self` has.
     fn splat(self, number: f64) -> Self;
     /// `self * factor + sum`.
     fn mul_add(self, factor: Self, sum: Self) -> Self;
-    /// The lesser of the two, lane by lane.
+    /// Lesser of two numbers, lane by lane.
     fn min(self, other: Self) -> Self;
-    /// The greater of the two, lane by lane.
+    /// Greater of two numbers, lane by lane.
     fn max(self, other: Self) -> Self;
-    /// The square root, lane by lane.
+    /// Square root, lane by lane.
     fn sqrt(self) -> Self;
 }
 
@@ -45,7 +45,7 @@ impl Number for f64 {
     }
 }
 
-/// Four numbers in a vector register, with the instructions that compute on it.
+/// Four numbers in a vector register, with the instruction set to compute with.
 #[derive(Clone, Copy)]
 pub struct Lanes<S: Simd> {
     four: S::F64x4,
@@ -65,7 +65,7 @@ impl<S: Simd> Lanes<S> {
         self.simd.to_f32s(self.four)
     }
 
-    /// Stores the four numbers, first lane first.
+    /// The four numbers, first lane first.
     #[inline(always)]
     pub fn numbers(self) -> [f64; 4] {
         self.simd.to_f64s(self.four)

@@ -1,9 +1,9 @@
 //! Sparse linear algebra for the implicit time steps of cloth.
 //!
-//! A stiffness is an [`Operator`] of 3x3 blocks over pairs of vertices ([`pairs`]). [`LinearSolver`] solves with it by
+//! A stiffness is an [`Operator`] of 3x3 blocks for pairs of vertices ([`pairs`]). [`LinearSolver`] solves with it by
 //! conjugate gradients ([`pcg`]) over compressed rows ([`csr`]). The preconditioner is block-Jacobi with a coarse space
-//! of rigid patches ([`coarse`]), whose stiffness [`cholesky`] factorises. For specimens it is a sparse Cholesky factor
-//! of the whole stiffness ([`exact`]). The loops run on the widest vector registers of the processor ([`simd`]).
+//! of rigid patches ([`coarse`]), whose stiffness [`cholesky`] factorises, or for specimens a sparse Cholesky factor of
+//! the whole stiffness ([`exact`]). The loops run on the widest vector registers of the processor ([`simd`]).
 
 pub mod cholesky;
 pub mod coarse;

@@ -15,20 +15,19 @@ use geom::V3;
 
 /// Solver of the linear systems of a cloth.
 pub enum LinearSolver {
-    /// Block-Jacobi with a coarse space of rigid patches, for garments. Its solutions are approximate.
+    /// Block-Jacobi with a coarse space of rigid patches, for garments. Solutions are approximate.
     Patches(Option<Box<TwoLevel>>),
-    /// A Cholesky factor, renewed when it has aged, for specimens that are compared with exact mechanics.
+    /// Cholesky factor that is renewed when it has aged, for specimens that are compared with exact mechanics.
     Factor(Option<Box<Factor>>),
 }
 
 geom::constants! {
     "linalg.linear",
-    /// Iterations with an old factor after which a new one is made. They cost about as much as a factorisation.
+    /// Iterations with an old factor after which a new factor is made. They cost about as much as a factorisation.
     const PATIENCE: usize = 6;
-    /// Number of products that are summed in single precision. Sums of longer vectors are made of such sums in double
-    /// precision.
+    /// Number of products that are summed in single precision. The sums of longer vectors are accumulated in double.
     const SUMMED: usize = 256;
-    /// Iterations that cost as much as a new factor.
+    /// Iterations in excess that cost as much as a new factor of the coarse space.
     const FACTOR_COST: usize = 12;
 }
 
@@ -45,7 +44,7 @@ impl LinearSolver {
         Self::Factor(None)
     }
 
-    /// True if it factorises the whole stiffness.
+    /// True if the solver factorises the whole stiffness.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         matches!(self, Self::Factor(_))
@@ -112,13 +111,13 @@ impl Preconditioner<f64x4> for &Factor {
     }
 }
 
-/// Block-Jacobi with the coarse space of patches added, whose stiffness is factorised now and then.
+/// Block-Jacobi plus the coarse space of patches, whose factor is renewed when it has aged.
 pub struct TwoLevel {
     patches: CoarseSpace,
     coarse: Option<CoarseFactor>,
-    /// Iterations of the solve for which the factor was made.
+    /// Number of iterations with the factor when it was new.
     when_new: usize,
-    /// Iterations that later solves have taken in excess of that.
+    /// Sum of the iterations beyond that number in later solves.
     lost: usize,
 }
 
@@ -145,7 +144,7 @@ impl TwoLevel {
     }
 }
 
-/// Sum of both preconditioners.
+/// Sum of block-Jacobi and coarse space.
 struct TwoLevelPreconditioner<'a> {
     jacobi: Jacobi,
     patches: &'a CoarseSpace,

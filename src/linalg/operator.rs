@@ -1,8 +1,8 @@
-//! The stiffness of a cloth as a linear operator.
+//! Stiffness of a cloth as a linear operator.
 //!
 //! Membrane and bending stiffness are invariant under translation: the blocks of a row sum to zero. They are therefore
-//! assembled as one block a *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`. That needs no
-//! diagonal, and a uniform translation gives exactly zero, however the blocks were rounded. The linear solves take the
+//! assembled as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`. That needs no
+//! diagonal, and a uniform translation gives exactly zero, however the blocks were rounded. The linear solves store the
 //! pairs in compressed rows ([`super::csr`]).
 
 use nalgebra::Matrix3;
@@ -16,9 +16,9 @@ use geom::V3;
 /// Rank-one stiffness `k a a^T` of four vertices along one direction, with `a = (w_0 n, ..., w_3 n)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact4 {
-    /// The four vertices. One of weight zero may repeat another.
+    /// Four vertices. A vertex of weight zero may repeat another.
     pub vertices: [usize; 4],
-    /// Weight of each vertex. Weights sum to zero between layers of cloth, and to one on the body.
+    /// Weights of the vertices. They sum to zero between layers of cloth, and to one on the body.
     pub weights: [f64; 4],
     /// Unit direction of the contact force.
     pub normal: V3,
@@ -35,24 +35,24 @@ impl Contact4 {
     }
 }
 
-/// Stiffness of triangle sides that are arcs (`sim::cloth::arcs`), beyond that of their chords, which the membrane's
-/// blocks hold.
+/// Stiffness of triangle sides that are arcs (`sim::cloth::arcs`), in addition to that of their chords, which is in the
+/// membrane's blocks.
 #[derive(Clone, Debug)]
 pub struct ArcStiffness<'a> {
-    /// Vertex pairs of the sides.
+    /// Vertex pair of each side.
     pub pairs: &'a PairList,
-    /// Stencils that give the curvature along each side as a weighted sum of positions.
+    /// Stencil of each side: curvature along the side as a weighted sum of positions.
     pub stencils: &'a Stencils,
     /// The three sides of each triangle.
     pub triangles: &'a [[u32; 3]],
     /// Vector from the first vertex of each side to the second, m.
     pub chords: Vec<V3>,
-    /// Derivative of half of each squared arc length by the stencil's sum, m.
+    /// Derivative of half of each squared arc length with respect to the sum of the stencil, m.
     pub slopes: Vec<V3>,
     /// Geometric stiffness against curvature that the tension of each side causes, N/m.
     pub drawn: Vec<f64>,
-    /// Stiffness of each triangle between half squared side lengths and the tensions of sides, N/m3: of each side with
-    /// itself, then of the sides (0, 1), (1, 2), (2, 0).
+    /// Stiffness of each triangle between half squared lengths and tensions of its sides, N/m3: each side with itself,
+    /// then sides (0, 1), (1, 2), (2, 0).
     pub couplings: Vec<[f32; 6]>,
 }
 
@@ -62,22 +62,22 @@ pub struct Operator<'a> {
     pub diagonal: Vec<Matrix3<f64>>,
     /// Pairs coupled by the membrane.
     pub membrane_pairs: &'a PairList,
-    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m. They include the bending of these pairs.
+    /// Off-diagonal block `K_ij`, `i < j`, of each membrane pair, N/m, with the bending stiffness of the pair.
     pub membrane: Vec<Block<f32x4>>,
-    /// Pairs coupled by bending alone.
+    /// Pairs coupled by bending and not by the membrane.
     pub bending_pairs: &'a PairList,
-    /// Their off-diagonal entries, one a pair, the same in x, y and z, N/m.
+    /// Off-diagonal entry of each bending pair, the same for x, y and z, N/m.
     pub bending: &'a [f64],
-    /// Springs: the two vertices, and the stiffness, N/m.
+    /// Springs: two vertices and the stiffness, N/m.
     pub springs: Vec<([usize; 2], f64)>,
-    /// Contacts of the cloth with itself, and of points inside triangles with the body.
+    /// Contacts of the cloth with itself, and of points in triangles with the body.
     pub contacts: Vec<Contact4>,
-    /// Stiffness of curved sides, if any are.
+    /// Stiffness of curved sides. `None` if all sides are straight.
     pub arcs: Option<ArcStiffness<'a>>,
 }
 
 impl Operator<'_> {
-    /// Product of the diagonal and the contacts alone with a displacement `x`.
+    /// Product of diagonal and contacts, without the rest, with a displacement `x`.
     #[must_use]
     pub fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
         let mut y: Vec<V3> = self.diagonal.iter().zip(x).map(|(block, x)| block * x).collect();
@@ -87,7 +87,7 @@ impl Operator<'_> {
         y
     }
 
-    /// The 3x3 blocks on the diagonal of `K`, for a block-Jacobi preconditioner.
+    /// Diagonal 3x3 blocks of `K`, for a block-Jacobi preconditioner.
     #[must_use]
     pub fn diagonal_blocks(&self) -> Vec<Matrix3<f64>> {
         let mut blocks = self.own_blocks();
@@ -96,8 +96,8 @@ impl Operator<'_> {
                 blocks[v] += Matrix3::identity() * stiffness;
             }
         }
-        // Sums of the rows and of the columns of couplings. Rows of the stiffness sum to zero, so the diagonal is their
-        // negative. When a vertex is reached, all smaller ones have been visited, and its column is complete.
+        // Sums of the rows and columns of the couplings. Rows of the stiffness sum to zero, so the diagonal is minus
+        // these. Once a vertex is reached, all smaller vertices have been visited, and its column is complete.
         let mut columns = vec![[f32x4::ZERO; 3]; blocks.len()];
         let mut alike = vec![0.0; blocks.len()];
         for (i, block) in blocks.iter_mut().enumerate() {
@@ -121,7 +121,7 @@ impl Operator<'_> {
         blocks
     }
 
-    /// The diagonal blocks without the parts of couplings and springs.
+    /// Diagonal blocks without the parts due to couplings and springs.
     #[must_use]
     pub fn own_blocks(&self) -> Vec<Matrix3<f64>> {
         let mut blocks = self.diagonal.clone();
@@ -136,7 +136,7 @@ impl Operator<'_> {
 }
 
 impl ArcStiffness<'_> {
-    /// Adds the diagonal of the stiffness against curvature.
+    /// Adds the diagonal blocks of the stiffness against curvature.
     fn add_diagonal(&self, blocks: &mut [Matrix3<f64>]) {
         let mut own = vec![0.0; self.slopes.len()];
         for (sides, couplings) in self.triangles.iter().zip(&self.couplings) {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::rows::sorted_by_row;
 
-/// Pairs of vertices `i < j`, sorted, that some element couples.
+/// Pairs of vertices `i < j` that some element couples, sorted.
 #[derive(Clone, Debug, Default)]
 pub struct PairList {
     pairs: Vec<[usize; 2]>,
@@ -12,7 +12,7 @@ pub struct PairList {
 }
 
 impl PairList {
-    /// The list without pairs.
+    /// List without pairs.
     pub const EMPTY: &'static Self = &Self { pairs: Vec::new(), upper: Upper::EMPTY };
 
     /// Collects the distinct unordered pairs.
@@ -36,7 +36,7 @@ impl PairList {
         Self { pairs, upper }
     }
 
-    /// Index of the pair `{i, j}` in the list.
+    /// Index of the pair `{i, j}` in the list. `None` if the pair is not coupled.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         self.upper.slot(i.min(j), i.max(j))
@@ -48,9 +48,8 @@ impl PairList {
         &self.upper
     }
 
-    /// Partitions the vertices into patches. The centres of the patches are at least `apart` edges (pairs) from each
-    /// other, and each vertex belongs to the nearest centre. Returns the patch of each vertex and the number of
-    /// patches.
+    /// Divides the vertices into patches. The centres of patches are at least `apart` edges (pairs) from each other,
+    /// and each vertex belongs to the nearest centre. Returns the patch of each vertex, and the number of patches.
     #[must_use]
     pub fn divide(&self, vertices: usize, apart: usize) -> (Vec<usize>, usize) {
         let mut neighbours = vec![Vec::new(); vertices];
@@ -91,8 +90,8 @@ impl PairList {
 /// Strict upper triangle of a sparsity pattern in compressed rows.
 #[derive(Clone, Debug, Default)]
 pub struct Upper {
-    /// First coupling of each vertex, and one entry more. There are as many rows as the greatest smaller vertex of a
-    /// pair asks for.
+    /// Index of the first coupling of each vertex, then the number of couplings. Vertices beyond the greatest smaller
+    /// vertex of a pair have no entry.
     starts: Vec<u32>,
     /// Larger vertex of each coupling.
     others: Vec<u32>,
@@ -110,7 +109,7 @@ impl Upper {
         Self { starts, others }
     }
 
-    /// Index of the coupling of `v` with the larger `other`.
+    /// Index of the coupling of `v` with the larger vertex `other`. `None` if the two are not coupled.
     #[must_use]
     pub fn slot(&self, v: usize, other: usize) -> Option<usize> {
         let row = self.row(v);
@@ -127,7 +126,7 @@ impl Upper {
         }
     }
 
-    /// The larger vertices that `v` is coupled to, each with its entry of `values`.
+    /// Larger vertices that `v` is coupled to, each with its entry in `values`.
     #[inline(always)]
     pub fn couplings<'a, T>(&'a self, v: usize, values: &'a [T]) -> impl Iterator<Item = (usize, &'a T)> {
         let row = self.row(v);
@@ -135,8 +134,8 @@ impl Upper {
     }
 }
 
-/// Cursor over the rows of a pattern, in the order of vertices, with a value for each coupling. It needs no search for
-/// the beginning of a row.
+/// Cursor over the rows of a pattern, in the order of vertices, with a value for each coupling. No row has to be
+/// searched for.
 pub struct RowCursor<'a, T> {
     starts: &'a [u32],
     others: &'a [u32],
@@ -150,7 +149,7 @@ impl<'a, T> RowCursor<'a, T> {
         Self { starts: &upper.starts, others: &upper.others, values }
     }
 
-    /// The couplings of the next vertex, each with its value.
+    /// Couplings of the next vertex, each with its value.
     #[inline(always)]
     pub fn next_row(&mut self) -> impl Iterator<Item = (usize, &'a T)> {
         let mut count = 0;

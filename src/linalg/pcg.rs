@@ -8,7 +8,7 @@ use geom::V3;
 /// Stopping criteria.
 #[derive(Clone, Copy, Debug)]
 pub struct PcgParams {
-    /// Ratio of the preconditioned norm of the residual to that of the right-hand side at which a solve stops.
+    /// Greatest ratio of residual to right-hand side, both in the norm of the preconditioner, at which a solve stops.
     pub tolerance: f64,
     /// Greatest number of iterations.
     pub max_iterations: usize,
@@ -19,16 +19,17 @@ pub struct PcgParams {
 pub struct Outcome {
     /// True if the tolerance was met.
     pub is_solved: bool,
-    /// Number of iterations made.
+    /// Number of iterations.
     pub iterations: usize,
 }
 
-/// A preconditioner `P`, applied in two halves. Between them only the product `r . P r` is needed.
+/// Preconditioner `P`, applied in two steps, between which only the product `r . P r` is needed.
 pub trait Preconditioner<Q: Quad> {
-    /// Computes the first half of `P r`, in `z`. Returns `r . P r`.
+    /// Makes the first step of `P r`, into `z`. Returns `r . P r`.
     fn apply<S: Simd>(&mut self, simd: S, r: &[Q], z: &mut [Q]) -> f64;
 
-    /// Updates the direction of states `[p, K p]` to `p = P r + beta p`, where `z` is the first half of `P r`.
+    /// Makes the second step: updates the direction of states `[p, K p]` to `p = P r + beta p`, with `z` of the first
+    /// step.
     #[inline(always)]
     fn next_direction<S: Simd>(&self, simd: S, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
         for ([p, _], z) in states.iter_mut().zip(z) {
@@ -37,9 +38,10 @@ pub trait Preconditioner<Q: Quad> {
     }
 }
 
-/// Improves `x` towards the solution of `K x = b`, starting from the best multiple of it between 0 and 1.
+/// Improves `x` towards the solution of `K x = b`, starting from the best multiple of `x` between 0 and 1.
 ///
-/// Every iterate decreases the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a direction of descent.
+/// Every iterate decreases the quadratic `x.K x / 2 - b.x`, so a solve that is cut short still yields a descent
+/// direction.
 pub fn solve<Q: Quad>(
     operator: &CsrMatrix<Q>,
     preconditioner: impl Preconditioner<Q>,
@@ -73,10 +75,10 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
         let (alike, within) = (|a: &Q, b: &Q| *a * *b, |[p, kp]: &[Q; 2], _: &[Q; 2]| *p * *kp);
         let mut z = vec![Q::ZERO; b.len()];
         let goal = preconditioner.apply(simd, b, &mut z) * params.tolerance * params.tolerance;
-        // The direction `p` and `K p`; the start is treated as a first direction.
+        // Direction `p` and `K p`. The given `x` is the first direction.
         let mut states: Vec<[Q; 2]> = x.iter().map(|x| [*x, Q::ZERO]).collect();
         operator.apply(simd, &mut states);
-        // The start is scaled so that it is no worse than zero.
+        // The best multiple of `x`, so that the start is no worse than zero.
         let scale = dot(x, b, alike) / dot(&states, &states, within);
         let mut alpha = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
         x.fill(Q::ZERO);
@@ -95,7 +97,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
             if iterations == params.max_iterations {
                 break;
             }
-            // The first direction is the residual's own.
+            // The second direction is that of the residual alone, because `rz` is infinite.
             let beta = Q::spread(rz_next / rz);
             rz = rz_next;
             preconditioner.next_direction(simd, &z, beta, &mut states);
@@ -110,7 +112,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
     }
 }
 
-/// Sum of the products of pairs. Four partial sums run side by side, so that no addition waits for the one before.
+/// Sum of the products of pairs, in four partial sums side by side, so that no addition waits for the preceding one.
 #[inline(always)]
 pub fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());

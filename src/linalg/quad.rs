@@ -1,6 +1,6 @@
-//! A vector of space in one vector register, as three components and a zero.
+//! A vector of space in one vector register: three components and a zero.
 //!
-//! From loops over arrays, the compiler mostly makes instructions on single numbers. So the register is explicit here.
+//! The register is explicit because the compiler turns loops over arrays mostly into instructions on single numbers.
 
 use std::borrow::Cow;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
@@ -19,7 +19,7 @@ pub trait Quad:
     type Scalar: Copy;
     /// Four zeros.
     const ZERO: Self;
-    /// Work of the residual forces below which there is nothing left to solve.
+    /// Value of `r . P r`, the work of the residual forces, below which a system counts as solved.
     const NEGLIGIBLE: f64;
     /// Loads four numbers, rounded.
     fn of(numbers: [f64; 4]) -> Self;
@@ -27,11 +27,11 @@ pub trait Quad:
     fn scalar(number: f64) -> Self::Scalar;
     /// Broadcasts one number.
     fn splat(number: Self::Scalar) -> Self;
-    /// The four numbers, in order.
+    /// The four numbers in order.
     fn numbers(self) -> [Self::Scalar; 4];
     /// The sum of the four numbers.
     fn total(self) -> f64;
-    /// Sums of three quads, and a zero.
+    /// Totals of three quads, and a zero.
     fn totals(quads: [Self; 3]) -> Self;
     /// The first three numbers.
     fn vector(self) -> V3;

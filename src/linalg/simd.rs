@@ -1,18 +1,18 @@
 //! SIMD: fused multiply-add, and eight numbers in single precision at once.
 //!
 //! Every x86-64 processor has registers of four such numbers. Nearly all since 2013 have registers of eight, and fused
-//! multiply-add, which rounds once. The loops of the linear solves are written once, for a [`Simd`], and [`dispatch`]
-//! runs them on the best that the processor has. Results on another kind of processor may therefore be rounded
-//! otherwise. The same processor always rounds the same.
+//! multiply-add, which rounds once. The loops of the linear solves are written once, for any [`Simd`], and [`dispatch`]
+//! runs them with the best instructions of the processor. Processors of different kinds may therefore round
+//! differently. One kind always rounds the same.
 
 use wide::{f32x4, f64x4};
 
-/// Instructions that not every processor has.
+/// Set of instructions that not every processor has.
 pub trait Simd: Copy {
-    /// Runs a kernel in a function of its own that is compiled with these instructions.
+    /// Runs a kernel in a separate function that is compiled with these instructions.
     fn run<K: Kernel>(self, kernel: K) -> K::Output;
 
-    /// Two quads in single precision.
+    /// Two quads of numbers in single precision.
     type F32x8: Copy;
     /// Four numbers in double precision.
     type F64x4: Copy;
@@ -22,7 +22,7 @@ pub trait Simd: Copy {
     fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
     /// Loads four numbers.
     fn f64s(self, numbers: [f64; 4]) -> Self::F64x4;
-    /// Stores the numbers.
+    /// Stores four numbers.
     fn to_f64s(self, four: Self::F64x4) -> [f64; 4];
     /// `a + b`.
     fn add_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
@@ -40,21 +40,21 @@ pub trait Simd: Copy {
     fn to_f32s(self, four: Self::F64x4) -> [f32; 4];
     /// The square roots.
     fn sqrt_f64s(self, a: Self::F64x4) -> Self::F64x4;
-    /// The lesser of each two; the second where one of them is not a number.
+    /// Lesser of each two numbers. The second, where one of them is NaN.
     fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// The greater of each two; the second where one of them is not a number.
+    /// Greater of each two numbers. The second, where one of them is NaN.
     fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
-    /// Two quads in one register, the first in its lower half.
+    /// Joins two quads in one register, the first in its lower half.
     fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
-    /// The two quads that [`Self::join`] put together.
+    /// Splits a register into the two quads that [`Self::join`] joined.
     fn split(self, twin: Self::F32x8) -> [f32x4; 2];
     /// `a b + c`.
     fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
 }
 
-/// Array of an expression's values for each index, written out in full.
+/// Array of the values of an expression for each index, written out in full.
 ///
-/// `map` over an array is not inlined into a kernel. Each instruction in it would then be a function call.
+/// `map` over an array is not inlined into a kernel, so that each instruction would be a function call.
 #[macro_export]
 macro_rules! each {
     ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
@@ -66,7 +66,7 @@ macro_rules! each {
 }
 pub use each;
 
-/// A loop that is compiled for every instruction set. It is inlined, with all functions that it calls.
+/// A loop that is compiled for every instruction set, inlined with all functions that it calls.
 pub trait Kernel {
     /// Return value of the loop.
     type Output;
@@ -193,7 +193,7 @@ mod x86 {
 
     use super::{Kernel, Simd};
 
-    /// A kernel with the instructions to run it on.
+    /// A kernel with the instruction set to run it with.
     struct On<K> {
         simd: V3,
         kernel: K,

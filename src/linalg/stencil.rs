@@ -1,31 +1,31 @@
-//! Sparse matrix of short rows, such as finite difference stencils, with its transpose.
+//! Sparse matrix of short rows, such as finite difference stencils, and its transpose.
 
 use super::quad::Quad;
 use super::rows::sorted_by_row;
 use super::simd::Simd;
 use geom::V3;
 
-/// Four terms of a sum. Sums are padded with terms of weight zero, so that four terms run side by side.
+/// Four terms of a sum. Sums are padded with terms of weight zero, so that all have fours of terms.
 #[derive(Clone, Copy, Debug)]
 struct Terms<I, W> {
     at: [I; 4],
     weights: [W; 4],
 }
 
-/// A sparse matrix of numbers that multiplies vectors of space, row by row, and its transpose.
+/// Sparse matrix of scalars that multiplies vectors of space, row by row, and its transpose.
 #[derive(Clone, Debug, Default)]
 pub struct Stencils {
-    /// First terms of each row, and one entry more.
+    /// First four terms of each row, then the number of fours.
     starts: Vec<u32>,
     terms: Vec<Terms<u32, f64>>,
     single: Vec<Terms<u32, f32>>,
-    /// First terms of each column, and one entry more.
+    /// First four terms of each column, then the number of fours.
     column_starts: Vec<u32>,
     columns: Vec<Terms<u32, f32>>,
 }
 
 impl Stencils {
-    /// Matrix of rows of (column, weight), with so many columns.
+    /// Matrix with `columns` columns, of rows of (column, weight).
     #[must_use]
     pub fn new(rows: &[Vec<(usize, f64)>], columns: usize) -> Self {
         let rounded = |four: &Terms<u32, f64>| Terms { at: four.at, weights: four.weights.map(|w| w as f32) };
@@ -47,7 +47,7 @@ impl Stencils {
             .filter(|(_, w)| *w != 0.0)
     }
 
-    /// Product of a row with vectors.
+    /// Product of a row with the vectors `x`.
     #[inline(always)]
     #[must_use]
     pub fn sum(&self, row: usize, x: &[V3]) -> V3 {
@@ -59,7 +59,7 @@ impl Stencils {
         sums[0] + sums[1]
     }
 
-    /// Product of a row with the first vector of each state.
+    /// Product of a row with the first vectors of `states`.
     #[inline(always)]
     pub fn sum_of<Q: Quad, S: Simd>(&self, simd: S, row: usize, states: &[[Q; 2]]) -> Q {
         let mut sums = [Q::ZERO; 4];
@@ -71,7 +71,7 @@ impl Stencils {
         (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
-    /// Product of a column with a value of each row.
+    /// Product of a column with the values `of_rows`.
     #[inline(always)]
     pub fn column_sum<Q: Quad, S: Simd>(&self, simd: S, column: usize, of_rows: &[Q]) -> Q {
         let mut sums = [Q::ZERO; 4];
@@ -86,7 +86,7 @@ impl Stencils {
     }
 }
 
-/// Pads lists of (index, weight) to fours. Returns the first terms of each list and one entry more, and the terms.
+/// Pads lists of (index, weight) to fours. Returns the first four of each list and the number of fours, and the terms.
 fn filled_up<'a>(lists: impl Iterator<Item = &'a [(usize, f64)]>) -> (Vec<u32>, Vec<Terms<u32, f64>>) {
     let (mut starts, mut terms) = (vec![0], Vec::new());
     for list in lists {

@@ -1,9 +1,9 @@
-//! Tangent stiffness of a cloth by finite differences of its forces, with its factor.
+//! Tangent stiffness of a cloth by finite differences of its forces, and its factor.
 //!
-//! The stiffness of a time step is made positive definite and cheap: compression is left out, friction is stiff,
-//! bending is condensed. The response to a small change needs the true derivative of the forces. Vertices without a
-//! common coupled force are displaced together [Curtis 1974]. The number of evaluations then depends on the densest
-//! neighbourhood, and not on the size of the cloth.
+//! The stiffness of a time step is positive definite and cheap, not exact: compression is left out, friction is stiff,
+//! bending is condensed. The response to a small change needs the true derivative of the forces. Vertices that act on
+//! no common force are displaced together [Curtis 1974], so the number of evaluations depends on the densest
+//! neighbourhood and not on the size of the cloth.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 use super::pairs::PairList;
 
-/// A symmetric stiffness with three rows and columns a vertex, and its factor.
+/// Symmetric stiffness with three rows and columns per vertex, and its factor.
 pub struct Tangent {
     /// Both triangles by columns.
     pattern: SymbolicSparseColMat<usize>,
@@ -27,13 +27,13 @@ enum Factor {
     Definite(Box<Llt<usize, f64>>),
     /// LU factor of a regular, indefinite stiffness.
     Indefinite(Box<Lu<usize, f64>>),
-    /// No factor, since the stiffness is singular.
+    /// No factor: the stiffness is singular.
     None,
 }
 
 impl Tangent {
-    /// Symmetric part of the stiffness `-df/dx` of forces at `x`, by central differences of `step`, m. Forces couple
-    /// only the vertices of each pair, and each vertex with itself.
+    /// Symmetric part of the stiffness `-df/dx` of `forces` at `x`, by central differences with the step `step`, m.
+    /// Each force must depend only on its vertex and on the vertices paired with it.
     #[must_use]
     pub fn of(
         pairs: &PairList,
@@ -114,7 +114,7 @@ impl Tangent {
         matches!(self.factor, Factor::Definite(_))
     }
 
-    /// Adds a spring of this stiffness, N/m, between every vertex and its position.
+    /// Adds a spring of this stiffness between every vertex and its present position, N/m.
     pub fn tie(&mut self, stiffness: f64) {
         for column in 0..self.pattern.ncols() {
             let range = self.pattern.col_range(column);
@@ -125,7 +125,7 @@ impl Tangent {
         self.factorise();
     }
 
-    /// Displacements under these forces. `None` where the stiffness is singular.
+    /// Displacements under these forces. `None` if the stiffness is singular.
     #[must_use]
     pub fn solve(&self, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
         let mut flat: Vec<f64> = forces.iter().flat_map(|f| [f.x, f.y, f.z]).collect();
@@ -140,7 +140,7 @@ impl Tangent {
     }
 }
 
-/// Vertices coupled to each vertex, itself among them, ascending.
+/// Vertices coupled to each vertex, itself included, ascending.
 fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
     let mut near: Vec<Vec<usize>> = (0..count).map(|v| vec![v]).collect();
     for &[i, j] in pairs.pairs() {
@@ -151,7 +151,7 @@ fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
     near
 }
 
-/// Groups of vertices (a colouring) in which no two act on the same force.
+/// Groups of vertices (a colouring) such that no two of a group act on the same force.
 fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut group_of = vec![usize::MAX; near.len()];
     let mut groups: Vec<Vec<usize>> = Vec::new();

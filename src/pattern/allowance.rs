@@ -8,21 +8,21 @@ use geom::units::mm;
 
 /// Greatest allowance, m. A wider margin is a facing.
 const GREATEST_M: f64 = 0.1;
-/// Extension of each offset edge beyond its ends, in allowances, so that neighbours meet. It reaches the intersection
-/// at corners as sharp as 20 degrees.
+/// Extension of each offset edge beyond its ends, in allowances, so that neighbouring edges meet: at corners as sharp
+/// as 20 degrees.
 const CARRIED_ON: f64 = 6.0;
 
 /// A closed line offset inwards.
 #[derive(Clone, Debug, PartialEq)]
 struct Inset {
-    /// Its points.
+    /// Vertices.
     line: Vec<V2>,
-    /// Positions of the corners on it.
+    /// Positions of the corners on the line.
     corners: Vec<V2>,
 }
 
-/// Offsets a closed counter-clockwise line inwards. Each edge between two neighbouring vertices of `corners` has its
-/// own distance, m. `None` if it would cross itself or turn inside out.
+/// Offsets a closed counter-clockwise line inwards, by one distance, m, for each edge between neighbouring `corners`.
+/// `None` if the result would cross itself or turn inside out.
 fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<Inset> {
     let (n, count) = (ring.len(), corners.len());
     let carried_m = CARRIED_ON * distance_m.iter().map(|d| d.abs()).fold(0.0, f64::max);
@@ -33,7 +33,7 @@ fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<Inset> {
         moved_edge(&points, distance_m[edge], carried_m)
     };
     let edges: Vec<Vec<V2>> = (0..count).map(moved).collect::<Option<_>>()?;
-    // Intersections of neighbouring offset edges: the segment of both, and the point.
+    // Where neighbouring offset edges intersect.
     let meets: Vec<Meeting> =
         (0..count).map(|k| meeting(&edges[k], &edges[(k + 1) % count], carried_m)).collect::<Option<_>>()?;
     let mut line = Vec::new();
@@ -60,8 +60,7 @@ fn moved_edge(points: &[V2], distance_m: f64, carried_m: f64) -> Option<Vec<V2>>
     let offset = |vertex: usize| {
         let (u, v) = (directions[vertex.saturating_sub(1)], directions[vertex.min(last)]);
         let middle = (left(u) + left(v)).try_normalize(0.0).unwrap_or_else(|| left(v));
-        // Along a curve neighbouring segments turn little. The point is the miter: the intersection of both offset
-        // segments.
+        // Miter: intersection of the two offset segments. Neighbouring segments of a curve turn little.
         points[vertex] + middle * (distance_m / middle.dot(&left(v)).max(0.5))
     };
     let mut line = vec![offset(0) - directions[0] * carried_m];
@@ -79,8 +78,8 @@ struct Meeting {
     at: V2,
 }
 
-/// Intersection of the end of one line with the beginning of the other. Of several it is the one that cuts least off
-/// both lines.
+/// Intersection of the end of one line with the beginning of the other. If there are several, the one that cuts off
+/// least of both lines.
 fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
     let mut best: Option<(f64, Meeting)> = None;
     let mut behind = 0.0;
@@ -104,7 +103,7 @@ fn meeting(edge: &[V2], next: &[V2], carried_m: f64) -> Option<Meeting> {
             break;
         }
     }
-    // Edges that continue each other straight do not cross. They meet at their ends.
+    // Edges that continue each other straight do not cross: they meet at their ends.
     let straight = || {
         let (end, start) = (edge[edge.len() - 2], next[1]);
         Meeting { edge: edge.len() - 3, next: 1, at: end.lerp(&start, 0.5) }
@@ -135,11 +134,11 @@ fn nearest(ring: &[V2], point: V2) -> V2 {
 }
 
 impl Piece {
-    /// Returns the piece with a sew line at the distance `allowance_m` inside its cut line. A piece whose file has a
-    /// sew line stays as it is. The turn points and notches of the result lie on the sew line.
+    /// Returns the piece with a sew line at the distance `allowance_m` inside its cut line, and with turn points and
+    /// notches on the sew line. A piece that has a sew line stays as it is.
     ///
     /// # Errors
-    /// A sentence for messages if the piece is too narrow for the allowance, or the allowance is out of range.
+    /// A message if the piece is too narrow for the allowance, or the allowance is out of range.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);
@@ -153,9 +152,9 @@ impl Piece {
         Ok(self)
     }
 
-    /// Adds the sew line to a piece that has none. Between each of its vertices `corners` and the next, the line lies
-    /// at the given distance, m, inside the cut line. The corners of the sew line become the turn points, and the
-    /// notches move onto it.
+    /// Adds a sew line to a piece without one: inside the cut line by one distance, m, for each edge between
+    /// neighbouring vertices `corners`. The corners of the sew line become the turn points, and the notches move onto
+    /// it.
     pub(crate) fn cut_at(&mut self, corners: &[usize], distances_m: &[f64]) -> Result<(), String> {
         if let Some(refused_m) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
             return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*refused_m), mm(GREATEST_M)));

@@ -1,9 +1,9 @@
-//! Flat layout of the pieces about the head, as [T 3.3.3] arranges them before they are placed about the body.
+//! Flat layout of the pieces about the head, the arrangement of [T 3.3.3] before pieces are placed about the body.
 //!
-//! The origin is the head, seen from above. `x` grows to the wearer's right, fronts lie at `y > 0` and backs at `y <
-//! 0`. The upper edge of each piece faces the origin, as if the garment were opened along its sides and laid flat.
-//! Sleeves lie beside, their caps towards the body. A piece is only turned and shifted, never mirrored. Its outline
-//! says which side is up, and its grain line sets it straight.
+//! The origin is the head, seen from above. `x` grows to the wearer's right, fronts lie at `y > 0`, backs at `y < 0`.
+//! The upper edge of each piece faces the origin, as if the garment were opened along its sides and laid flat. Sleeves
+//! lie beside, caps towards the body. A piece is turned and shifted, never mirrored: its outline says which side is up,
+//! and its grain line sets it straight.
 
 use super::garment::Role;
 use super::propose::{self, Face, Hand, Pose};
@@ -12,8 +12,8 @@ use geom::V2;
 
 /// Clearance between pieces, and round the head, m.
 const GAP_M: f64 = 0.06;
-/// Greatest angle by which a piece is turned to set its grain line straight. A grain line further off is cut on the
-/// bias.
+/// Greatest angle by which a piece is turned to set its grain line straight. A piece with a grain line further off is
+/// cut on the bias.
 const STRAIGHTEN_DEG: f64 = 30.0;
 
 /// Rigid placement of a piece in the layout.
@@ -38,10 +38,10 @@ fn turned(p: V2, angle: f64) -> V2 {
     V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y)
 }
 
-/// Facts of a piece that decide its placement.
+/// Properties of a piece that decide its placement.
 struct Piece {
-    /// Row from the head down: 0 trunk, 1 waistband, 2 skirt or leg. `None` for a whole sleeve and for a piece without
-    /// a known place.
+    /// Row from the head down: 0 trunk, 1 waistband, 2 skirt or leg. `None` for a whole sleeve, and for a piece of
+    /// unknown role.
     level: Option<usize>,
     face: Option<Face>,
     hand: Option<Hand>,
@@ -59,7 +59,7 @@ impl Piece {
         let is_whole_sleeve = is_sleeve && pose.as_ref().is_none_or(|pose| pose.is_whole);
         let quarter = std::f64::consts::FRAC_PI_2;
         let worn = match (is_whole_sleeve, hand, face) {
-            // The cap faces the body, the front half of the sleeve lies at y > 0.
+            // The cap faces the body, and the front half of the sleeve lies at y > 0.
             (true, Some(Hand::Right), _) => quarter,
             (true, ..) => -quarter,
             (_, _, Some(Face::Front)) => 2.0 * quarter,
@@ -92,7 +92,7 @@ impl Piece {
     }
 }
 
-/// Front or back, and the side of the wearer. They follow from the role, or else from the identifier and the outline.
+/// Front or back, and the wearer's side: from the role, or else from the identifier and the outline.
 fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Option<Hand>) {
     let (named_face, named_hand) = propose::named_face_and_hand(&piece.id);
     let face = match piece.role {
@@ -110,14 +110,14 @@ fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Opti
     (face, hand)
 }
 
-/// Smallest rotation, radians, that sets a grain line along an axis. It is 0 for a grain on the bias.
+/// Smallest rotation that sets a grain line along an axis, radians. Zero for a grain on the bias.
 fn straightening(grain: V2) -> f64 {
     let off = grain.y.atan2(grain.x).to_degrees().rem_euclid(90.0);
     let turn = if off > 45.0 { 90.0 - off } else { -off };
     if turn.abs() <= STRAIGHTEN_DEG { turn.to_radians() } else { 0.0 }
 }
 
-/// Places every piece of a style. The result has the order of its pieces.
+/// Places every piece of a style, in the order of its pieces.
 #[must_use]
 pub fn arrange(style: &Style) -> Vec<Placed> {
     let pieces: Vec<Piece> = style.pieces.iter().map(Piece::of).collect();
@@ -129,7 +129,7 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
         let of_level: Vec<usize> = (0..pieces.len()).filter(|&i| pieces[i].level == Some(level)).collect();
         for face in Face::BOTH {
             let row: Vec<usize> = of_level.iter().copied().filter(|&i| pieces[i].face == Some(face)).collect();
-            // Next free |x| on the wearer's right and left. Pieces over the middle are placed first, sleeves last.
+            // Next free |x| on the wearer's right and left. Pieces across the middle are placed first, sleeves last.
             let mut next = [0.5 * GAP_M; 2];
             let mut order = row.clone();
             order.sort_by_key(|&i| (pieces[i].hand.is_some(), pieces[i].is_sleeve));
@@ -144,7 +144,7 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
                     }
                     None => {
                         let half = 0.5 * piece.size().x;
-                        // A second piece over the middle goes outside of the first.
+                        // A second piece across the middle goes beside the first.
                         let is_first = next[0] <= GAP_M;
                         let middle = if is_first { 0.0 } else { next[0] + half };
                         next = next.map(|free| free.max(middle + half + GAP_M));

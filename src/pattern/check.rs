@@ -1,5 +1,5 @@
-//! Findings on a pattern and its seam file that are no errors: free edges, pieces left out, gathers, reversed seams,
-//! girths that do not close, no girth for the fit, lengths that leap between sizes.
+//! Checks for what a pattern and its seam file may contain by mistake: edges in no seam, unused pieces, gathers,
+//! reversed seams, girths that do not close, no girth to judge the fit by, lengths that leap between sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,21 +12,21 @@ use super::style::{EdgeRef, PathPart, Seam, Style};
 use geom::polyline::Polyline;
 use geom::units::mm;
 
-/// Ratio of the lengths of both sides from which a seam counts as gathered.
+/// Ratio of the lengths of its two sides from which a seam counts as gathered.
 const GATHERED_RATIO: f64 = 1.2;
-/// Distance within which a notch belongs to an edge, m.
+/// Greatest distance of a notch from the edge that it marks, m.
 const ON_EDGE_M: f64 = 12e-3;
-/// Least improvement of the notch match, as a share of the seam, for which a reversed side is reported.
+/// Least improvement of the notch match by reversing one side for a finding, as a share of the seam.
 const TURNED_GAIN: f64 = 0.05;
 
-/// A finding: something that a person should look at.
+/// Something that a person should look at.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// Kind of the finding.
     pub kind: FindingKind,
-    /// Seam, edge or piece.
+    /// Name of the seam, edge, piece or measurement.
     pub place: String,
-    /// Description for messages.
+    /// Description, for messages.
     pub found: String,
 }
 
@@ -34,24 +34,24 @@ pub struct Finding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
-    /// An edge that is in no seam, has no measurement along it and is not listed as `open`.
+    /// Edge in no seam, with no measurement along it, and not listed as `open`.
     FreeEdge,
-    /// A drawn piece that the seam file does not use.
+    /// Drawn piece that the seam file does not use.
     UnusedPiece,
-    /// A seam whose sides differ much in length: one is gathered onto the other.
+    /// Seam whose longer side is gathered onto the shorter one.
     Gathered,
-    /// A seam of which one side seems to run in the wrong direction.
+    /// Seam of which one side seems to run in the wrong direction.
     Direction,
-    /// A measurement entered as a closed girth that does not close, or as an open length that closes.
+    /// Measurement called `closed_girth` that does not close, or `open_length` that closes.
     Loop,
-    /// A style without a girth at chest or hip, so that its fit cannot be told.
+    /// Style without a girth at chest or hip, so that no size can be judged on a body.
     FitLevel,
-    /// A length that breaks the grading progression of the sizes.
+    /// Length that breaks the progression of the sizes.
     Leap,
 }
 
 impl FindingKind {
-    /// Name for messages.
+    /// Kind in words, for messages.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -72,7 +72,7 @@ impl FindingKind {
     }
 }
 
-/// Findings on a style that is made of `pieces` by the entries of a seam file.
+/// Findings on a style that `pieces` make with the entries of a seam file.
 #[must_use]
 pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
     let is_left_out = |piece: &Piece| Finding {
@@ -108,13 +108,14 @@ fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
     })
 }
 
-/// Findings on a meshed garment: girths that do not close once sewn, and a missing girth for the fit.
+/// Findings on a meshed garment: measurements that close or not against their kind, and a missing girth at chest and
+/// hip.
 #[must_use]
 pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     let welded = welded(garment);
     let mut findings = Vec::new();
     for measurement in &garment.measurements {
-        // In a closed loop every end of a run coincides with another.
+        // In a closed loop every end of a run coincides with the end of another run.
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
         for point in measurement.runs.iter().flat_map(|run| [run.points.first(), run.points.last()]).flatten() {
             let heaviest = (0..3).max_by(|&i, &j| point.weights[i].total_cmp(&point.weights[j])).unwrap_or(0);
@@ -146,11 +147,11 @@ pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     findings
 }
 
-/// Representative of each vertex: the smallest index among the vertices that seams join it to, directly or in a chain.
+/// Smallest index among the vertices that seams join to each vertex, directly or through others.
 fn welded(garment: &Garment) -> Vec<usize> {
     let mut least: Vec<usize> = (0..garment.rest.len()).collect();
     let pairs = || garment.seams.iter().flat_map(|seam| &seam.pairs);
-    // The labels settle after as many rounds as seams meet in one point, which are few.
+    // The number of rounds is that of the seams that meet in one point, so it is small.
     loop {
         let before = least.clone();
         for &[a, b] in pairs() {
@@ -185,8 +186,8 @@ fn gathered(style: &Style, seam: &Seam) -> Option<Finding> {
     })
 }
 
-/// Reports a seam of which one side seems reversed. The sides of a seam run against each other where both pieces are
-/// seen from outside. Otherwise the notches tell: they match better with one side reversed.
+/// Finding on a seam of which one side seems reversed. Outlines are counter-clockwise, so the sides of a seam must run
+/// in opposite directions. If they do, one side still seems reversed where the notches match better that way.
 fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     let found = if seam.b_forwards {
         "both sides run counter-clockwise: one of the pieces is sewn inside out".to_owned()
@@ -203,7 +204,7 @@ fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
     Some(Finding { kind: FindingKind::Direction, place: seam.name.clone(), found })
 }
 
-/// Positions of the notches along one side of a seam, as shares of its length in the direction of sewing.
+/// Positions of the notches along one side of a seam in the direction of sewing, as shares of its length.
 fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64> {
     let total = length(style, chain);
     let mut shares = Vec::new();
@@ -219,7 +220,8 @@ fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64>
     shares
 }
 
-/// Arc length, m, of the vertex of an edge that is nearest to a notch. `None` for a notch at an end or on another edge.
+/// Arc length of the vertex of an edge that is nearest to a notch, m. `None` if that vertex is an end of the edge, or
+/// the notch lies on another edge.
 fn arc_of(line: &Polyline, notch: &Notch) -> Option<f64> {
     let distance = |i: &usize| (line.points()[*i] - notch.at).norm();
     let nearest = (0..line.points().len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))?;

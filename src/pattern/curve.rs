@@ -22,7 +22,7 @@ pub fn length(curve: &[V2]) -> f64 {
     curve.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
 }
 
-/// Root of an increasing function in `low..high`, by 60 bisections: down to the rounding of the numbers.
+/// Root of an increasing function in `low..high`, by 60 bisections, which reach the rounding of the numbers.
 pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -35,8 +35,8 @@ pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f
     0.5 * (low + high)
 }
 
-/// Points of a circular arc of a given length that starts at the origin in the direction of `+u`. `angle` is its total
-/// turning, radians, positive upwards and not zero.
+/// Points of a circular arc of a given length that starts at the origin along `+u`. `angle` is the total turning,
+/// radians, positive upwards and not zero.
 pub fn arc(length: f64, angle: f64) -> Vec<V2> {
     let radius = length / angle;
     let point_at = |turned: f64| V2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));

@@ -19,10 +19,9 @@ const TITLE_MM: f64 = 30.0;
 const NOTCH_MM: f64 = 9.0;
 /// Distance of corner numbers and measurement numbers from the outline, mm.
 const LABEL_MM: f64 = 17.0;
-/// Position of the number of a measurement along its edge. It is off the middle, because lines across the piece end
-/// there.
+/// Position of the number of a measurement along its edge. Not at the middle, where lines across the piece end.
 const EDGE_LABEL_SHARE: f64 = 0.4;
-/// Position of the number of an edge along it.
+/// Position of the number of an edge along that edge.
 const EDGE_NUMBER_SHARE: f64 = 0.6;
 /// Style sheet. The accent colour marks measured lines.
 const CSS: &str = "\
@@ -63,7 +62,7 @@ pub fn svg(style: &Style) -> String {
     out
 }
 
-/// Draws as [`svg`] does, with the points of measure numbered in place of the style's own measurements.
+/// Draws as [`svg`] does, with the points of measure numbered in place of the measurements of the style.
 #[must_use]
 pub fn points_svg(style: &Style) -> String {
     let points = style.points_of_measure().into_iter().zip(1..);
@@ -139,7 +138,7 @@ impl Pen {
         self.edge_numbers(out, piece);
     }
 
-    /// Writes the number of every edge, from 1 counter-clockwise. Edits of seams name edges by it.
+    /// Writes the number of every edge, counter-clockwise from 1. Edits of seams name edges by these numbers.
     fn edge_numbers(&self, out: &mut String, piece: &StylePiece) {
         for (index, edge) in piece.edges.iter().enumerate() {
             let p = self.beside(&edge.line, EDGE_NUMBER_SHARE, 0.8 * LABEL_MM) + V2::new(0.0, 4.5);
@@ -191,8 +190,8 @@ impl Pen {
     }
 }
 
-/// Direction on the sheet away from the piece at a corner of its outline. It is longer at a reflex corner, where the
-/// gap is narrow.
+/// Direction on the sheet away from the piece at a corner of its outline, longer at a reflex corner, where the gap is
+/// narrow.
 fn outwards(outline: &[V2], corner: V2) -> V2 {
     let n = outline.len();
     let distance = |i: usize| (outline[i] - corner).norm();
@@ -219,7 +218,7 @@ fn numbered_disc(out: &mut String, place: V2, no: u32) {
     );
 }
 
-/// Columns of the legend: three, fewer where a sheet is too narrow for the longest name.
+/// Number of columns of the legend: three, or fewer where a sheet is too narrow for the longest name.
 fn legend_columns(style: &Style, width: f64) -> usize {
     let letters = style.measurements.iter().map(|m| m.name.chars().count()).max().unwrap_or(0);
     // Letters of 15 mm are 9 mm wide. The row also holds a numbered disc and a length.
@@ -227,7 +226,7 @@ fn legend_columns(style: &Style, width: f64) -> usize {
     ((width - 2.0 * MARGIN_MM) / widest).clamp(1.0, 3.0) as usize
 }
 
-/// Writes the numbers, names and pattern lengths of the measurements, in columns of so many rows.
+/// Writes numbers, names and pattern lengths of the measurements, in columns of `rows`.
 fn legend(out: &mut String, style: &Style, sheet: V2, rows: usize) {
     let columns = style.measurements.len().div_ceil(rows).max(1) as f64;
     for (k, measurement) in style.measurements.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Reading of thousands of damaged files of every kind, always the same ones. No reader panics, hangs, or makes much
-//! out of little.
+//! Reading of thousands of damaged files of every kind, from a fixed seed. No reader panics, hangs, or makes much out
+//! of little.
 
 use super::draft::{Model, TshirtSize, tshirt};
 use super::features::Features;

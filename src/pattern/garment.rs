@@ -1,14 +1,14 @@
-//! A garment that is ready to sew: triangulated pieces in their own planes, seams as vertex pairs, measurement paths.
+//! A garment that is ready to sew: triangulated pieces in their planes, seams as vertex pairs, measurement paths.
 //!
-//! Every piece is drawn as seen from outside, with `v` up towards the neck, against the direction in which the garment
-//! hangs. Counter-clockwise triangles therefore face outwards once sewn.
+//! Every piece is drawn as seen from outside, with `v` up towards the neck. Counter-clockwise triangles therefore face
+//! outwards once sewn.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use geom::{V2, V3};
 
-/// Part of the garment that a piece is. It decides the placement about the body.
+/// Part of the garment that a piece is, which decides where the piece is placed about the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -42,7 +42,7 @@ pub enum Role {
     SkirtBack,
     /// Band round the waist.
     Waistband,
-    /// None of these, or not known.
+    /// None of these, or unknown.
     Other,
 }
 
@@ -124,8 +124,8 @@ pub struct SeamMesh {
 }
 
 impl SeamMesh {
-    /// Segments between neighbouring pairs: the two vertices on either side. Where one side passes a corner to its next
-    /// edge, the other may repeat its vertex or jump.
+    /// Segments between neighbouring pairs: two vertices on either side. Where one side passes a corner, the other may
+    /// repeat its vertex or jump.
     pub fn stitches(&self) -> impl Iterator<Item = [[usize; 2]; 2]> {
         self.pairs.windows(2).map(|ends| [0, 1].map(|side| [ends[0][side], ends[1][side]]))
     }
@@ -164,11 +164,11 @@ pub struct MaterialLine {
 }
 
 impl MaterialLine {
-    /// Length of the line, m, when the vertices are at `positions`. `rest` are their positions in the planes of the
+    /// Length of the line, m, when the vertices are at `positions`. `rest` are the vertices in the planes of the
     /// pieces.
     ///
-    /// The ratio of its arc on the drape to that in the flat mesh (`arcs`) is the stretch of a segment. It scales the
-    /// arc of the drawn curve, so an unstretched garment has its pattern length exactly, however coarse its mesh.
+    /// The sum of `arc_m` times the stretch of each segment, which is its arc on the drape divided by its arc in the
+    /// flat mesh (`arcs`). An unstretched garment therefore has its pattern length exactly, however coarse its mesh.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         let ways = |points: &[V3]| -> Vec<V3> { points.windows(2).map(|ends| ends[1] - ends[0]).collect() };
@@ -195,22 +195,20 @@ impl MaterialLine {
     }
 }
 
-/// Greatest excess of a squared arc over its squared chord, as a share of the squared rest length of the segment. The
-/// excess saturates towards it.
+/// Bound of the excess of a squared arc over its squared chord, as a share of the squared rest length. The excess e
+/// saturates as e / (1 + e / bound).
 const MOST_EXCESS: f64 = 0.1;
 
-/// Arc lengths, m, of a smooth line with the chord vectors `ways` from point to point. `steps` are the rest lengths of
-/// the segments, m.
+/// Arc lengths of the segments of a smooth line, m, with the chord vectors `ways` and the rest lengths `steps`, m.
 fn arcs(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     ways.iter().zip(excesses(ways, steps)).map(|(way, excess)| (way.norm_squared() + excess).sqrt()).collect()
 }
 
-/// Excess of the squared arcs of a smooth line over its squared chords, m2. `ways` are the chord vectors from point to
-/// point, `steps` the rest lengths of the segments, m.
+/// Excess of the squared arc of each segment of a smooth line over its squared chord, m2. `ways` are the chord vectors,
+/// `steps` the rest lengths of the segments, m.
 ///
-/// A chord of a circle is shorter than its arc: arc^2 - chord^2 = s^4 kappa^2 / 12 to leading order, for the arc length
-/// s and the curvature kappa. The curvature at a point is the finite difference of the chords to its neighbours. That
-/// of a segment is the mean of its ends.
+/// For an arc of length s and curvature kappa, arc^2 - chord^2 = s^4 kappa^2 / 12 to leading order. The curvature at a
+/// point is the finite difference of `way / step` on both sides. That of a segment is the mean of its ends.
 #[must_use]
 pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     let bend = |i: usize| {
@@ -252,26 +250,26 @@ pub struct Measurement {
     pub is_free_edge: bool,
     /// Pattern length L2D, m: the sum of all arcs.
     pub l2d_m: f64,
-    /// Lines on the mesh, whose lengths add up.
+    /// Lines on the mesh, whose lengths are summed.
     pub runs: Vec<MaterialLine>,
 }
 
 impl Measurement {
-    /// Length L3D, m, when the vertices are at `positions`. `rest` are their positions in the planes of the pieces.
+    /// Length L3D, m, when the vertices are at `positions`. `rest` are the vertices in the planes of the pieces.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
         self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
     }
 }
 
-/// Girth of the pattern at a body level, from the style's fit-reference measurement.
+/// Girth of the pattern at a body level, from the `fit` entry of the style.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FitLevel {
     /// Level of the body, such as `chest` or `hip`.
     pub level: String,
     /// Girth of the pattern at that level, m.
     pub girth_m: f64,
-    /// Lines on the mesh, whose lengths add up. Empty if the girth does not lie on the cloth throughout.
+    /// Lines on the mesh, whose lengths are summed. Empty if the path leaves the cloth somewhere.
     #[serde(default)]
     pub runs: Vec<MaterialLine>,
 }
@@ -284,7 +282,7 @@ pub enum Band {
     Rib,
     /// A tape sewn along the edge.
     Tape,
-    /// The edge turned over and sewn.
+    /// Edge turned over and sewn.
     Hem,
     /// A band round the waist.
     Waistband,
@@ -329,7 +327,7 @@ pub struct Garment {
     pub edge_length_m: f64,
 }
 
-/// A place on a piece, for messages.
+/// A point on a piece, for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
     /// Identifier of the piece.
@@ -345,7 +343,7 @@ impl std::fmt::Display for Spot {
 }
 
 impl Garment {
-    /// Place of some vertices: the piece that holds most of them, and their mean there. `None` without vertices.
+    /// Piece that holds most of some vertices, and the mean of their positions on it. `None` without vertices.
     #[must_use]
     pub fn spot(&self, vertices: &[usize]) -> Option<Spot> {
         let points_in = |piece: &PieceMesh| -> Vec<V2> {
@@ -356,7 +354,7 @@ impl Garment {
         Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
     }
 
-    /// Joins garments into one without sewing them to each other. Pieces, vertices and triangles keep their order.
+    /// Puts garments side by side as one, not sewn to each other. Pieces, vertices and triangles keep their order.
     #[must_use]
     pub fn beside(garments: &[&Self]) -> Self {
         let names: Vec<&str> = garments.iter().map(|garment| garment.name.as_str()).collect();
@@ -391,8 +389,8 @@ impl Garment {
         all
     }
 
-    /// Returns the garment with its vertices moved in the planes of their pieces. The arcs of measurements change as
-    /// their chords do.
+    /// Returns the garment with its vertices moved in the planes of their pieces. Arcs of measurements scale with their
+    /// chords.
     #[must_use]
     pub fn with_rest(&self, rest: Vec<V2>) -> Self {
         let redrawn = |line: &MaterialLine| line.redrawn(&self.rest, &rest);
@@ -410,8 +408,8 @@ impl Garment {
         Self { measurements, fit_levels, rest, ..self.clone() }
     }
 
-    /// Returns the garment without some of its pieces and without measurements, and for each of its vertices the index
-    /// in the original.
+    /// Returns the garment without some of its pieces and without measurements, and the original index of each of its
+    /// vertices.
     #[must_use]
     pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {
         let mut kept: Vec<usize> = Vec::new();

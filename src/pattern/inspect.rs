@@ -48,11 +48,11 @@ pub struct PieceReport {
     pub size: Option<String>,
     /// Quantity to cut, as written.
     pub quantity: Option<String>,
-    /// Length of the outline as drawn, mm, including what a repair cut away.
+    /// Length of the outline as drawn, mm, before any repair.
     pub perimeter_mm: f64,
     /// Area within the outline, mm2.
     pub area_mm2: f64,
-    /// True if the outline is closed. It always is: a piece with an open outline is refused.
+    /// True if the outline is closed. Always true, because a piece with an open outline is refused.
     pub closed: bool,
     /// True if the file draws the outline clockwise.
     pub clockwise: bool,

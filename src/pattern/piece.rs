@@ -5,7 +5,7 @@ use std::sync::Arc;
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
 
-/// A notch: a mark cut into the edge, by which seam partners are matched.
+/// Notch: a mark cut into the edge, matched with that of the seam partner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notch {
     /// Position on the outline.
@@ -16,10 +16,10 @@ pub struct Notch {
     pub angle_deg: Option<f64>,
 }
 
-/// A grade point: it moves by a rule of the grade rule table.
+/// Grade point: a point that a rule of the grade rule table moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradePoint {
-    /// Position, on the outline or near it.
+    /// Position, m, on the outline or near it.
     pub at: V2,
     /// Number of its grade rule.
     pub rule: u32,
@@ -32,9 +32,9 @@ pub struct GradePoint {
 pub struct Piece {
     /// Name of the block in the file.
     pub block: String,
-    /// `Piece Name` of the file, or the name of the block if none is given.
+    /// `Piece Name` of the file, or else the name of the block.
     pub name: String,
-    /// Context of the piece in its file.
+    /// Rest of the file that concerns this piece.
     pub beside: Beside,
     /// Size, if the piece or the file names one.
     pub size: Option<String>,
@@ -42,9 +42,10 @@ pub struct Piece {
     pub quantity: Option<String>,
     /// Other texts of the block as `(key, value)`. The key is empty for a text without one.
     pub texts: Vec<(String, String)>,
-    /// Closed outline, counter-clockwise, first vertex not repeated. It is the cut line if the file has a sew line too.
+    /// Closed outline, counter-clockwise, first vertex not repeated. The cut line, if there is a sew line too.
     pub outline: Vec<V2>,
-    /// Length of the outline as drawn, m, if the outline was repaired: loops and spikes are cut away.
+    /// Length of the outline as drawn, m, before loops and spikes were cut away. `None` if the outline was not
+    /// repaired.
     pub drawn_perimeter_m: Option<f64>,
     /// True if the file draws the outline clockwise.
     pub is_clockwise_in_file: bool,
@@ -58,8 +59,8 @@ pub struct Piece {
     pub grain: Option<[V2; 2]>,
     /// Mirror line (fold line) of a half piece.
     pub mirror_line: Option<[V2; 2]>,
-    /// Grade reference line, from its first to its second end. It is the x axis of the grade rules, which is horizontal
-    /// without such a line.
+    /// Grade reference line, from its first to its second end: the x axis of the grade rules. `None` for a horizontal x
+    /// axis.
     pub grade_reference: Option<[V2; 2]>,
     /// Points that the grade rule table moves.
     pub grade_points: Vec<GradePoint>,
@@ -69,14 +70,14 @@ pub struct Piece {
     pub cut_outs: Vec<Vec<V2>>,
     /// Centres of the drill holes.
     pub drill_holes: Vec<V2>,
-    /// Closed sew line inside the cut line.
+    /// Closed sew line inside the cut line. `None` if the file draws none.
     pub sew_line: Option<Vec<V2>>,
 }
 
-/// Context of a piece in its file.
+/// Rest of the file that concerns a piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beside {
-    /// Names of the garment and its sample size. Such words in the name of a piece do not describe the piece.
+    /// Names of the garment and of its sample size. As part of the name of a piece, they do not describe the piece.
     pub garment: Vec<String>,
     /// The piece in every size, from the smallest. Empty if the file holds one size.
     pub sizes: Arc<[Piece]>,
@@ -95,7 +96,7 @@ impl Piece {
         signed_area(&self.outline).abs()
     }
 
-    /// The line that is sewn: the sew line if there is one, otherwise the outline of a net piece.
+    /// Line that is sewn: the sew line, or the outline of a piece without one.
     #[must_use]
     pub fn seam_outline(&self) -> &[V2] {
         self.sew_line.as_deref().unwrap_or(&self.outline)

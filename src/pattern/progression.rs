@@ -1,7 +1,7 @@
 //! Lengths that break the grading progression of the sizes.
 //!
-//! A nest grows by grade steps, and each step resembles its neighbours. An outlier among the steps says that a corner
-//! was found at another place than in the size before, or that a size was drawn differently.
+//! The steps between neighbouring sizes of a nest resemble each other. An outlier among the steps means that a corner
+//! was found at a wrong place in one size, or that a size was drawn differently.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +9,18 @@ use crate::check::{Finding, FindingKind};
 use crate::style::Style;
 use geom::units::mm;
 
-/// Greatest regular ratio of a step to the greater of its two neighbours that have the same sign.
+/// Greatest regular ratio of a step to the greater of its neighbouring steps of the same sign.
 const GREATEST_RATIO: f64 = 3.0;
-/// Least step to compare with, m, for lengths that hardly grow. It is the tolerance for the sides of a seam.
+/// Least step to compare with, m, for lengths that hardly grow: the tolerance on both sides of a seam.
 const LEAST_STEP_M: f64 = 1e-3;
-/// Number of sizes from which a step is judged by its neighbours alone. Of two steps either may be the outlier.
+/// Number of sizes from which steps alone tell an outlier. With three sizes there are two steps, and either may be the
+/// outlier.
 const MANY_SIZES: usize = 4;
-/// Least share of its step that a neighbouring edge must lose, for the corner between them to count as slipped.
+/// Least share of the step of an edge that a neighbouring edge must lose for the corner between them to count as
+/// slipped.
 const PASSED_ON: f64 = 0.5;
 
-/// An outlier among the grade steps of a length.
+/// Outlier among the grade steps of a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leap {
     /// Name of the point of measure, or `piece.edge`.
@@ -27,12 +29,12 @@ pub struct Leap {
     pub sizes: [usize; 2],
     /// Length in both sizes, m.
     pub lengths_m: [f64; 2],
-    /// Ratio of the step to the greater of its neighbours.
+    /// Ratio of the step to the greater of its neighbouring steps of the same sign.
     pub ratio: f64,
 }
 
 impl Leap {
-    /// Text for messages with the length in both sizes.
+    /// Length in both sizes, for messages.
     #[must_use]
     pub fn told(&self) -> String {
         let [before_mm, after_mm] = self.lengths_m.map(mm);
@@ -52,7 +54,7 @@ impl Leap {
 }
 
 /// Outliers among the grade steps of the points of measure and edges of a style, the greatest ratio first. `sizes` go
-/// from the smallest. With three sizes only edges count between which a corner slips: one gains what its neighbour
+/// from the smallest. With three sizes, only edges count at which a corner slips: one edge gains what its neighbour
 /// loses.
 #[must_use]
 pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
@@ -78,7 +80,7 @@ pub fn leaps(sizes: &[&Style]) -> Vec<Leap> {
     found
 }
 
-/// True if a neighbouring edge loses what the edge gains.
+/// True if a neighbouring edge loses what the edge of the leap gains.
 fn slips(sizes: &[&Style], leap: &Leap) -> bool {
     let Some((id, edge)) = leap.length.split_once('.') else { return false };
     let edges = leap.sizes.map(|size| sizes[size].pieces.iter().find(|piece| piece.id == id).map(|piece| &piece.edges));
@@ -96,7 +98,8 @@ fn leaps_of(name: &str, lengths_m: &[Option<f64>]) -> Vec<Leap> {
     let known: Vec<(usize, f64)> =
         lengths_m.iter().enumerate().filter_map(|(size, length_m)| Some((size, (*length_m)?))).collect();
     let steps: Vec<f64> = known.windows(2).map(|pair| pair[1].1 - pair[0].1).collect();
-    // A length that leaps in one size leaps back in the next. Only steps of the same sign are therefore comparable.
+    // After a length that is wrong in one size, the next step goes the other way. So only steps of the same sign are
+    // compared.
     let ratio = |k: usize| {
         let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|other| steps.get(other));
         let same_way = beside.map(|other| other * steps[k].signum()).fold(LEAST_STEP_M, f64::max);

@@ -1,9 +1,9 @@
-//! Check of the unit by the size of the pieces: a wrong unit makes them a doll's or a giant's.
+//! Check of the unit by the size of the pieces: in a wrong unit they would fit a doll or a giant.
 
 use super::dxf::Unit;
 use geom::V2;
 
-/// Accepted length of the longest piece of a garment, m. A collar by itself has 0.3, the train of a wedding dress 4.
+/// Accepted length of the longest piece of a garment, m. A collar alone has 0.3, the train of a wedding dress 4.
 const WORN_M: std::ops::RangeInclusive<f64> = 0.08..=6.0;
 /// Length of the longest piece of most garments, m.
 const USUAL_M: std::ops::RangeInclusive<f64> = 0.2..=3.0;
@@ -16,8 +16,8 @@ pub fn extent_m(outline: &[V2]) -> f64 {
     if outline.is_empty() { 0.0 } else { (high - low).max() }
 }
 
-/// Objection to the unit, given the length of the longest piece, with the units that would fit. `None` if a person
-/// could wear it.
+/// Objection to a unit in which the longest piece is `longest_m` long, with the units that would fit. `None` if a
+/// person could wear it.
 #[must_use]
 pub fn doubt(longest_m: f64, unit: Unit) -> Option<String> {
     if WORN_M.contains(&longest_m) {

@@ -1,7 +1,7 @@
-//! Edits of a seam file that leave the rest of its text as it is, comments included.
+//! Edits of a seam file that keep the rest of its text, comments included.
 //!
-//! Edges are named as in the file (`front.side_left`), by the number that the drawing shows (`front.3`), or by their
-//! corners (`front.3-5`, counter-clockwise as drawn). An edge without a name is given one. A side of several edges is
+//! An edge is named as in the file (`front.side_left`), by the number in the drawing (`front.3`), or by its corners
+//! (`front.3-5`, counter-clockwise as drawn). An edge that has no name in the file gets one. A side of several edges is
 //! written with `+`, in order along the seam.
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
@@ -22,9 +22,9 @@ pub enum Edit {
         a: String,
         /// Edges of the other side.
         b: String,
-        /// Name of the seam. Without one it is made of the first edge.
+        /// Name of the seam. `None` for a name made of the first edge.
         name: Option<String>,
-        /// True if a difference of their lengths is intended. It is then written as ease.
+        /// True if the sides differ in length on purpose. The difference is then written as ease.
         is_eased: bool,
     },
     /// Removes the seam between two edges.
@@ -51,11 +51,11 @@ pub enum Edit {
         /// Identifier of the piece that is left out.
         piece: String,
     },
-    /// Adds a drawn piece that the file leaves out. Its role is set by another edit.
+    /// Adds a drawn piece that the file leaves out. [`Edit::Role`] sets its role.
     TakeIn {
         /// The piece, by its name or its block.
         drawn: String,
-        /// True if it is worn twice, right and left, the second time mirrored.
+        /// True if the piece is worn twice, right and left, the second time mirrored.
         is_pair: bool,
     },
     /// Sets the role of a piece.
@@ -67,7 +67,7 @@ pub enum Edit {
     },
 }
 
-/// Sizes that share one seam file: the one that is edited, and the others with their pieces.
+/// Sizes that share one seam file: the edited one, and the others.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes<'a> {
     /// Name of the size that is edited.
@@ -116,7 +116,7 @@ pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<
     Ok(text)
 }
 
-/// Entries for the edges between neighbouring corners of an outline with so many corners.
+/// Entries for the edges between neighbouring corners of an outline, with `corners` of them.
 fn edges_between(corners: usize) -> InlineTable {
     let edge = |k: usize| {
         let (from, to) = (k as i64, ((k + 1) % corners) as i64);
@@ -138,7 +138,7 @@ impl Editor<'_> {
         StyleError::Contradiction { file: self.file.to_owned(), place, found, accepted }
     }
 
-    /// The list of seams of the document. It is created if missing.
+    /// List of seams of the document, created if missing.
     fn seams(&mut self) -> Result<&mut ArrayOfTables, StyleError> {
         let refused = self.refused("seam", "a list in one line".to_owned(), "[[seam]] tables");
         let seams = self.document.entry("seam").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
@@ -158,7 +158,7 @@ impl Editor<'_> {
         let name = name.map_or_else(|| self.free_name(&a[0]), str::to_owned);
         let mut all = vec![(sizes.name.to_owned(), own)];
         for (size, pieces) in sizes.others {
-            // A size that the file does not fit anyway is reported by the check.
+            // A size that the file does not fit already is left to the check of the seam file.
             all.extend(self.sides_in(pieces, [&a, &b]).map(|sides| (size.clone(), sides)));
         }
         let ease = self.ease(&name, &all, is_eased)?;
@@ -174,7 +174,7 @@ impl Editor<'_> {
         Ok(())
     }
 
-    /// Lengths of two sides, mm, measured on the pieces of a size. `None` if the file as it is now does not fit them.
+    /// Lengths of two sides on the pieces of a size, mm. `None` if the present file does not fit these pieces.
     fn sides_in(&self, pieces: &[Piece], sides: [&[String]; 2]) -> Option<[f64; 2]> {
         let mut entries = SeamFile::parse(self.document.to_string().as_bytes(), self.file).ok()?;
         entries.length_tolerance_mm = f64::INFINITY;
@@ -189,8 +189,8 @@ impl Editor<'_> {
         Some([a?, b?])
     }
 
-    /// Value of `ease_mm` for a seam. `all` has the lengths of both sides by size, mm, that of the edited size first.
-    /// `None` if both sides are equal in all sizes.
+    /// Value of `ease_mm` for a seam. `all` has the lengths of both sides in each size, mm, the edited size first.
+    /// `None` if both sides are equally long in all sizes.
     fn ease(&self, name: &str, all: &[(String, [f64; 2])], is_eased: bool) -> Result<Option<Value>, StyleError> {
         let tolerance_mm = self.entries.length_tolerance_mm;
         let own = all.first().map_or(1.0, |(_, [a_mm, b_mm])| a_mm / b_mm);
@@ -305,7 +305,7 @@ impl Editor<'_> {
         Err(self.unknown("piece", piece, &ids.join(", ")))
     }
 
-    /// Unused name for a seam that begins at an edge.
+    /// Unused name for a seam, made of the name of its first edge.
     fn free_name(&self, edge: &str) -> String {
         let base = edge.replace('.', "_");
         let is_free = |name: &String| !self.entries.seam.iter().any(|seam| seam.name == *name);
@@ -313,12 +313,12 @@ impl Editor<'_> {
         std::iter::once(base.clone()).chain(numbered).find(is_free).unwrap_or(base)
     }
 
-    /// Names and lengths, mm, of the edges of a side. Edges without a name are given one in the document.
+    /// Names and lengths, mm, of the edges of a side. An edge without a name gets one in the document.
     fn side(&mut self, side: &str) -> Result<Vec<(String, f64)>, StyleError> {
         side.split('+').map(|edge| self.edge(edge.trim())).collect()
     }
 
-    /// Name and length, mm, of an edge. An edge without a name is given one in the document.
+    /// Name and length, mm, of an edge. An edge without a name gets one in the document.
     fn edge(&mut self, text: &str) -> Result<(String, f64), StyleError> {
         let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
         let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else {
@@ -379,7 +379,7 @@ impl Editor<'_> {
         (0..steps).map(|k| mm((outline[(first + k + 1) % n] - outline[(first + k) % n]).norm())).sum()
     }
 
-    /// Corners, counter-clockwise as drawn, of an unnamed edge between two named ones.
+    /// Corners of the unnamed edge `index`, counter-clockwise as drawn.
     fn unnamed_corners(&self, piece: &str, index: usize) -> [usize; 2] {
         let edges = &self.style.pieces.iter().find(|drawn| drawn.id == piece).map_or(&[][..], |drawn| &drawn.edges);
         let n = edges.len();
@@ -391,7 +391,7 @@ impl Editor<'_> {
         if self.entries.piece[piece].mirror { [after[1], before[0]] } else { [before[1], after[0]] }
     }
 
-    /// Adds a name for the outline between two corners to the document.
+    /// Adds an edge between two corners to the document, and returns its name.
     fn named(&mut self, piece: &str, [from, to]: [usize; 2]) -> String {
         let name = format!("edge_{from}_{to}");
         let mut corners = Array::new();

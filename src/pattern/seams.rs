@@ -4,10 +4,10 @@
 //! example.
 //!
 //! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn. Corner 0
-//! is the first turn point in the file. If a file has no usable turn points, corners are the vertices at which the
-//! outline turns by 30 degrees or more, from its first vertex on. Sizes may differ in their turn points and angles. An
-//! entry with `corners_at` has corners of its own that its edges count. Each is found on the outline of a size by its
-//! relative position.
+//! is the first turn point in the file. Without usable turn points, corners are the vertices at which the outline turns
+//! by 30 degrees or more, from its first vertex on. As sizes may differ in turn points and angles, an entry may list
+//! its corners in `corners_at`: its edges refer to these, and each is found on the outline of a size by its relative
+//! position.
 //!
 //! **Directions.** Pieces are drawn as seen from outside, so every edge runs counter-clockwise round its piece *as
 //! worn*. The edges of a mirrored piece are reversed. The two sides of a seam therefore run against each other: `a` is
@@ -27,29 +27,29 @@ pub enum StyleError {
     /// The seam file is not valid TOML of the expected form.
     #[error("{file}: not a seam file: {reason}")]
     Syntax {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Message of the TOML reader, with the line.
         reason: String,
     },
-    /// A name that does not exist.
+    /// A name refers to nothing.
     #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
     Unknown {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,
-        /// Kind of the named thing.
+        /// Kind of thing that the name should refer to.
         what: &'static str,
-        /// Name that the entry has.
+        /// Name in the entry.
         found: String,
         /// Names that exist.
         accepted: String,
     },
-    /// An entry that contradicts the pieces or another entry.
+    /// An entry contradicts the pieces or another entry.
     #[error("{file}: {place}: {found}; accepted: {accepted}")]
     Contradiction {
-        /// Name of the seam file, for the message.
+        /// Name of the seam file.
         file: String,
         /// Entry of the seam file.
         place: String,
@@ -60,7 +60,7 @@ pub enum StyleError {
     },
 }
 
-/// Default of the greatest difference of length between both sides of a seam, mm.
+/// Default of the greatest accepted length difference between both sides of a seam, mm.
 pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 
 /// A seam file.
@@ -72,7 +72,7 @@ pub struct SeamFile {
     /// Size that the file was made on, if it holds for several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Greatest difference of length between both sides of a seam, mm.
+    /// Greatest accepted length difference between both sides of a seam, besides ease, mm.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
     /// Seam allowance of pieces for which the pattern file has only the cut line, mm.
@@ -81,7 +81,7 @@ pub struct SeamFile {
     /// Edges, `piece.edge`, that are in no seam on purpose. Edges with a measurement along them need no entry.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub open: Vec<String>,
-    /// Pieces by identifier. There is none in a file that only measures a pattern with seams of its own.
+    /// Pieces by identifier. Empty in a file that only adds measurements to a pattern with seams.
     #[serde(default)]
     pub piece: BTreeMap<String, PieceEntry>,
     /// Seams between edges.
@@ -130,20 +130,20 @@ pub struct PieceEntry {
     /// True if the piece is worn as the mirror image of the drawing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub mirror: bool,
-    /// Corners, counter-clockwise, as shares of the width and height of the piece as drawn, on the size that the file
-    /// was made on. Without entries, each size has its own corners.
+    /// Corners, counter-clockwise, as shares of the width and height of the piece as drawn, in the size that the file
+    /// was made on. If empty, each size has the corners of its outline.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub corners_at: Vec<[f64; 2]>,
-    /// Seam allowances of single edges, by name, mm, if they differ from that of the file.
+    /// Seam allowances by edge, mm, where they differ from that of the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub allowance_mm: BTreeMap<String, f64>,
     /// Edges by name, as first and last corner, counter-clockwise as drawn.
     pub edges: BTreeMap<String, [usize; 2]>,
 }
 
-/// Difference between sizes, in the ratio of both sides of a seam, from which the user is asked.
+/// Relative difference between sizes, in the length ratio of both sides of a seam, from which the user is asked.
 pub(crate) const RATIO_DOUBT: f64 = 0.05;
-/// Share of the length tolerance within which the ease of all sizes counts as equal.
+/// Difference up to which the eases of sizes count as equal, as a share of the length tolerance.
 pub(crate) const SAME_EASE: f64 = 0.5;
 
 /// A seam between two chains of edges.
@@ -164,13 +164,13 @@ pub struct SeamEntry {
     pub ease_mm: Ease,
 }
 
-/// Ease of a seam, mm: length of one side minus that of the other.
+/// Ease of a seam, mm: length of `a` minus length of `b`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Ease {
     /// Equal in every size.
     Same(f64),
-    /// Different by size, with its name as key.
+    /// Different by size, by the name of the size.
     BySize(BTreeMap<String, f64>),
 }
 
@@ -181,13 +181,13 @@ impl Default for Ease {
 }
 
 impl Ease {
-    /// True if the sides are equally long in every size.
+    /// True if the ease is zero in every size.
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Ease of a size, mm. Its name matches in upper and lower case. `None` for a size without an entry.
+    /// Ease of a size, mm, whose name matches in upper or lower case. `None` for a size without an entry.
     #[must_use]
     pub fn of_size(&self, size: &str) -> Option<f64> {
         match self {

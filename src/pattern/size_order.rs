@@ -1,7 +1,7 @@
 //! Order of sizes by their names, from the smallest to the largest.
 
-/// Sorts by the name of the size, stably. Sizes are ranked by their number, or by their letters (XXS, 2XL); a double
-/// size (S/M) is ranked by its first. Other names come last.
+/// Sorts by the names of sizes, stably: by their number, or by their letters (XXS, 2XL). A double size (S/M) counts as
+/// its first. Other names come last.
 pub fn sort<T>(sized: &mut [T], name: impl Fn(&T) -> &str) {
     sized.sort_by(|a, b| rank(name(a)).total_cmp(&rank(name(b))));
 }
@@ -13,7 +13,7 @@ fn rank(size: &str) -> f64 {
     letters(first).or_else(|| leading_number(&size)).unwrap_or(f64::INFINITY)
 }
 
-/// Rank of a letter size: 0 for M, one step for S or L, and another for each X.
+/// Rank of a letter size: 0 for M, one step for S or L, one more for each X.
 fn letters(size: &str) -> Option<f64> {
     let stem = size.trim_end_matches(['S', 'M', 'L']);
     let extra = match stem.strip_suffix('X') {
@@ -30,7 +30,7 @@ fn letters(size: &str) -> Option<f64> {
     }
 }
 
-/// Number that a size begins with, including its fraction as in `34 1/2`.
+/// Number at the beginning of a size, with its fraction as in `34 1/2`.
 fn leading_number(size: &str) -> Option<f64> {
     let digits = size.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(size.len());
     let number: f64 = size[..digits].parse().ok()?;

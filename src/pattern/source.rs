@@ -7,13 +7,13 @@ use super::garmentcode::{self, GarmentCodeError, Specification};
 /// Error of reading a pattern file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SourceError {
-    /// A file that is DXF, or taken for DXF, cannot be read.
+    /// DXF, or a file of unknown kind that is read as DXF, is faulty.
     #[error(transparent)]
     Dxf(#[from] DxfError),
-    /// A GarmentCode specification cannot be read.
+    /// GarmentCode specification is faulty.
     #[error(transparent)]
     GarmentCode(#[from] GarmentCodeError),
-    /// A file of pattern features cannot be read.
+    /// File of pattern features is faulty.
     #[error(transparent)]
     Features(#[from] FeaturesError),
 }
@@ -40,8 +40,8 @@ pub fn kind(bytes: &[u8]) -> Kind {
     }
 }
 
-/// True if a JSON file is a pattern: features, or panels as GarmentCode writes them. Patterns often lie beside JSON
-/// files of other kinds.
+/// True if a JSON file is a pattern: features, or panels as GarmentCode writes them. JSON files of other kinds often
+/// lie beside patterns.
 #[must_use]
 pub fn is_json_pattern(bytes: &[u8]) -> bool {
     #[derive(serde::Deserialize)]
@@ -97,7 +97,7 @@ impl From<Specification> for PatternFile {
         Self {
             file: specification.file,
             format: "GarmentCode JSON".to_owned(),
-            // The coordinates are metres already. The unit tells which one the file used.
+            // The coordinates are in metres already. The unit only reports that of the file.
             unit: if specification.mm_per_unit == 10.0 { Unit::Cm } else { Unit::Mm },
             unit_source: UnitSource::File,
             texts: Vec::new(),

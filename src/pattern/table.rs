@@ -1,13 +1,13 @@
-//! Tables as text (CSV): rows with their line numbers, and cells that no spreadsheet takes for formulas.
+//! Tables as text (CSV), with line numbers, and with cells that no spreadsheet takes for formulas.
 //!
-//! A spreadsheet takes a cell that begins with `=`, `+`, `-` or `@` for a formula, unless it is a number. Such a text
-//! is written with an apostrophe before it. The readers of Toile remove that apostrophe again.
+//! A spreadsheet takes a text that begins with `=`, `+`, `-` or `@` for a formula. Such a text is written with an
+//! apostrophe before it, which the readers of Toile remove.
 
 use std::borrow::Cow;
 
 use csv::{ReaderBuilder, Trim};
 
-/// Possible column delimiters. The last one is used if none can be told.
+/// Possible column delimiters. The last one if none occurs.
 const DELIMITERS: [char; 3] = [';', '\t', ','];
 /// First characters of formulas.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
@@ -15,9 +15,9 @@ const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Line of the file in which it begins, from 1.
+    /// Line of the file at which the row begins, from 1.
     pub line: usize,
-    /// Its cells, without spaces at their ends.
+    /// Cells, without spaces at their ends.
     pub cells: Vec<String>,
 }
 
@@ -33,8 +33,8 @@ pub fn text(bytes: &[u8]) -> Result<&str, usize> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// Parses the rows of a table. Its columns are divided by commas, semicolons or tabs, with any kind of line end. Rows
-/// without text are left out, and rows may differ in their number of cells.
+/// Rows of a table with columns divided by commas, semicolons or tabs, and any kind of line end. Rows without text are
+/// left out, and rows may differ in their number of cells.
 #[must_use]
 pub fn rows(text: &str) -> Vec<Row> {
     let mut reader = ReaderBuilder::new()
@@ -45,7 +45,7 @@ pub fn rows(text: &str) -> Vec<Row> {
         .from_reader(text.as_bytes());
     let mut lines = Lines::default();
     let mut rows = Vec::new();
-    // Reading text from memory, with rows of any length, cannot fail.
+    // Cannot fail: the text is in memory, and rows may have any length.
     for record in reader.records().map_while(Result::ok) {
         let from = record.position().map_or(0, |position| position.byte() as usize);
         // The CSV reader counts the line ends before a record as part of it.
@@ -74,7 +74,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// Line number of a byte, from 1. Calls go from the beginning to the end.
+    /// Line number of a byte, from 1. Successive calls must not go backwards.
     fn to(&mut self, bytes: &[u8], at: usize) -> usize {
         while self.at < at {
             let is_end = match bytes[self.at] {
@@ -88,7 +88,7 @@ impl Lines {
     }
 }
 
-/// Text of a cell that no spreadsheet takes for a formula.
+/// Text of a cell, changed so that no spreadsheet takes it for a formula.
 #[must_use]
 pub fn guarded(text: &str) -> Cow<'_, str> {
     let is_plain = !begins_as_formula(text.trim_start_matches('\'')) || is_number(text);

@@ -3,7 +3,7 @@
 use super::piece::{Notch, Piece};
 use geom::V2;
 
-/// Distance within which a vertex lies on the fold line, m.
+/// Distance below which a vertex counts as on the fold line, m.
 const ON_FOLD_M: f64 = 0.1e-3;
 /// Turning angle of the unfolded outline, degrees, below which an end of the mirror line is no corner.
 const CORNER_TURN_DEG: f64 = 10.0;
@@ -29,7 +29,7 @@ impl Fold {
         self.from + self.along * (2.0 * self.along.dot(&offset)) - offset
     }
 
-    /// Joins both halves of a closed outline. `None` if no side of it lies along the mirror line.
+    /// Joins both halves of a closed outline. `None` if no side of the outline lies along the mirror line.
     fn opened(&self, outline: &[V2]) -> Option<Vec<V2>> {
         let n = outline.len();
         let is_on = |i: usize| self.distance(&outline[i % n]) < ON_FOLD_M;
@@ -48,8 +48,8 @@ impl Fold {
 }
 
 impl Piece {
-    /// Returns the whole piece if this one is a half piece, of which the mirror line (layer 6) is a side. `None` for a
-    /// piece that is whole.
+    /// Returns the whole piece of a half piece, which has the mirror line (layer 6) as a side. `None` for a piece that
+    /// is whole already.
     ///
     /// Points, notches and lines are mirrored too. An end of the mirror line stays a turn point only if the unfolded
     /// outline turns there.
@@ -98,7 +98,7 @@ impl Piece {
     }
 }
 
-/// Turning angle of an outline at a vertex, degrees. It is 180 if the point is no vertex.
+/// Turning angle of an outline at a vertex, degrees. 180 for a point that is no vertex.
 fn turn_deg(outline: &[V2], point: &V2) -> f64 {
     let n = outline.len();
     match (0..n).find(|&i| (outline[i] - point).norm() < ON_FOLD_M) {

@@ -1,4 +1,4 @@
-//! Alignment of a body of any orientation with the world frame: upright, facing `y`, its median plane at `x = 0`.
+//! Alignment of a body of any orientation with the world frame: upright, facing `y`, median plane at `x = 0`.
 
 use crate::measure::tape;
 use crate::repair::clean::principal_axes;
@@ -11,32 +11,32 @@ use std::borrow::Cow;
 /// Judgement.
 const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Least lean of a body that is corrected, radians: from the upright axis of its file, and where the file has none.
-/// Then the greatest lean after righting by the soles. A body beyond it does not stand on its soles (raised heels).
-/// Judgement.
+/// Least lean of a body that is corrected, radians: from the upright axis of its file, or if there is none. Then the
+/// greatest lean that righting by the soles may leave: a body that leans more does not stand on its soles (raised
+/// heels). Judgement.
 const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
 const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// Difference of the lengths of the legs over stature from which on one of them counts as cut off. Judgement.
+/// Length difference of the legs from which one of them counts as cut off, as a share of stature. Judgement.
 const UNEVEN: f64 = 0.02;
 
-/// Height of the soles' zone above the lowest point, over stature. Judgement.
+/// Height of the zone of the soles above the lowest point, as a share of stature. Judgement.
 const SOLE_ZONE: f64 = 0.025;
 
-/// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions.
-/// Judgement.
+/// Number of horizontal slabs by which the symmetry is measured, and of directions of their support functions: every
+/// half degree.
 const SLABS: usize = 24;
 const DIRECTIONS: usize = 720;
 
-/// Least turn (radians) and shift (share of stature) of a body that is corrected. Judgement.
+/// Least turn (radians) and shift (share of stature) that is corrected. Judgement.
 const TURNED: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const SHIFTED: f64 = 0.004;
 
-/// Greatest root mean square difference of left and right over stature in a symmetric body. Judgement.
+/// Greatest root mean square difference between left and right of a symmetric body, as a share of stature. Judgement.
 const SYMMETRIC: f64 = 0.02;
 
-/// Turns the mesh so that its long axis points up and its legs are below. Returns true if it stands along an axis of
-/// its file.
+/// Turns the mesh so that its long axis points up, with the legs below. Returns true if the body stands along an axis
+/// of its file.
 pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return true };
     let leaning = |axis: &V3| long.dot(axis).abs().clamp(0.0, 1.0).acos();
@@ -44,7 +44,7 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     let nearest = frame.iter().position(|axis| leaning(axis) < SNAP);
     match nearest {
         Some(0) => {}
-        // In most animation software z points to the front, and x to the subject's left.
+        // In most animation software z points to the front and x to the subject's left.
         Some(1) => {
             turn_all(mesh, |p| V3::new(-p.x, p.z, p.y));
             notes.push("taken as y up, z to the front (the greatest extent is along y)".to_owned());
@@ -68,7 +68,7 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
     nearest.is_some()
 }
 
-/// Rights a body that already faces front or back: its long axis must not lean sideways, and its soles must be level.
+/// Rights a body that faces front or back: its long axis must not lean sideways, and its soles must be level.
 pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<String>) {
     let Some((_, [long, ..])) = principal_axes(mesh, &on_both_sides(mesh)) else { return };
     let long = if long.z < 0.0 { -long } else { long };
@@ -86,8 +86,8 @@ pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<S
     }
 }
 
-/// Triangles of a mesh without those of one leg below the end of the other. A leg that is cut off would make the body
-/// lean.
+/// Triangles of a mesh without the part of one leg below the end of the other: a leg that is cut off would make the
+/// body lean.
 fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     let Some((low, high)) = mesh.bounds() else { return Cow::Borrowed(&mesh.triangles) };
     let middle = (low.x + high.x) / 2.0;
@@ -103,7 +103,8 @@ fn on_both_sides(mesh: &TriMesh) -> Cow<'_, [[usize; 3]]> {
     Cow::Owned(mesh.triangles.iter().filter(is_above).copied().collect())
 }
 
-/// Slope of the soles from back to front, radians: that of the hull's lower edge below the middle of the feet.
+/// Slope of the soles from back to front, radians: that of the lower edge of the hull below the middle of the feet.
+/// `None` without a sole.
 fn sole_slope(mesh: &TriMesh) -> Option<f64> {
     let (low, high) = mesh.bounds()?;
     let ceiling = low.z + SOLE_ZONE * (high.z - low.z);
@@ -121,7 +122,7 @@ fn turn_all(mesh: &mut TriMesh, turn: impl Fn(&V3) -> V3) {
     mesh.positions.iter_mut().for_each(|p| *p = turn(p));
 }
 
-/// True if the two legs are at the upper end and the trunk at the lower.
+/// True if the legs are at the upper end and the trunk at the lower end.
 fn stands_on_head(mesh: &TriMesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let stature = high.z - low.z;
@@ -133,7 +134,7 @@ fn stands_on_head(mesh: &TriMesh) -> bool {
     legs([0.78, 0.82, 0.86]) && !legs([0.14, 0.18, 0.22])
 }
 
-/// Turns an upright mesh about the vertical so that its plane of symmetry becomes the median plane, if it has one.
+/// Turns an upright mesh about the vertical so that its plane of symmetry, if there is one, becomes the median plane.
 pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     let Some((low, high)) = mesh.bounds() else { return };
     let stature = high.z - low.z;
@@ -141,7 +142,7 @@ pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     if symmetry.difference > SYMMETRIC * stature {
         return;
     }
-    // The plane has two sides. The smaller turn is taken, and the feet decide later.
+    // The plane has two directions. The smaller turn is taken, and the feet decide later.
     let turn = symmetry.front.rem_euclid(std::f64::consts::PI) - std::f64::consts::FRAC_PI_2;
     let turned = turn.abs() > TURNED;
     let rotation = Rotation2::new(if turned { -turn } else { 0.0 });
@@ -161,19 +162,19 @@ pub(super) fn face_front(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     }
 }
 
-/// The plane of symmetry of an upright body.
+/// Plane of symmetry of an upright body.
 struct Symmetry {
-    /// Direction of the plane's trace, radians from `x`.
+    /// Direction of the trace of the plane, radians from `x`.
     front: f64,
-    /// A point of the plane.
+    /// Point of the plane.
     point: V2,
-    /// Root mean square difference between both sides, in the mesh's unit.
+    /// Root mean square difference between both sides, in the unit of the mesh.
     difference: f64,
 }
 
 impl Symmetry {
-    /// Compares the support functions of horizontal slabs with their mirror images for every direction of the plane.
-    /// The best direction is interpolated by a parabola.
+    /// Compares the support functions of horizontal slabs with their mirror images for every direction of the plane,
+    /// and interpolates the best direction by a parabola.
     fn find(mesh: &TriMesh, floor: f64, stature: f64) -> Option<Self> {
         let centre = mesh.positions.iter().map(V3::xy).sum::<V2>() / mesh.positions.len().max(1) as f64;
         let slabs: Vec<Vec<f64>> =
@@ -186,8 +187,8 @@ impl Symmetry {
             let side = (i + DIRECTIONS / 4) % DIRECTIONS;
             slabs.iter().map(|slab| slab[side] + slab[(side + DIRECTIONS / 2) % DIRECTIONS]).sum::<f64>()
         };
-        // A body is also nearly symmetric from front to back. Of the two planes, the body is wide across the one
-        // sought.
+        // A body is also nearly symmetric from front to back. Of the two planes, the one across which the body is wide
+        // is the median plane.
         let least = (0..tried.len())
             .min_by(|&i, &j| (tried[i].difference / wide(i)).total_cmp(&(tried[j].difference / wide(j))))?;
         let squared = |i: usize| tried[i % tried.len()].difference.powi(2);
@@ -200,7 +201,8 @@ impl Symmetry {
     }
 }
 
-/// Support function of one slab's vertices about `centre`: the distance of the tangent in every direction.
+/// Support function of the vertices of a slab about `centre`: distance of the tangent in every direction. `None` for a
+/// slab with too few vertices.
 fn support(mesh: &TriMesh, floor: f64, height: f64, slab: usize, centre: V2) -> Option<Vec<f64>> {
     let within = |p: &&V3| ((p.z - floor) / height).floor() as usize == slab;
     let points: Vec<V2> = mesh.positions.iter().filter(within).map(|p| p.xy() - centre).collect();
@@ -221,7 +223,7 @@ struct Asymmetry {
     offset: f64,
 }
 
-/// Asymmetry of the slabs about the plane in the direction `front`, at the offset of the least difference.
+/// Asymmetry of the slabs about the plane in the direction `front`, at the offset with the least difference.
 fn asymmetry(slabs: &[Vec<f64>], front: usize) -> Asymmetry {
     const STEP: usize = 8;
     let turns = (STEP..DIRECTIONS / 2).step_by(STEP);
@@ -237,7 +239,7 @@ fn asymmetry(slabs: &[Vec<f64>], front: usize) -> Asymmetry {
     Asymmetry { difference: (squares.sum::<f64>() / both().count() as f64).sqrt(), offset }
 }
 
-/// True if the feet point backwards: their middle lies behind that of the ankles.
+/// True if the feet point backwards: their middle is behind that of the ankles.
 pub(super) fn looks_back(mesh: &TriMesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let stature = high.z - low.z;

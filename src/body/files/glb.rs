@@ -1,6 +1,6 @@
 //! Binary glTF (`.glb`) [Khronos 2021]: the triangles of all meshes of the scene, placed by their nodes.
 //!
-//! It is read without the crate `gltf`, which panics on an index that is out of range.
+//! It is read without the crate `gltf`, which panics on an index out of range.
 
 use super::{MOST_TRIANGLES, file_error, merge_equal_vertices, too_many};
 use crate::BodyError;
@@ -10,9 +10,9 @@ use serde::Deserialize;
 
 /// First bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
-/// Greatest depth of a node. A deeper one belongs to a cycle.
+/// Greatest depth of a node. A greater one means a cycle.
 const DEEPEST: usize = 64;
-/// Greatest number of nodes that are visited. More are one node visited again and again.
+/// Greatest number of visited nodes. A greater one means that nodes are visited again and again.
 const MOST_PLACED: usize = 10_000;
 /// Mode of a primitive of triangles.
 const TRIANGLES: u32 = 4;
@@ -86,7 +86,7 @@ struct View {
     byte_stride: Option<usize>,
 }
 
-/// Reads the mesh of a file. A vertex is stored once for each chart of a texture, so vertices of equal position are
+/// Reads the mesh of a file. A vertex occurs once for each chart of a texture, so vertices of equal position are
 /// merged.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let (json, data) = chunks(bytes).ok_or_else(|| refused("its chunks are cut off"))?;
@@ -124,7 +124,7 @@ fn refused(problem: &str) -> BodyError {
     file_error("GLB", "whole file", problem)
 }
 
-/// The JSON of a file and its data.
+/// JSON and binary data of a file.
 fn chunks(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let number = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?) as usize);
     let end = 20_usize.checked_add(number(12)?)?;
@@ -134,7 +134,7 @@ fn chunks(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 impl Node {
-    /// Transform of its mesh and its children.
+    /// Transform of the mesh and children of the node.
     fn place(&self) -> Matrix4<f64> {
         if let Some(matrix) = self.matrix {
             return Matrix4::from_column_slice(&matrix);
@@ -191,7 +191,7 @@ impl Document {
         Ok(())
     }
 
-    /// Items of an accessor, of so many bytes each. `None` where they are not in the file.
+    /// Items of an accessor, each of a number of bytes. `None` if they are not in the file.
     fn items<'d>(
         &self,
         accessor: &Accessor,

@@ -1,7 +1,7 @@
 //! Import of bodies from OBJ, PLY, STL and GLB in any unit and orientation, and export to OBJ.
 //!
-//! Importers take bytes. The unit is given or inferred from the height; the upright axis is inferred from the extents.
-//! Both are stated in the notes.
+//! Importers take bytes. The unit is given or inferred from the height, the upright axis is inferred from the extents.
+//! The notes say both.
 
 use super::{MOST_TRIANGLES, align, file_error, glb, merge_equal_vertices, stl, too_many};
 use crate::BodyError;
@@ -28,7 +28,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// All units. The height of a standing adult is plausible in one of them only.
+    /// All units. The height of a standing adult is plausible in only one of them.
     pub const ALL: [Self; 5] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Decimetre, Self::Inch];
 
     /// Metres in one unit.
@@ -43,7 +43,7 @@ impl LengthUnit {
         }
     }
 
-    /// Its symbol, such as `mm`.
+    /// Symbol, such as `mm`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,7 +59,7 @@ impl LengthUnit {
 /// An imported body in the world frame, with notes on what was inferred.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
-    /// Mesh: metres, z up, on the floor.
+    /// Mesh in metres, z up, on the floor.
     pub mesh: TriMesh,
     /// Unit of the file.
     pub unit: LengthUnit,
@@ -67,12 +67,12 @@ pub struct Imported {
     pub notes: Vec<String>,
 }
 
-/// Reads a body mesh. The format is recognised by its first bytes.
+/// Reads a body mesh in a format recognised by the first bytes.
 pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     settle(&read(bytes)?, unit)
 }
 
-/// Reads the raw mesh of a file.
+/// Reads the mesh of a file as it is.
 fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let announced = announced_faces(bytes);
     if announced > MOST_TRIANGLES {
@@ -100,7 +100,7 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(mesh)
 }
 
-/// Number of faces that a file states or shows, counted without reading them.
+/// Number of faces that a file states or shows, found without reading the faces.
 fn announced_faces(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"ply") {
         let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
@@ -129,7 +129,7 @@ fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&mesh))
 }
 
-/// First line that is not an OBJ statement with the numbers that it needs.
+/// Place of the first line that is not an OBJ statement with the numbers that it needs.
 fn obj_place(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let broken = |line: &str| {
@@ -246,12 +246,12 @@ fn is_adult(height_m: f64) -> bool {
     (1.2..2.4).contains(&height_m)
 }
 
-/// Unit in which `height` is that of a standing adult.
+/// Unit in which `height` is that of a standing adult. `None` if it is that in no unit.
 fn guess_unit(height: f64) -> Option<LengthUnit> {
     LengthUnit::ALL.into_iter().find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
 }
 
-/// Writes the mesh as Wavefront OBJ, metres with a tenth of a micrometre.
+/// Writes the mesh as Wavefront OBJ in metres, to a tenth of a micrometre.
 #[must_use]
 pub fn write_obj(mesh: &TriMesh) -> String {
     let mut text = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 20);

@@ -9,7 +9,7 @@ use crate::BodyError;
 use geom::TriMesh;
 use std::collections::BTreeMap;
 
-/// Greatest number of triangles of a mesh. More show nothing of a body that a tape could read.
+/// Greatest number of triangles of a mesh. More of them show nothing that a tape could read.
 const MOST_TRIANGLES: usize = 1_000_000;
 
 fn too_many(count: usize) -> BodyError {
@@ -21,7 +21,7 @@ fn file_error(format: &'static str, place: &str, problem: &str) -> BodyError {
     BodyError::File { format, place: place.to_owned(), problem: problem.to_owned() }
 }
 
-/// Merges vertices of equal position, and drops triangles that lose a side.
+/// Merges vertices of equal position, and drops triangles that have lost a side.
 fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
     let mut first_with: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     let mut merged = TriMesh::default();

@@ -1,11 +1,11 @@
-//! STL, ASCII and binary. It is read without the crate `stl_io`, which names no line in its errors, drops every solid
-//! but the first, and rounds ASCII numbers to single precision.
+//! STL, ASCII and binary, read without the crate `stl_io`, which names no line in its errors, drops every solid but the
+//! first, and rounds ASCII numbers to single precision.
 
 use super::{file_error, merge_equal_vertices};
 use crate::BodyError;
 use geom::{TriMesh, V3};
 
-/// Number of bytes of a binary file before its facets, and of one facet.
+/// Number of bytes before the facets of a binary file, and of one facet.
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
@@ -21,8 +21,8 @@ pub(super) fn announced_faces(bytes: &[u8]) -> usize {
     if is_binary(bytes) { count(bytes) } else { bytes.len() / (4 * ASCII_FACET) }
 }
 
-/// True if the last byte of the facet count is zero. It is so for any count below 16 million, and in no text. The
-/// header of a binary file may begin with `solid`, too.
+/// True if the last byte of the facet count is zero, as for any count below 16 million and in no text. The header of a
+/// binary file may begin with `solid` as well.
 fn is_binary(bytes: &[u8]) -> bool {
     bytes.get(HEADER - 1) == Some(&0)
 }

@@ -5,36 +5,36 @@ use crate::repair::clean;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Step along the arm, and greatest distance of a section's middle from the line extrapolated so far, over stature.
-/// Judgement.
+/// Step along the arm, and greatest distance of the middle of a section from the extrapolated line, as shares of
+/// stature. Judgement: another outline is another part.
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
-/// Distance outside the armpit at which an arm that is spread wide is first cut, over stature. Judgement.
+/// Distance outside the armpit of the first section of an arm that is spread wide, as a share of stature. Judgement.
 const SPREAD: f64 = 0.05;
 
-/// Range of the girths of an arm's sections, over stature. Judgement.
+/// Range of the girths of sections of an arm, as shares of stature. Judgement.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
 /// Greatest number of steps. Arms are shorter.
 const MOST_STEPS: usize = 50;
 
-/// Place of the elbow as a share of the line from the shoulder joint to the finger tips: mean of 200 model bodies, with
-/// a residual of 15 mm. Then the range of shares in which the narrowest section of the wrist is sought.
+/// Position of the elbow as a share of the line from the shoulder joint to the finger tips: mean of 200 model bodies,
+/// residual 15 mm. Then the range of shares in which the narrowest section of the wrist is sought.
 const ELBOW: f64 = 0.364;
 const WRIST: [f64; 2] = [0.66, 0.82];
 
-/// Regression of the wrist joint's share of the line on that of the narrowest section: intercept and slope. Fitted to
-/// model bodies, with a residual of 10 mm.
+/// Regression of the share of the line at the wrist joint on that at the narrowest section: intercept and slope. Fitted
+/// to model bodies, residual 10 mm.
 const WRIST_JOINT: [f64; 2] = [0.317, 0.573];
 
-/// A cross-section of the arm.
+/// Section of the arm.
 #[derive(Clone, Copy, Debug)]
 struct Station {
     centre: V3,
-    /// Distance from the shoulder joint along the line, metres.
+    /// Distance from the shoulder joint along the line, m.
     at: f64,
-    /// Tape girth, metres.
+    /// Tape girth, m.
     girth: f64,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct Arm {
 
 impl Arm {
     /// Traces the right arm from the shoulder joint, taken half way between shoulder point and armpit, to the finger
-    /// tips. `None` where the skin below the armpit is no arm.
+    /// tips. `None` if the skin below the armpit is not an arm.
     pub fn trace(mesh: &TriMesh, shoulder: V3, armpit: V3, stature: f64) -> Option<Self> {
         let joint = (shoulder + armpit) / 2.0;
         let mesh = &beyond(mesh, armpit.x - 0.06 * stature);
@@ -57,7 +57,7 @@ impl Arm {
         let limbs = tape::right_limbs(mesh, below, armpit.x - 0.02 * stature);
         let start = match limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x)) {
             Some(first) => Plane::horizontal(below).lift(middle(first)),
-            // An arm that is spread wide has no part below the armpit.
+            // No part of an arm that is spread wide is below the armpit.
             None => {
                 let plane = Plane::normal_to(V3::new(armpit.x + SPREAD * stature, joint.y, joint.z), V3::x());
                 plane.lift(middle(&nearest(mesh, &plane, stature)?))
@@ -73,7 +73,7 @@ impl Arm {
             let Some(outline) = nearest(mesh, &plane, stature) else { break };
             let centre = plane.lift(middle(&outline));
             stations.push(Station { centre, at, girth: tape::girth(&outline) });
-            // The direction is that of the last four steps. Over a single step it varies with the muscles.
+            // The direction of the last four steps. Over a single step, muscles would change it.
             let back = stations[stations.len().saturating_sub(5)].centre;
             along = (centre - back).try_normalize(1e-6)?;
             predicted = centre + along * step;
@@ -96,24 +96,24 @@ impl Arm {
         AxisPoint { place, along: (to.centre - from.centre).normalize() }
     }
 
-    /// Share of the line's length at the elbow.
+    /// Share of the line at the elbow.
     pub fn elbow(&self) -> f64 {
         ELBOW
     }
 
-    /// Share of the line's length at the narrowest section of the wrist.
+    /// Share of the line at the narrowest section of the wrist.
     pub fn wrist(&self) -> f64 {
         let within = |station: &&Station| (WRIST[0]..WRIST[1]).contains(&(station.at / self.length));
         let narrowest = self.stations.iter().filter(within).min_by(|a, b| a.girth.total_cmp(&b.girth));
         narrowest.map_or((WRIST[0] + WRIST[1]) / 2.0, |station| station.at / self.length)
     }
 
-    /// Share of the line's length at the wrist joint, where the arm length ends.
+    /// Share of the line at the wrist joint, where the arm length ends.
     pub fn wrist_joint(&self) -> f64 {
         WRIST_JOINT[0] + WRIST_JOINT[1] * self.wrist()
     }
 
-    /// Plane across the arm at a share of its length. Its first axis points forward, its second outward and up.
+    /// Plane across the arm at a share of the line. The first axis points forward, the second outward and up.
     pub fn across(&self, share: f64) -> Plane {
         let AxisPoint { place: origin, along } = self.at(share);
         let forward = (V3::y() - along * along.y).normalize();
@@ -121,7 +121,7 @@ impl Arm {
     }
 }
 
-/// Part of the mesh with the triangles that reach beyond `x`.
+/// Triangles of the mesh that reach beyond `x`.
 fn beyond(mesh: &TriMesh, x: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&i| mesh.positions[i].x > x);
     let triangles: Vec<[usize; 3]> = mesh.triangles.iter().filter(reaches).copied().collect();
@@ -133,7 +133,7 @@ fn middle(outline: &Outline) -> V2 {
     (low + high) / 2.0
 }
 
-/// The outline with the girth of an arm whose middle is nearest to the origin of the plane.
+/// Outline with the girth of an arm and its middle nearest to the origin of the plane. `None` without such an outline.
 fn nearest(mesh: &TriMesh, plane: &Plane, stature: f64) -> Option<Outline> {
     let off = |outline: &Outline| middle(outline).norm();
     let fits =
@@ -141,7 +141,7 @@ fn nearest(mesh: &TriMesh, plane: &Plane, stature: f64) -> Option<Outline> {
     section(mesh, plane).into_iter().filter(fits).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// Farthest vertex along the line through `from`, among those near the line and within three steps.
+/// Farthest vertex along the line through `from`, of the vertices near the line and within three steps.
 fn farthest(mesh: &TriMesh, from: V3, along: V3, step: f64) -> V3 {
     let reach = |p: &V3| (p - from).dot(&along);
     let near = |p: &&V3| (0.0..3.0 * step).contains(&reach(p)) && (*p - from - along * reach(p)).norm() < 4.0 * step;

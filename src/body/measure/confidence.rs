@@ -1,7 +1,7 @@
 //! Uncertainty of each measurement of a scan: a standard deviation with its cause.
 //!
-//! The uncertainty of a girth follows from that of its level: the deviation of the level times the change of girth with
-//! height there. The deviations of the levels are residuals over 218 model bodies whose bones and nipples are known.
+//! The standard deviation of a girth is that of its level times the change of girth with height there. The standard
+//! deviations of the levels are residuals for 218 model bodies whose bones and nipples are known.
 
 use super::sites::Sites;
 use super::tailor::{Marks, knee_level};
@@ -14,19 +14,19 @@ use geom::units::mm;
 pub struct Confidence {
     /// Key of the measurement.
     pub key: &'static str,
-    /// Standard deviation in the unit of the key: millimetres, degrees.
+    /// Standard deviation, in the unit of the key: millimetres or degrees.
     pub sd: f64,
-    /// Cause that limits it, in words.
+    /// Main cause, in words.
     pub reason: &'static str,
 }
 
-/// Standard deviations of the levels of nipples, under-bust, hip and knee, over stature.
+/// Standard deviations of the levels of nipples, under-bust, hip and knee, as shares of stature.
 const NIPPLES: f64 = 0.0090;
 const UNDERBUST: f64 = 0.0060;
 const HIP: f64 = 0.0040;
 const KNEE: f64 = 0.0180;
 
-/// Standard deviations over stature: of the nipples' distance from the median plane, of wrist joint and elbow along the
+/// Standard deviations / stature: of the distance of nipples from the median plane, of wrist joint and elbow along the
 /// arm, and of the base of the neck.
 const NIPPLES_OUT: f64 = 0.0045;
 const WRIST: f64 = 0.0055;
@@ -35,10 +35,10 @@ const NECK_BASE: f64 = 0.0050;
 /// Standard deviation of the shoulder slope, degrees.
 const SLOPE: f64 = 1.5;
 
-/// Standard deviation of the tape on a smooth skin, metres: facets of the mesh and steps of the search.
+/// Standard deviation of the tape on a smooth skin, m: facets of the mesh, and steps of the search.
 const TAPE: f64 = 0.001;
 
-/// Height above and below a level over which the change of its girth is measured, metres. Judgement.
+/// Distance above and below a level over which the change of its girth is measured, m. Judgement.
 const STEP: f64 = 0.008;
 
 const SKIN: &str = "facets and noise of the skin";
@@ -62,7 +62,7 @@ pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec
     let leg = |z: f64| tape::leg_girth(mesh, z, sites.middle);
     let knee_girth = girth_error(leg(knee), [leg(knee - STEP), leg(knee + STEP)], KNEE * h);
     let [shoulder, nape] = sites.upper_sd;
-    // On a sloping shoulder the tape lengthens by more than the point moves outwards.
+    // On a sloping shoulder, the tape lengthens by more than the shoulder point moves outwards.
     let (arm, over) = (shoulder.hypot(WRIST * h), 2.3 * shoulder);
     let base = NECK_BASE * h;
     let known = |key, sd: f64, reason| Confidence { key, sd: mm(sd.hypot(TAPE)), reason };
@@ -106,10 +106,10 @@ pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec
     ]
 }
 
-/// Error of a girth whose level is off by so much, from the girths at, below and above the level. Where an arm joins
-/// the trunk on one side, the girth jumps, and the other side is used.
+/// Error of a girth whose level is wrong by `off`, m, by the girths at, below and above the level. On the side where an
+/// arm joins the trunk the girth jumps, and the other side is used.
 fn girth_error(at: Option<f64>, around: [Option<f64>; 2], off: f64) -> f64 {
-    /// Greatest change of a girth with height on a bent skin without such a jump. Judgement.
+    /// Greatest change of a girth with height on a bent skin without a jump, m/m. Judgement.
     const STEEPEST: f64 = 2.5;
     let change = |neighbour: Option<f64>| Some((neighbour? - at?).abs() / STEP).filter(|slope| *slope < STEEPEST);
     around.into_iter().filter_map(change).reduce(f64::max).unwrap_or(STEEPEST) * off

@@ -59,28 +59,28 @@ const PLACED_BY_STATURE: [Dimension; 6] = [
 /// Key of the volume.
 const VOLUME: &str = "volume_l";
 
-/// Girths and levels of a body, and its volume. Limbs below the upper arm and the thigh are read where their axes are
-/// known.
+/// Girths and levels of a body, and its volume. Girths of lower arms and lower legs are read where the axes of the
+/// limbs are known.
 ///
-/// They are serialised by the keys of `body measure`. The numbers are held in the units in which they are written, so
-/// that a body that is stored and read again is equal to the last bit.
+/// Serialised by the keys of `body measure`. The numbers are kept in the units in which they are written, so that a
+/// body that is stored and read again is equal to the last bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Girths {
-    /// Values by dimension, millimetres.
+    /// Values by dimension, mm.
     values: [Option<f64>; COUNT],
-    /// Heights above the floor by dimension, millimetres.
+    /// Heights above the floor by dimension, mm.
     levels: [Option<f64>; COUNT],
-    /// Volume, litres. Not a number where feet are missing.
+    /// Volume, l. NaN for a body without both feet.
     volume_l: f64,
 }
 
 impl Girths {
-    /// Girths of a body with a volume (m3) on which nothing has been read yet.
+    /// Girths of a body with a volume (m3) before anything else has been read.
     pub(super) fn of(volume_m3: f64) -> Self {
         Self { values: [None; COUNT], levels: [None; COUNT], volume_l: volume_m3 * 1e3 }
     }
 
-    /// Sets a dimension, m. `None` where the tape cannot be laid.
+    /// Sets a dimension, m. `None` if the tape cannot be laid.
     pub(crate) fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
         self.values[dimension as usize] = value.into().map(mm);
     }
@@ -90,9 +90,9 @@ impl Girths {
         self.levels[dimension as usize] = height.into().map(mm);
     }
 
-    /// Removes what a body with these feet does not show. Without one foot, this is the volume, and on the right leg
-    /// all below the knee. Without both, the floor is not known, so heights and all that is placed by a share of the
-    /// stature are removed, too.
+    /// Removes what a body with these feet does not show. If one foot is missing, that is the volume and, on the right
+    /// leg, all below the knee. If both are, the floor is unknown, so heights and all that is read at a share of the
+    /// stature are removed as well.
     pub(crate) fn keep_known(&mut self, feet: Feet) {
         if feet == Feet::BOTH {
             return;
@@ -107,24 +107,24 @@ impl Girths {
         }
     }
 
-    /// Lowers the levels by some metres. Stature and inseam stay those of the upright body.
+    /// Lowers the levels by a distance, m. Stature and inseam stay those of the upright body.
     pub(crate) fn lower(&mut self, down: f64) {
         self.levels.iter_mut().flatten().for_each(|level| *level -= mm(down));
     }
 
-    /// Value of a dimension, m.
+    /// Value of a dimension, m. `None` if it was not read.
     #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize].map(from_mm)
     }
 
-    /// Volume, litres. Not a number where feet are missing.
+    /// Volume, l. NaN for a body without both feet.
     #[must_use]
     pub fn volume_l(&self) -> f64 {
         self.volume_l
     }
 
-    /// Value of a key as it is written, in millimetres or litres.
+    /// Value of a key as it is written, mm or l. `None` if it was not read.
     #[must_use]
     pub fn written(&self, key: &str) -> Option<f64> {
         self.entries().find(|(other, _)| *other == key)?.1
@@ -137,8 +137,8 @@ impl Girths {
         values.into_iter().chain([(VOLUME, Some(self.volume_l).filter(|litres| litres.is_finite()))]).chain(levels)
     }
 
-    /// Measurements of a subject with these girths, as a study holds them: all that a subject may have, rounded to a
-    /// tenth of a millimetre, which is finer than a tape.
+    /// Measurements of a subject with these girths, as a study has them: all that a subject may have, rounded to 0.1
+    /// mm, which is finer than a tape.
     #[must_use]
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let mut known = Measurements::of(sex, f64::NAN);

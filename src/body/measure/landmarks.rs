@@ -1,4 +1,4 @@
-//! Landmarks of a body mesh that follow from its sections alone.
+//! Landmarks of a body mesh that its sections alone show.
 
 use super::slices::{Sliced, Slices, steps};
 use super::tape;
@@ -6,10 +6,10 @@ use crate::Sex;
 use geom::section::{Plane, section};
 use geom::{TriMesh, V3};
 
-/// Least girth of an outline across the median plane that belongs to the trunk, metres. Judgement.
+/// Least girth of an outline across the median plane that belongs to the trunk, m. Judgement.
 const LEAST_TRUNK: f64 = 0.03;
 
-/// Height of the crotch: the lowest at which an outline crosses the median plane, by bisection.
+/// Height of the crotch: the lowest height at which an outline crosses the median plane, by bisection.
 pub(crate) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
     let lower = Slices::new(mesh, below, above);
     let joined =
@@ -31,7 +31,7 @@ pub(crate) enum Side {
     Back,
 }
 
-/// Point of the trunk's outline in the median plane at height `z`.
+/// Point of the outline of the trunk in the median plane at height `z`.
 pub(crate) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, z, middle)?;
     let next = outline.points.iter().cycle().skip(1);
@@ -53,7 +53,7 @@ pub(crate) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
 
 /// Armpit of the right arm: the highest point of the gap between trunk and arm.
 ///
-/// Found by bisection between a height at which the arm is free and one at which it is joined to the trunk.
+/// Found by bisection between a height at which the arm is free and a height at which it is joined to the trunk.
 pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
     let around = Slices::new(mesh, free, joined);
     let gap = |z: f64| {
@@ -78,12 +78,11 @@ pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64
     Some(apex)
 }
 
-/// Greatest height of an arm in a section parallel to the median plane, over stature. Judgement.
+/// Greatest height of an arm in a section parallel to the median plane, as a share of stature. Judgement.
 const SPREAD_ARM: f64 = 0.10;
 
-/// Armpit of a right arm that is spread so wide that no horizontal plane passes between it and the trunk. It is the
-/// underside of the arm where, going inwards, sections parallel to the median plane begin to reach farther down than an
-/// arm.
+/// Armpit of a right arm that is spread so wide that no horizontal plane passes between arm and trunk: the underside of
+/// the arm where, going inwards, sections parallel to the median plane become higher than an arm.
 pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Option<V3> {
     let underside = |x: f64| {
         let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
@@ -104,7 +103,7 @@ pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Op
     Some(apex)
 }
 
-/// Lowest point of the skin between the thighs, in the median plane just above the crotch's height.
+/// Lowest point of the skin between the thighs, in the median plane just above the height of the crotch.
 pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
     let next = outline.points.iter().cycle().skip(1);
@@ -113,9 +112,9 @@ pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
     (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
 }
 
-/// Foremost point of one side of the chest at height `z`. On a flat chest it is the usual place of the nipple.
+/// Foremost point of one side of the chest at height `z`, or on a flat chest the usual place of the nipple.
 pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
-    /// Usual distance of the nipple from the median plane over stature, and the range that is searched. Judgement.
+    /// Usual distance of the nipple from the median plane, and searched range, as shares of stature. Judgement.
     const USUAL: f64 = 0.054;
     const RANGE: [f64; 2] = [0.040, 0.075];
     let outline = tape::trunk_outline(mesh, z, 0.0)?;
@@ -133,12 +132,12 @@ pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
 }
 
-/// Distance of the nipples from the median plane, over stature: intercept, slope with the chest girth over stature, and
-/// addition for women. Least squares over 199 model bodies, with a residual of 8 mm.
+/// Distance of the nipples from the median plane / stature: intercept, slope with chest girth / stature, and addition
+/// for women. Least squares for 199 model bodies, residual 8 mm.
 const NIPPLES_OUT: [f64; 3] = [0.0065, 0.0836, 0.0092];
 
-/// Bust point of one side of a bare mesh at height `z`: on the front of the chest, at the distance that follows from
-/// the chest girth. `frame` is the position of the median plane and the stature.
+/// Bust point of one side of a bare mesh at height `z`: on the front of the chest, at the distance that the chest girth
+/// gives. `frame` is the position of the median plane and the stature, m.
 pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2], sex: Sex) -> Option<V3> {
     let [middle, stature] = frame;
     let outline = tape::trunk_outline(mesh, z, middle)?;
@@ -148,7 +147,7 @@ pub(crate) fn usual_bust_point(mesh: &TriMesh, z: f64, sign: f64, frame: [f64; 2
     Some(V3::new(x, tape::edge(&outline, x, 1.0)?, z))
 }
 
-/// Mirrors a mesh at the plane `x = middle`, so that the left of the body can be measured as its right.
+/// Mirrors a mesh at the plane `x = middle`, so that the left side can be measured as a right side.
 pub(crate) fn mirrored(mesh: &TriMesh, middle: f64) -> TriMesh {
     let positions = mesh.positions.iter().map(|p| V3::new(2.0 * middle - p.x, p.y, p.z)).collect();
     TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }

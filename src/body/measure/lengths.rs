@@ -1,4 +1,4 @@
-//! Lengths on the surface and girths of the limbs, named after ISO 8559-1. The tape is taut and spans hollows.
+//! Lengths on the surface and girths of the limbs, named after ISO 8559-1. The tape is taut, so it spans hollows.
 
 use super::arm::Arm;
 use super::confidence::{self, Confidence};
@@ -14,7 +14,7 @@ use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 use std::collections::BTreeSet;
 
-/// Lengths that `body measure` states beside [`Girths`], metres. `None` where the body does not show them.
+/// Lengths that `body measure` gives besides [`Girths`], m. `None` for a length that the body does not show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lengths {
     /// Height of the back neck point.
@@ -29,11 +29,11 @@ pub struct Lengths {
     pub calf_level_m: Option<f64>,
     /// Height of the middle of the right knee, estimated from stature and crotch.
     pub knee_level_m: Option<f64>,
-    /// Girth of the right elbow, the arm straight.
+    /// Girth of the right elbow of a straight arm.
     pub elbow_girth_m: Option<f64>,
 }
 
-/// Girths and lengths together: one flat set of keys, written in millimetres and litres.
+/// Girths and lengths as one flat set of keys, written in millimetres and litres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Girths and their levels, including those of the limbs.
@@ -96,11 +96,11 @@ impl serde::Serialize for Measured {
     }
 }
 
-/// Heights between which calf and ankle are sought, over the height of the crotch. Judgement.
+/// Heights between which calf and ankle are sought, as shares of the height of the crotch. Judgement.
 const CALF: [f64; 2] = [0.38, 0.60];
 const ANKLE: [f64; 2] = [0.10, 0.30];
 
-/// Measures the lengths of an upright body mesh in the world frame, and adds the girths of its limbs to `girths`.
+/// Measures the lengths of an upright body mesh in the world frame, and adds the girths of the limbs to `girths`.
 pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, girths: Girths) -> Result<Measured, BodyError> {
     let (sites, sex) = sites::find_sites(mesh, sex, Feet::BOTH)?;
     Ok(at_sites(mesh, &sites, sex, girths))
@@ -133,12 +133,12 @@ fn at_sites(mesh: &TriMesh, sites: &Sites, sex: Sex, mut girths: Girths) -> Meas
     Measured { girths, lengths, tailor, confidence }
 }
 
-/// Adds the girths of a mesh's limbs to its girths.
+/// Adds the girths of the limbs of a mesh to `girths`.
 pub(crate) fn add_limbs(mesh: &TriMesh, sites: &Sites, sex: Sex, girths: &mut Girths) {
     read_limbs(mesh, sites, &Marks::of_mesh(mesh, sites, sex), girths);
 }
 
-/// Levels of the limbs, and readings that are not among the girths, metres.
+/// Levels of the limbs, and readings that are not girths, m.
 struct Limbs {
     calf: Option<f64>,
     knee: f64,
@@ -165,7 +165,7 @@ fn read_limbs(mesh: &TriMesh, sites: &Sites, marks: &Marks, girths: &mut Girths)
     Limbs { calf: calf.map(|(z, _)| z), knee, elbow_girth }
 }
 
-/// Points of the trunk's median section: forward and up.
+/// Points of the median section of the trunk: forward and up.
 fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
     let origin = V3::new(sites.middle, 0.0, 0.0);
     let outlines = section(mesh, &Plane { origin, u: V3::y(), v: V3::z() });
@@ -173,7 +173,7 @@ fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
     longest.map_or_else(Vec::new, |outline| outline.points)
 }
 
-/// Length of the taut tape from a point of the median section down to a height, along the front (`side` 1) or the back
+/// Length of the taut tape from a point of the median section down to a height, m, along the front (`side` 1) or back
 /// (-1).
 fn taut(median: &[V2], top: V3, bottom: f64, side: f64) -> Option<f64> {
     let ends = |z: f64| crossing(median, z, side).map(|y| V2::new(y, z));
@@ -193,7 +193,7 @@ fn crossing(median: &[V2], z: f64, side: f64) -> Option<f64> {
     places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
 }
 
-/// Length of the taut tape round the lower end of the median section, from the waist level to the waist level.
+/// Length of the taut tape round the lower end of the median section, from waist level to waist level, m.
 fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
     let ends = [1.0, -1.0].map(|side| crossing(median, waist, side).map(|y| V2::new(y, waist)));
     let [Some(front), Some(back)] = ends else { return None };
@@ -207,7 +207,7 @@ fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
     (elbow - shoulder).norm() + (wrist - elbow).norm()
 }
 
-/// Heights and girths of the right leg within a range of shares of the crotch's height.
+/// Heights and girths of the right leg in a range of heights, as shares of the height of the crotch.
 fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)> {
     let inseam = sites.crotch - sites.floor;
     let [low, high] = range.map(|share| sites.floor + share * inseam);

@@ -1,4 +1,4 @@
-//! The tape: landmarks and levels are found on a mesh, and girths and lengths are read there.
+//! The tape: finds landmarks and levels on a mesh, and reads girths and lengths there.
 
 pub mod arm;
 pub mod confidence;
@@ -14,10 +14,10 @@ pub mod tape;
 
 use geom::V3;
 
-/// A point of a limb's axis, with the direction of the axis.
+/// Point of the axis of a limb, with the direction of the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AxisPoint {
-    /// Position, metres.
+    /// Position, m.
     pub place: V3,
     /// Unit direction, away from the trunk.
     pub along: V3,

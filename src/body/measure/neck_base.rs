@@ -6,10 +6,10 @@ use super::slices::steps;
 use super::tape;
 use geom::{TriMesh, V3};
 
-/// Heights over stature between which the front neck point is sought. Judgement.
+/// Heights between which the front neck point is sought, as shares of stature. Judgement.
 const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
-/// Front neck point: the point of the front that lies farthest behind the chord from the chest to the neck.
+/// Front neck point: the point farthest behind the chord from the chest to the neck.
 pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
     let height_at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
     let upper = tape::above(mesh, height_at(FRONT_NECK[0] - 0.05));
@@ -21,8 +21,8 @@ pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
     line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
 }
 
-/// Side neck point: the point of the line over the shoulder that lies farthest below the chord from the side of the
-/// neck to the shoulder point.
+/// Side neck point: the point of the line over the shoulder farthest below the chord from the side of the neck to the
+/// shoulder point.
 pub(crate) fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
     let stature = sites.crown - sites.floor;
     let neck = tape::trunk_outline(mesh, sites.neck.height, sites.middle)?;

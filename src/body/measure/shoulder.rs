@@ -1,9 +1,9 @@
 //! Shoulder points and back neck point, which the skin shows only indirectly.
 //!
-//! Both lie on bones. They are estimated from marks that bodies do show: the place at which the line over the shoulder
-//! turns down, the armpit, the direction of the arm, the neck. The rules are least-squares fits over 194 bodies of a
-//! parametric model (CC0-1.0) of both sexes, with arms 16 to 60 degrees from the vertical. The rule of the back neck
-//! point is the mean of two, with and without the armpit.
+//! Both lie on bones. They are estimated from marks that bodies do show: where the line over the shoulder turns down,
+//! the armpit, the direction of the arm, the neck. The rules are least-squares fits for 194 bodies of a parametric
+//! model (CC0-1.0) of both sexes, with arms 16 to 60 degrees from the vertical. The rule of the back neck point is the
+//! mean of two rules, with and without the armpit.
 
 use super::arm::Arm;
 use super::landmarks::{self, Side, median_point, shoulder_top};
@@ -12,40 +12,40 @@ use super::tape::{self, Neck};
 use crate::Sex;
 use geom::{TriMesh, V3};
 
-/// Mean distance of the shoulder point from the median plane, and mean height of the back neck point, over stature
-/// [Gordon 2014].
+/// Mean distance of the shoulder point from the median plane, and mean height of the back neck point, as shares of
+/// stature [Gordon 2014].
 const SHOULDER: f64 = 0.1148;
 const CERVICALE: f64 = 0.8617;
 
 /// Slope of the line over the shoulder at which it turns into the arm. Judgement.
 const TURN: f64 = 0.90;
 
-/// Distance from the median plane at which the height of the trapezius is read, over stature. Judgement.
+/// Distance from the median plane at which the height of the trapezius is read / stature. Judgement.
 const TRAPEZIUS: f64 = 0.07;
 
-/// Ranges of shoulder point and back neck point over stature, to which the rules are clamped: somewhat beyond those of
+/// Ranges of shoulder point and back neck point / stature, to which the rules are clamped: somewhat wider than those of
 /// the model bodies.
 const SHOULDERS: [f64; 2] = [0.085, 0.150];
 const NAPES: [f64; 2] = [0.835, 0.890];
 
-/// Residual standard deviations of shoulder point and back neck point over stature, with and without the marks.
+/// Residual standard deviations of shoulder point and back neck point / stature, with and without the marks.
 const SEEN: [f64; 2] = [0.0028, 0.0034];
 const UNSEEN: [f64; 2] = [0.0100, 0.0070];
 
-/// Landmarks of the upper body, with their uncertainty.
+/// Landmarks of the upper body with their uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Upper {
     /// Shoulder points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
-    /// Standard deviations of a shoulder point's distance from the median plane, and of the height of the back neck
-    /// point, metres.
+    /// Standard deviations of the distance of a shoulder point from the median plane, and of the height of the back
+    /// neck point, m.
     pub sd: [f64; 2],
 }
 
 /// Mesh, levels and sex by which an upper body is measured.
 pub(super) struct Frame<'a> {
-    /// The mesh above the chest, and the whole mesh.
+    /// Mesh above the chest, and whole mesh.
     pub upper: &'a TriMesh,
     pub mesh: &'a TriMesh,
     pub floor: f64,
@@ -56,8 +56,8 @@ pub(super) struct Frame<'a> {
     pub sex: Sex,
 }
 
-/// Marks of one side, over stature: the turn of the shoulder, the armpit, the outward slope of the arm, the height of
-/// the trapezius.
+/// Marks of one side, as shares of stature: turn of the shoulder, armpit, outward slope of the arm, height of the
+/// trapezius.
 struct Marks {
     turn: f64,
     armpit: V3,
@@ -66,7 +66,7 @@ struct Marks {
 }
 
 impl Frame<'_> {
-    /// Shoulder points and back neck point. `None` where the skin has neither shoulders nor a neck.
+    /// Shoulder points and back neck point. `None` if the skin has neither shoulders nor a neck.
     pub fn find(&self) -> Option<Upper> {
         let right = self.marks(self.mesh);
         let mirrored = landmarks::mirrored(self.mesh, self.middle);
@@ -85,7 +85,7 @@ impl Frame<'_> {
         self.floor + share * self.stature
     }
 
-    /// Distance of the shoulder point from the median plane, metres.
+    /// Distance of the shoulder point from the median plane, m.
     fn out(&self, marks: Option<&Marks>) -> f64 {
         let woman = f64::from(u8::from(self.sex == Sex::Female));
         let share = marks.map_or(SHOULDER, |marks| {
@@ -94,14 +94,14 @@ impl Frame<'_> {
         share.clamp(SHOULDERS[0], SHOULDERS[1]) * self.stature
     }
 
-    /// Height of the back neck point over stature.
+    /// Height of the back neck point / stature.
     fn nape(&self, marks: &Marks) -> f64 {
         let neck = (self.neck.height - self.floor) / self.stature;
         let share = 0.0270 + 0.151 * marks.trapezius + 0.122 * marks.armpit.z + 0.706 * neck;
         share.clamp(NAPES[0], NAPES[1])
     }
 
-    /// Marks of the right side of a mesh. `None` where the arm is not apart from the trunk.
+    /// Marks of the right side of a mesh. `None` if the arm is not apart from the trunk.
     fn marks(&self, mesh: &TriMesh) -> Option<Marks> {
         let h = self.stature;
         let upper = &tape::above(mesh, self.height(0.7));

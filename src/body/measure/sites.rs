@@ -1,4 +1,4 @@
-//! Measurement of an upright body mesh: the levels are found on the mesh, and the tape is laid there.
+//! Measurement of an upright body mesh: finds the levels on the mesh, and lays the tape there.
 
 use super::AxisPoint;
 use super::landmarks::crotch;
@@ -10,13 +10,13 @@ use crate::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Levels and points of a mesh at which the tape is laid, metres.
+/// Levels and points of a mesh at which the tape is laid, m.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sites {
-    /// Heights of floor and crown. Without feet, the floor is estimated from the trunk.
+    /// Heights of floor and crown. Without feet, the height of the floor is an estimate from the trunk.
     pub floor: f64,
     pub crown: f64,
-    /// Position of the median plane along x.
+    /// Position of the median plane, along x.
     pub middle: f64,
     pub crotch: f64,
     pub hip: f64,
@@ -27,10 +27,10 @@ pub(crate) struct Sites {
     /// Shoulder points, right and left.
     pub shoulder: [V3; 2],
     pub back_neck: V3,
-    /// Standard deviations of a shoulder point's distance from the median plane, and of the back neck point's height,
-    /// metres.
+    /// Standard deviations of the distance of a shoulder point from the median plane, and of the height of the back
+    /// neck point, m.
     pub upper_sd: [f64; 2],
-    /// Middle of the right upper arm.
+    /// Middle of the right upper arm. `None` if the arm is not apart from the trunk.
     pub upper_arm: Option<AxisPoint>,
 }
 
@@ -48,17 +48,17 @@ impl Sites {
     }
 }
 
-/// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]. It has no mark on the skin.
+/// Height of the ISO 8559-1 waist / stature, men and women [Gordon 2014]. The skin has no mark of it.
 const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 
-/// Measures an upright closed (or nearly closed) body mesh in the world frame. The sex places the waist. Where it is
-/// not given, it is estimated from neck, hip and waist girth.
+/// Measures an upright closed (or nearly closed) body mesh in the world frame. The sex decides the height of the waist.
+/// `None` estimates the sex from neck, hip and waist girth.
 pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
     let (sites, _) = find_sites(mesh, sex, Feet::BOTH)?;
     girths_at(mesh, &sites)
 }
 
-/// Reads the girths at given sites.
+/// Reads the girths at some sites.
 pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyError> {
     let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).ok_or_else(|| missing(part, z));
     let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
@@ -89,20 +89,20 @@ pub(crate) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     Ok(girths)
 }
 
-/// Distance below the crotch at which the thigh girth is read, by its definition here, metres.
+/// Distance below the crotch at which the thigh girth is read, m: part of its definition here.
 const THIGH_BELOW_CROTCH: f64 = 0.02;
 
 fn missing(part: &'static str, z: f64) -> BodyError {
     BodyError::MissingPart { part, height_m: z }
 }
 
-/// Mean height of the crotch over stature, of the model bodies of [`crate::shape::atlas`].
+/// Mean height of the crotch / stature, of the model bodies of [`crate::shape::atlas`].
 const USUAL_CROTCH: f64 = 0.481;
 
-/// Least height of the crotch of a body without feet, over its height: legs that end about at the knee.
+/// Least height of the crotch of a body without feet, as a share of its height: legs that end about at the knee.
 const LEAST_CROTCH: f64 = 0.25;
 
-/// Estimates the height of the floor of an upright body without feet, from crotch and crown.
+/// Estimate of the height of the floor of an upright body without feet, by crotch and crown. `None` without a crotch.
 pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     let height = high.z - low.z;
     let middle = trunk_middle(mesh, low.z, height).x;
@@ -110,7 +110,7 @@ pub(crate) fn usual_floor(mesh: &TriMesh, [low, high]: [V3; 2]) -> Option<f64> {
     Some(high.z - (high.z - crotch) / (1.0 - USUAL_CROTCH))
 }
 
-/// Finds the sites on a mesh, and estimates the sex where it is not given.
+/// Finds the sites on a mesh, and estimates the sex if it is not given.
 pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result<(Sites, Sex), BodyError> {
     let (mut low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
     if !feet.stand() {
@@ -153,8 +153,7 @@ pub(crate) fn find_sites(mesh: &TriMesh, sex: Option<Sex>, feet: Feet) -> Result
     Ok((sites, sex))
 }
 
-/// Middle of the trunk of an upright body, whatever the pose of its arms: the median plane, and half way from front to
-/// back.
+/// Middle of the trunk of an upright body with arms in any pose: in the median plane, half way from front to back.
 pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     let middle = |share: f64| {
         let outlines = section(mesh, &Plane::horizontal(floor + share * stature));
@@ -171,9 +170,9 @@ pub(crate) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     V2::new(median(0), median(1))
 }
 
-/// Estimates the sex from neck, hip and waist girth over stature: linear discriminant over the 6,068 people of the
-/// ANSUR II survey [Gordon 2014]. It classifies 97 % of them correctly. That is optimistic, since their waists at the
-/// navel were converted into ISO waists by each sex's own mean factor. Only the height of the waist depends on it.
+/// Estimate of the sex by neck, hip and waist girth / stature: linear discriminant for the 6,068 people of the ANSUR II
+/// survey [Gordon 2014], of whom it classifies 97 % correctly. That is optimistic, because their waists at the navel
+/// were converted into ISO waists by a mean factor for each sex. Only the height of the waist depends on the sex.
 fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
     if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }
@@ -186,9 +185,9 @@ pub(crate) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) 
     summit(&heights.filter_map(back).collect::<Vec<_>>())
 }
 
-/// Height of the maximum of a profile: the mean height of its summit, weighted by the value above the summit's foot.
-/// The summit comprises the values that lie below the greatest by less than twice the roughness of the profile, which
-/// facets and noise cause. The place of the greatest value alone would be arbitrary on a flat summit.
+/// Height of the maximum of a profile: mean height of its summit, weighted by the value above the foot of the summit.
+/// The summit is all values below the greatest by less than twice the roughness of the profile, which is due to facets
+/// and noise. On a flat summit, the position of the greatest value alone would be arbitrary. `None` without values.
 fn summit(profile: &[(f64, f64)]) -> Option<f64> {
     let level = levelled(profile.to_vec(), 2);
     let greatest = level.iter().map(|(_, value)| *value).max_by(f64::total_cmp)?;
@@ -200,10 +199,10 @@ fn summit(profile: &[(f64, f64)]) -> Option<f64> {
     Some(moment / weight)
 }
 
-/// Least depth of a summit, metres: rounding.
+/// Least depth of a summit, m, for rounding.
 const LEAST_SUMMIT: f64 = 1e-6;
 
-/// Moving average of a profile, over `reach` neighbours on either side. Without it, the noise of a scan would decide
+/// Moving average of a profile over `reach` neighbours on either side. Without it, the noise of a scan would decide
 /// among the heights of a flat profile.
 fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
     let mean = |i: usize| {
@@ -214,26 +213,26 @@ fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
     (0..profile.len()).map(|i| (profile[i].0, mean(i))).collect()
 }
 
-/// Height of the nipples over stature: intercept, and slope with the height of the crotch over stature. Least squares
-/// over the 160 model bodies (CC0-1.0) of [`crate::shape::atlas`], with a residual of 8 mm.
+/// Height of the nipples / stature: intercept, and slope with crotch height / stature. Least squares for the 160 model
+/// bodies (CC0-1.0) of [`crate::shape::atlas`], residual 8 mm.
 const NIPPLES: [f64; 2] = [0.5123, 0.4651];
 
-/// Heights over stature between which the most prominent level of the chest is sought. Judgement.
+/// Heights between which the most prominent level of the chest is sought, as shares of stature. Judgement.
 pub(crate) const CHEST: [f64; 2] = [0.70, 0.752];
 
-/// Expected height of the nipples above the floor, by proportion alone.
+/// Expected height of the nipples above the floor, m, by proportion alone.
 pub(crate) fn usual_chest(stature: f64, crotch: f64) -> f64 {
     NIPPLES[0] * stature + NIPPLES[1] * crotch
 }
 
-/// Level of the nipples, which leave no mark that a scan keeps. It is half way between two estimates with similar
-/// errors. One is the height at which the front stands out most from the chord between ribs and collar bones; a hanging
-/// breast or a muscle stands out elsewhere. The other follows from proportions. The level is at most the highest at
-/// which the arms are apart from the trunk.
+/// Level of the nipples, of which a scan keeps no mark: the mean of two estimates with similar errors. One is the
+/// height at which the front stands out most from the chord between ribs and collar bones, which a hanging breast or a
+/// muscle shifts. The other follows from proportions. The level is at most the highest at which the arms are apart from
+/// the trunk.
 pub(crate) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let trunk = Slices::new(mesh, low, high);
-    // Front of the trunk, and true if the arms are apart from it.
+    // Front of the trunk, and true if an arm is apart from it.
     let section = |z: f64| {
         let outlines = trunk.slice(z);
         let apart = outlines.iter().any(|outline| tape::is_right_limb(outline, middle));
@@ -262,12 +261,13 @@ pub(crate) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     let falls: Vec<f64> = falling.windows(2).map(|pair| pair[0].1 - pair[1].1).collect();
     let steepest = falls.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
     let Some((at, &most)) = steepest else { return chest - 0.05 * stature };
-    // The fall has stopped where it is less than half as steep as at its steepest.
+    // The fall ends where it is less than half as steep as at its steepest.
     let stop = (at..falls.len()).find(|&i| falls[i] < 0.5 * most).unwrap_or(falls.len());
     falling[stop].0
 }
 
-/// Middle of the right upper arm and the arm's direction, from sections of the hanging arm.
+/// Middle of the right upper arm and direction of the arm, from sections of the hanging arm. `None` if the arm is not
+/// apart from the trunk.
 fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<AxisPoint> {
     let centre = |share: f64| {
         let z = floor + share * stature;

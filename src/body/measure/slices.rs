@@ -1,11 +1,11 @@
-//! Horizontal sections of a mesh at many heights, with its triangles sorted by height.
+//! Horizontal sections of a mesh at many heights, by triangles sorted by height.
 
 use geom::TriMesh;
 use geom::section::{Outline, Plane, section, section_of};
 
-/// A mesh that can be cut by horizontal planes.
+/// Mesh that horizontal planes can cut.
 pub(crate) trait Sliced {
-    /// Outlines at height `z`, metres.
+    /// Outlines at height `z`, m.
     fn slice(&self, z: f64) -> Vec<Outline>;
 }
 
@@ -15,14 +15,14 @@ impl Sliced for TriMesh {
     }
 }
 
-/// Height of a layer, metres: about half of that of a triangle.
+/// Height of a layer, m: about half of the height of a triangle.
 const LAYER: f64 = 0.006;
 
-/// Part of a mesh between two heights, sorted into layers. Planes outside this range give no outlines.
+/// Part of a mesh between two heights, sorted into layers. Planes outside that range give no outlines.
 pub(super) struct Slices<'a> {
     mesh: &'a TriMesh,
     low: f64,
-    /// Triangles that reach into each layer, and the first of each layer.
+    /// Triangles that reach into each layer, then the index of the first triangle of each layer.
     triangles: Vec<[usize; 3]>,
     starts: Vec<usize>,
 }
@@ -35,7 +35,7 @@ impl<'a> Slices<'a> {
             let heights = triangle.map(|vertex| (mesh.positions[vertex].z - low) / LAYER);
             let least = heights.into_iter().fold(f64::INFINITY, f64::min);
             let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // A height near the border of two layers counts for both, since rounding might decide otherwise later.
+            // A height near the border of two layers counts for both, because rounding might decide differently later.
             // Casts saturate at zero.
             let first = (least - 1e-6) as usize;
             if most < -1e-6 || first >= count { 0..0 } else { first..((most + 1e-6) as usize + 1).min(count) }

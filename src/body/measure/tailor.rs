@@ -1,5 +1,5 @@
-//! Tailor's measurements beyond girths: armscye, bust points, shoulder slope, widths and rise. Each has the line along
-//! which it is read, to be drawn.
+//! Tailor's measurements other than girths: armscye, bust points, shoulder slope, widths and rise. Each has the line
+//! along which it is read, for drawing.
 
 use super::arm::Arm;
 use super::landmarks::{self, Side, median_point};
@@ -17,13 +17,13 @@ use geom::{TriMesh, V2, V3, hull};
 pub struct Taken {
     /// Key with its unit: `armscye_depth_mm`, `shoulder_slope_deg`.
     pub key: &'static str,
-    /// Value in millimetres or degrees, as the key says. `None` where the body does not show it.
+    /// Value in millimetres or degrees, as the key says. `None` if the body does not show the measurement.
     pub written: Option<f64>,
-    /// Line on the skin along which it is read, metres.
+    /// Line on the skin along which the measurement is read, m.
     pub path: Vec<V3>,
 }
 
-/// Landmarks and levels by which a tailor measures, those of limbs for the right side; metres.
+/// Landmarks and levels by which a tailor measures, m. Those of limbs are for the right side.
 pub(super) struct Marks {
     pub stature: f64,
     pub floor: f64,
@@ -39,7 +39,7 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Finds them on a bare mesh.
+    /// Finds landmarks and levels on a bare mesh.
     pub fn of_mesh(mesh: &TriMesh, sites: &Sites, sex: Sex) -> Self {
         let stature = sites.crown - sites.floor;
         let shoulder = sites.shoulder[0];
@@ -62,7 +62,7 @@ impl Marks {
         }
     }
 
-    /// Takes them from a body with known landmarks.
+    /// Takes landmarks and levels from a body.
     fn of_body(body: &Body) -> Self {
         let (low, high) = body.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
         let stature = high.z - low.z;
@@ -125,9 +125,9 @@ fn length_of(path: &[V3]) -> f64 {
 }
 
 /// Taut tape between two points of the skin: the convex hull of the section in the plane of both points and `out`, on
-/// the side of `out`.
+/// the side of `out`. `None` if no outline passes both ends.
 fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
-    /// Greatest distance of an end from the outline that the tape follows, metres. Judgement.
+    /// Greatest distance of an end from the outline that the tape follows, m. Judgement.
     const NEAR: f64 = 0.02;
     let along = (to - from).try_normalize(1e-9)?;
     let up = (out - along * out.dot(&along)).try_normalize(1e-9)?;
@@ -139,7 +139,7 @@ fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
     let outlines = section(mesh, &plane).into_iter().filter(near);
     let mut points: Vec<V2> = outlines.flat_map(|outline| outline.points).filter(between).collect();
     points.extend(ends);
-    // The hull runs counter-clockwise from the first end straight to the other, and back over the skin.
+    // From the first end the hull runs counter-clockwise straight to the second, and then back over the skin.
     let mut path: Vec<V2> = hull::convex_hull(&points);
     path.rotate_left(1);
     path.reverse();
@@ -151,10 +151,10 @@ fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
 }
 
-/// Distance of the armscye outside the armpit, metres. Judgement.
+/// Distance of the armscye outside the armpit, m. Nearer, its plane would cut the trunk.
 const OUTSIDE: f64 = 0.006;
 
-/// Armscye girth: the tape through the shoulder point and just outside the armpit.
+/// Armscye girth: tape through the shoulder point and just outside the armpit.
 fn armscye(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     let armpit = marks.armpit? + V3::new(2.0 * OUTSIDE, 0.0, 0.0);
     let up = V3::new(marks.shoulder.x - armpit.x, 0.0, marks.shoulder.z - armpit.z).try_normalize(1e-9)?;
@@ -174,7 +174,7 @@ fn depth_of(ring: &[V3]) -> Vec<V3> {
     ends.map(|y| V3::new(centre.x, y, centre.z)).to_vec()
 }
 
-/// From the back neck point over the side neck point and the bust point straight down to the waist.
+/// Line from the back neck point over side neck point and bust point, then straight down to the waist.
 fn over_bust(mesh: &TriMesh, marks: &Marks) -> Option<Vec<V3>> {
     let (neck, [bust, _]) = (marks.side_neck?, marks.bust?);
     let waist = tape::trunk_outline(mesh, marks.waist, marks.middle)?;
@@ -196,8 +196,8 @@ fn width(mesh: &TriMesh, marks: &Marks, side: f64) -> Option<Vec<V3>> {
     taut(mesh, end(half.x)?, end(2.0 * marks.middle - half.x)?, V3::y() * side)
 }
 
-/// Estimates of the knee level as shares of the stature and of the crotch's height, of which the mean is taken. Fitted
-/// to 200 model bodies, with a residual of 30 mm, as the skin alone does not show the knee cap.
+/// Estimates of the knee level as shares of stature and of crotch height, of which the mean is taken. Fitted to 200
+/// model bodies, residual 30 mm, because the skin alone does not show the knee cap.
 const KNEE: [f64; 2] = [0.299, 0.630];
 
 /// Height of the middle of the knee.
@@ -205,9 +205,9 @@ pub(super) fn knee_level(marks: &Marks) -> f64 {
     marks.floor + (KNEE[0] * marks.stature + KNEE[1] * (marks.crotch - marks.floor)) / 2.0
 }
 
-/// Girth of the elbow and greatest girth of the forearm.
+/// Girth of the elbow, and greatest girth of the forearm.
 pub(super) fn elbow_and_forearm(mesh: &TriMesh, arm: &Arm) -> [Option<f64>; 2] {
-    /// Range between elbow and wrist in which the forearm is thickest. Judgement.
+    /// Range between elbow (0) and wrist (1) in which the forearm is thickest. Judgement.
     const THICKEST: [f64; 2] = [0.08, 0.45];
     let girth = |share: f64| {
         let plane = arm.across(share);

@@ -4,10 +4,10 @@ use super::slices::{Sliced, Slices};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3, hull};
 
-/// Least length of an outline that is a body part, metres. Shorter ones are jewellery, navels and folds.
+/// Least length of an outline that is a body part, m. Shorter outlines are jewellery, navels and folds.
 const SMALLEST_PART: f64 = 0.10;
 
-/// Outline of the trunk (or neck, or head) at height `z`: the longest across the plane `x = middle`.
+/// Outline of the trunk (or neck, or head) at height `z`: the longest outline across the plane `x = middle`.
 pub(crate) fn trunk_outline(mesh: &impl Sliced, z: f64, middle: f64) -> Option<Outline> {
     trunk_among(mesh.slice(z), middle)
 }
@@ -22,12 +22,12 @@ pub(super) fn trunk_among(outlines: Vec<Outline>, middle: f64) -> Option<Outline
     if trunks.len() < 2 { trunks.pop() } else { trunks.into_iter().max_by(|a, b| girth(a).total_cmp(&girth(b))) }
 }
 
-/// Tape girth of an outline, metres.
+/// Tape girth of an outline, m.
 pub(crate) fn girth(outline: &Outline) -> f64 {
     hull::tape_girth(&outline.points)
 }
 
-/// Tape girth of the trunk at height `z`, metres.
+/// Tape girth of the trunk at height `z`, m.
 pub(crate) fn trunk_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> {
     trunk_outline(mesh, z, middle).map(|outline| girth(&outline))
 }
@@ -43,7 +43,8 @@ pub(crate) fn leg_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> 
     legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x)).map(girth)
 }
 
-/// Foremost (`side` 1) or hindmost (-1) point of an outline at the position `x`.
+/// Foremost (`side` 1) or hindmost (-1) coordinate of an outline at the position `x`. `None` if the outline does not
+/// reach `x`.
 pub(super) fn edge(outline: &Outline, x: f64, side: f64) -> Option<f64> {
     let next = outline.points.iter().cycle().skip(1);
     let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
@@ -56,8 +57,8 @@ pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
     outline.bounds().0.x > x && hull::perimeter(&outline.points) > SMALLEST_PART
 }
 
-/// Girth of the outline round `point` in the plane through it with `normal`, metres. Of several outlines the largest
-/// counts, since inner ones are the throat and other cavities.
+/// Girth of the outline round `point` in the plane through `point` normal to `normal`, m. Of several outlines the
+/// largest counts: inner ones are the throat and other cavities.
 pub(crate) fn girth_round(mesh: &TriMesh, point: V3, normal: V3) -> Option<f64> {
     outline_round(mesh, &Plane::normal_to(point, normal)).map(|outline| girth(&outline))
 }
@@ -68,7 +69,7 @@ fn outline_round(mesh: &TriMesh, plane: &Plane) -> Option<Outline> {
     section(mesh, plane).into_iter().filter(holds).max_by(|a, b| girth(a).total_cmp(&girth(b)))
 }
 
-/// Length of the taut tape from `start` over `middle` to `end`, metres: the part of the convex hull of the section
+/// Length of the taut tape from `start` over `middle` to `end`, m: of the part of the convex hull of the section
 /// through the three points that lies on the side of `middle`.
 pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Option<f64> {
     let normal = (middle - start).cross(&(end - start)).try_normalize(1e-9)?;
@@ -76,8 +77,7 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
     let plane = Plane { origin: start, u: along, v: normal.cross(&along) };
     let reach = plane.project(end).x;
     let top = plane.project(middle).y;
-    // Beyond the middle point the plane may cut other parts, such as the head behind the nape. The tape does not go
-    // there.
+    // The plane may also cut parts past the middle point, such as the head behind the nape. The tape does not go there.
     let between = |p: &V2| p.x > 0.0 && p.x < reach && p.y * top > 0.0 && p.y.abs() <= top.abs();
     let mut points: Vec<V2> =
         section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(between).collect();
@@ -85,14 +85,14 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
     Some(hull::tape_girth(&points) - reach)
 }
 
-/// The narrowest girth round the neck.
+/// Narrowest girth of the neck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neck {
-    /// Girth, metres.
+    /// Girth, m.
     pub girth: f64,
-    /// Centre of the tape, metres.
+    /// Centre of the tape, m.
     pub centre: V3,
-    /// Height of the tape at the spine, metres.
+    /// Height of the tape at the spine, m.
     pub height: f64,
     /// Forward lean of the neck from the vertical, radians.
     pub lean: f64,
@@ -105,21 +105,20 @@ impl Neck {
     }
 }
 
-/// Distance of the spine behind the middle of the neck, as a share of its depth. The height of a leaning tape is read
-/// there. Judgement.
+/// Distance of the spine behind the middle of the neck, as a share of the depth of the neck. The height of a leaning
+/// tape is read there. Judgement.
 const SPINE: f64 = 0.14;
 
-/// Greatest lean of the neck that is tried, radians, and the numbers of heights and leans of the coarse grid.
-/// Judgement.
+/// Greatest lean of the neck that is tried, radians, and numbers of heights and leans of the coarse grid. Judgement.
 const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const HEIGHTS: usize = 13;
 const LEANS: usize = 7;
 
-/// Number of times that the steps of the search are halved. Judgement.
+/// Number of times that the steps of the search are halved: to an eighth.
 const HALVINGS: usize = 3;
 
-/// Finds the narrowest girth of the neck, over heights between `low` and `high` and leans of up to 30 degrees. The best
-/// point of a coarse grid is refined by a pattern search with ever smaller steps.
+/// Finds the narrowest girth of the neck, at heights between `low` and `high` and leans up to [`GREATEST_LEAN`]. A
+/// pattern search with ever smaller steps refines the best point of a coarse grid. `None` without an outline there.
 pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<Neck> {
     let upper = mesh.part(|p| p.z > low - 0.12 && p.z < high + 0.12);
     let slices = Slices::new(&upper, low, high);
@@ -147,7 +146,7 @@ pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
         let around_lean = around_lean.map(|lean| lean.clamp(0.0, GREATEST_LEAN));
         best = around.into_iter().flat_map(|height| row(height, &around_lean)).chain([best]).min_by(least)?;
     }
-    // The horizontal outline, by which the search goes, reaches under the chin. The centre of the tape itself lies
+    // The search uses the middle of the horizontal outline, which extends under the chin. The centre of the tape lies
     // farther back.
     let plane = plane(best.centre, best.lean);
     let (low, high) = outline_round(&upper, &plane)?.bounds();
@@ -156,7 +155,7 @@ pub(crate) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     Some(Neck { girth: best.girth, centre, height: spine.z, lean: best.lean })
 }
 
-/// A trial of the search.
+/// Trial of the search.
 #[derive(Clone, Copy)]
 struct Tried {
     centre: V3,
@@ -164,10 +163,10 @@ struct Tried {
     girth: f64,
 }
 
-/// Half breadth of a drawn tape and its distance from the skin, metres. Judgement.
+/// Half breadth of a drawn tape, and distance of the tape from the skin, m. Only for pictures.
 const TAPE: [f64; 2] = [0.004, 0.003];
 
-/// Bands that show taut tapes round the trunk at some heights.
+/// Bands that show taut tapes round the trunk at some heights, m.
 pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
     let [half, off] = TAPE;
     let mut bands = TriMesh::default();
@@ -189,7 +188,7 @@ pub(crate) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
     bands
 }
 
-/// Adds bands that show a line on the skin, in two planes through it.
+/// Adds bands that show a line on the skin, in two planes through the line.
 pub(crate) fn draw(bands: &mut TriMesh, path: &[V3]) {
     let [half, _] = TAPE;
     for pair in path.windows(2) {
@@ -213,7 +212,7 @@ pub(crate) fn depth_range(outline: &Outline) -> (f64, f64) {
     (high.y, low.y)
 }
 
-/// The triangles that reach above the height `z`. Sections above it are those of the whole mesh.
+/// Triangles that reach above the height `z`. Sections above `z` are those of the whole mesh.
 pub(crate) fn above(mesh: &TriMesh, z: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| mesh.positions[vertex].z > z);
     TriMesh { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().filter(reaches).copied().collect() }

@@ -1,4 +1,4 @@
-//! Mannequin from measurements: figure, skin, fit of its girths, landmarks and control mesh.
+//! Mannequin from measurements: figure, skin, fit of the girths, landmarks and control mesh.
 
 use super::control_cut::{Cuts, control_mesh};
 use super::fit::{self, Fit};
@@ -16,11 +16,11 @@ use geom::{TriMesh, V3};
 /// Builds a closed, measured mannequin.
 ///
 /// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads
-/// every given measurement on the fine mesh. The mesh has the same topology for all bodies of a sex.
+/// every given measurement on the fine mesh. All bodies of a sex have the same mesh topology.
 ///
 /// # Errors
 /// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and
-/// [`BodyError::Inconsistent`] for those that do not belong to one body.
+/// [`BodyError::Inconsistent`] for measurements that do not belong to one body.
 ///
 /// # Examples
 /// ```
@@ -75,7 +75,7 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
     })
 }
 
-/// Planes that cut the rings of the control mesh.
+/// Planes of the rings of the control mesh.
 fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
     let (atlas, h) = (figure.atlas, figure.stature());
     let [elbow, wrist, tip] = figure.arm_lengths();

@@ -1,20 +1,20 @@
 //! Control mesh [T 3.2.2]: rings of 24 vertices in the planes of the critical girths, joined by quadrilaterals.
-//! Topology and vertex order are the same for every body.
+//! Topology and vertex order are the same for all bodies.
 
 use crate::{Joint, Landmarks, Skeleton};
 use geom::{TriMesh, V3};
 
-/// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and vertex 6 in front. In those of the
-/// arms vertex 4 is below and vertex 10 in front.
+/// Number of vertices of a ring. In horizontal rings vertex 0 is on the subject's right and vertex 6 in front. In rings
+/// of the arms vertex 4 is below and vertex 10 in front.
 pub const RING: usize = 24;
 
-/// Vertices of each row of the yoke (front or back).
+/// Number of vertices of each row of the yoke, front or back.
 pub(super) const YOKE: usize = 5;
 
-/// Rows of the yoke between armpit and neck base. With them the edge of the armhole has as many vertices as a ring.
+/// Number of rows of the yoke between armpit and neck base. With these, the armhole has as many vertices as a ring.
 pub(super) const YOKE_ROWS: usize = 3;
 
-/// First vertex of the front and of the back yoke within a horizontal ring.
+/// First vertex of front and back yoke in a horizontal ring.
 pub(super) const YOKE_START: [usize; 2] = [4, 16];
 
 /// The 14 regions of the body [T, figure 3-10].
@@ -37,7 +37,7 @@ pub enum Region {
     ShankLeft,
 }
 
-/// The critical girths in the order of their rings: legs, trunk, arms.
+/// Critical girths in the order of their rings: legs, trunk, arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[allow(missing_docs)]
 pub enum Layer {
@@ -116,13 +116,13 @@ impl Layer {
     };
 }
 
-/// A coarse mesh of rings on the skin. Its vertices are the rings of [`Layer::ALL`], the rows of the yoke (front, then
+/// Coarse mesh of rings on the skin. Its vertices are the rings of [`Layer::ALL`], the rows of the yoke (front, then
 /// back, from below), and the ends (right and left sole, crown, right and left hand).
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlMesh {
-    /// Vertex positions on the fine mesh, metres.
+    /// Vertex positions on the fine mesh, m.
     pub positions: Vec<V3>,
-    /// Vertex indices of each face, counter-clockwise from outside: four, or three at ends and crotch.
+    /// Vertex indices of each face, counter-clockwise seen from outside: four, or three at ends and crotch.
     pub faces: Vec<Vec<usize>>,
     /// Region of each face.
     pub regions: Vec<Region>,
@@ -136,20 +136,20 @@ impl ControlMesh {
         TriMesh { positions: self.positions.clone(), triangles: fans.collect() }
     }
 
-    /// Vertex indices of a girth's ring, in order.
+    /// Vertex indices of the ring of a girth, in order.
     #[must_use]
     pub fn ring(&self, layer: Layer) -> std::ops::Range<usize> {
         let start = layer as usize * RING;
         start..start + RING
     }
 
-    /// Index of vertex `i`, taken modulo the ring, of a girth.
+    /// Index of vertex `i`, modulo [`RING`], of the ring of a girth.
     #[must_use]
     pub fn ring_vertex(&self, layer: Layer, i: usize) -> usize {
         layer as usize * RING + i % RING
     }
 
-    /// Mean of a ring's vertices [T 3.1], metres.
+    /// Mean of the vertices of a ring [T 3.1], m.
     #[must_use]
     pub fn ring_centre(&self, layer: Layer) -> V3 {
         self.positions[self.ring(layer)].iter().sum::<V3>() / RING as f64
@@ -183,7 +183,7 @@ impl ControlMesh {
         points
     }
 
-    /// Moves the vertices that represent landmarks onto them.
+    /// Moves the vertices that stand for landmarks onto the landmarks.
     pub(crate) fn snap(&mut self, landmarks: &Landmarks) {
         use Layer::*;
         let exact = [
@@ -204,7 +204,7 @@ impl ControlMesh {
         }
     }
 
-    /// Feature lines along the body: name and vertex indices from above. The girths are the rings.
+    /// Feature lines along the body: name, and vertex indices from above. Girths are lines too, given by the rings.
     #[must_use]
     pub fn feature_lines(&self) -> Vec<(&'static str, Vec<usize>)> {
         use Layer::*;
@@ -256,7 +256,7 @@ impl ControlMesh {
         Skeleton { joints }
     }
 
-    /// Index of a yoke vertex: `side` 0 front, 1 back; `row` from below; `place` along the row.
+    /// Index of a yoke vertex: `side` 0 is front and 1 back, `row` counts from below, `place` along the row.
     pub(super) fn yoke(side: usize, row: usize, place: usize) -> usize {
         Layer::ALL.len() * RING + (side * YOKE_ROWS + row) * YOKE + place
     }

@@ -1,4 +1,4 @@
-//! Control mesh cut out of a fine mesh: rings by plane sections, and the faces between them.
+//! Control mesh cut out of a fine mesh: plane sections give its rings, and faces join the rings.
 
 use super::control::{ControlMesh, Layer, RING, Region, YOKE, YOKE_ROWS, YOKE_START};
 use crate::BodyError;
@@ -6,10 +6,10 @@ use crate::measure::tape;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3, hull};
 
-/// Heights and planes at which the rings are cut, metres.
+/// Heights and planes of the rings, m.
 #[derive(Clone, Debug)]
 pub(crate) struct Cuts {
-    /// Foot, ankle, calf, knee, middle of the thigh, thigh.
+    /// Foot, ankle, calf, knee, mid-thigh, thigh.
     pub leg: [f64; 6],
     /// Hip, abdomen, waist, underbust, chest, axilla.
     pub trunk: [f64; 6],
@@ -25,7 +25,7 @@ pub(crate) struct Cuts {
     pub hand: V3,
 }
 
-/// Cuts the rings out of the fine mesh and joins them.
+/// Cuts the rings and joins them.
 pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, BodyError> {
     let mut positions = Vec::with_capacity(Layer::ALL.len() * RING + 64);
     let mirror = |points: &[V3], turn: &dyn Fn(usize) -> usize| -> Vec<V3> {
@@ -33,8 +33,8 @@ pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     };
     let legs = cuts.leg.iter().map(|&z| leg_ring(mesh, z)).collect::<Result<Vec<_>, _>>()?;
     positions.extend(legs.iter().flatten());
-    // A mirrored horizontal ring would start on the other side. Its vertices are renumbered, so that 0 stays on the
-    // subject's right.
+    // The mirror image of a horizontal ring would begin on the other side. Its vertices are renumbered, so that vertex
+    // 0 stays on the subject's right.
     positions.extend(legs.iter().flat_map(|ring| mirror(ring, &|i| RING + RING / 2 - i)));
     let horizontal = |&z: &f64| ring(mesh, &trunk_plane(mesh, z), 0.0, "trunk");
     for z in &cuts.trunk {
@@ -60,10 +60,10 @@ pub(crate) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     Ok(control)
 }
 
-/// Ring in which `plane` cuts the part round its origin. Vertex 0 lies at the angle `start` in the plane.
+/// Ring of the part round the origin of `plane`. Vertex 0 lies at the angle `start` in the plane.
 fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result<Vec<V3>, BodyError> {
     let outlines = section(mesh, plane);
-    // The hull is what counts, as for a tape: the point may lie in an open mouth.
+    // The origin may lie in an open mouth, so the hull of the outline counts, as it does for a tape.
     let round =
         |outline: &&Outline| Outline { points: hull::convex_hull(&outline.points), closed: true }.contains(V2::zeros());
     let outline = outlines.iter().filter(round).max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
@@ -71,8 +71,8 @@ fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result
     Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
 }
 
-/// Horizontal plane at height `z`, with its origin in the middle of the trunk's (or head's) outline. A head may lie
-/// wholly in front of the body's axis.
+/// Horizontal plane at height `z` with its origin in the middle of the outline of trunk or head. A head may lie wholly
+/// in front of the axis of the body.
 fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     let middle = tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
         let (front, back) = tape::depth_range(&outline);
@@ -81,7 +81,7 @@ fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
     Plane { origin: V3::new(0.0, middle, z), ..Plane::horizontal(z) }
 }
 
-/// Ring of the right leg at height `z`, about the middle of its outline.
+/// Ring of the right leg at height `z`, round the middle of its outline.
 fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     let legs = tape::right_limbs(mesh, z, 0.0);
     let leg = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x));
@@ -90,7 +90,7 @@ fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     ring(mesh, &Plane { origin: centre, ..Plane::horizontal(z) }, 0.0, "leg")
 }
 
-/// Points at which 24 rays from the plane's origin leave an outline.
+/// Points at which [`RING`] rays from the origin of the plane leave an outline.
 fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
     let hit = |i: usize| {
         let (sin, cos) = (start + i as f64 / RING as f64 * std::f64::consts::TAU).sin_cos();
@@ -106,7 +106,7 @@ fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
     (0..RING).map(hit).collect()
 }
 
-/// Adds the rows of the yoke, between armpit and neck base on the front and the back.
+/// Adds the rows of the yoke: front and back, between armpit and neck base.
 fn add_yoke(mesh: &TriMesh, positions: &mut Vec<V3>) {
     for start in YOKE_START {
         for row in 1..=YOKE_ROWS {
@@ -192,7 +192,7 @@ fn join_legs(control: &mut ControlMesh) {
     }
     for i in 6..18 {
         add(control, vec![left(i), left(i + 1), hip(i + 1), hip(i)], Region::Pelvis);
-        // Vertex i of the right thigh faces its mirror image on the left one.
+        // Vertex i of the right thigh faces its mirror image on the left thigh.
         add(control, vec![right(i), right(i + 1), left(36 - i - 1), left(36 - i)], Region::Pelvis);
     }
     add(control, vec![hip(6), right(6), left(6)], Region::Pelvis);
@@ -227,9 +227,9 @@ fn join_shoulders(control: &mut ControlMesh) {
     }
 }
 
-/// The 24 vertices of an armhole's edge: from the back below through the front and over the shoulder.
+/// The 24 vertices round an armhole: from the lower back through the front and over the shoulder.
 fn armhole(right: bool) -> Vec<usize> {
-    // On the right the rings are traversed from 20 over 0 to 4; on the left, mirrored, from 16 over 12 to 8.
+    // On the right, the rings are walked from 20 through 0 to 4. On the left, mirrored, from 16 through 12 to 8.
     let place = |i: usize| if right { (20 + i) % RING } else { 16 - i };
     let (front, back) = if right { (0, YOKE - 1) } else { (YOKE - 1, 0) };
     let axilla = (0..9).map(|i| Layer::Axilla as usize * RING + place(i));

@@ -4,7 +4,7 @@ use crate::{Body, ControlMesh, Layer, RING, Skeleton};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Content of the JSON file. Lengths are in metres, vertices are counted from zero.
+/// Content of the JSON file. Lengths are in metres, vertices count from zero.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlFile {
     /// Vertices, faces and the region of each face.
@@ -15,7 +15,7 @@ pub struct ControlFile {
     pub feature_points: BTreeMap<String, usize>,
     /// Vertices of each feature line, from above.
     pub feature_lines: BTreeMap<String, Vec<usize>>,
-    /// Each girth with the first vertex of its ring. The others follow.
+    /// Each girth with the first vertex of its ring, which the others follow.
     pub girths: Vec<(Layer, usize)>,
 }
 
@@ -35,7 +35,7 @@ pub fn write_control(body: &Body) -> Result<String, serde_json::Error> {
 /// Reads what [`write_control`] wrote.
 ///
 /// # Errors
-/// [`serde_json::Error`] names the line and what is wrong; also where a face names a vertex that is not there.
+/// [`serde_json::Error`] for malformed JSON, and for a face that names a missing vertex.
 pub fn read_control(text: &str) -> Result<ControlFile, serde_json::Error> {
     let file: ControlFile = serde_json::from_str(text)?;
     let count = file.mesh.positions.len();
@@ -49,7 +49,7 @@ pub fn read_control(text: &str) -> Result<ControlFile, serde_json::Error> {
 }
 
 impl ControlMesh {
-    /// Writes the mesh as Wavefront OBJ, metres, with faces grouped by region.
+    /// Writes the mesh as Wavefront OBJ in metres, with faces grouped by region.
     #[must_use]
     pub fn write_obj(&self) -> String {
         let mut text = "# control mesh, metres; x to the subject's right, y to the front, z up\n".to_owned();

@@ -7,8 +7,8 @@ use crate::shape::figure::Figure;
 use crate::{BodyError, Dimension};
 use geom::{TriMesh, V3};
 
-/// Finds the tape sites on a figure's skin. Chest, hip and neck are found on the mesh as on any other, so that
-/// measuring the mesh gives what was fitted. Shoulder and waist are known from the figure.
+/// Finds the tape sites on the skin of a figure. Chest, hip and neck are found as on any mesh, so that the mesh
+/// measures what was fitted. Shoulder and waist are known from the figure.
 pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.stature());
     let crotch = crotch(mesh, figure)?;
@@ -35,11 +35,11 @@ pub(super) fn find(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> 
     hold(mesh, figure, &level)
 }
 
-/// Greatest distance of the under-bust level from the section of the figure that its girth adjusts, over stature.
-/// Judgement.
+/// Greatest distance of the under-bust level from the section that its girth adjusts, as a share of stature. Judgement:
+/// farther away, that section would hardly change the girth.
 const UNDERBUST_OFF: f64 = 0.012;
 
-/// Under-bust level. Where its girth is given, the level lies near the section that is fitted to it.
+/// Under-bust level. If its girth is given, the level stays near the section that is fitted to the girth.
 fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
     let found = sites::underbust_level(trunk, chest, figure.stature(), 0.0);
     if !figure.profile.is_given(Dimension::UnderbustGirth) {
@@ -53,7 +53,7 @@ fn missing(part: &'static str, height: f64) -> BodyError {
     BodyError::MissingPart { part, height_m: height }
 }
 
-/// Height of the crotch on the mesh, near that of the figure.
+/// Height of the crotch on the mesh, near the crotch of the figure.
 fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
     let (meant, h) = (figure.crotch(), figure.stature());
     let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);
@@ -61,7 +61,7 @@ fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
     landmarks::crotch(&groin, low, high, 0.0).ok_or_else(|| missing("crotch", meant))
 }
 
-/// Sites on a changed skin: the levels of chest, hip and neck are kept, the others found again.
+/// Sites on a changed skin: levels of chest, hip and neck are kept, the others are found again.
 pub(super) fn hold(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
     let h = figure.stature();
     let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.95 * h);

@@ -1,4 +1,4 @@
-//! Fit of a figure: its dimensions are corrected until the tape reads the requested measurements on its skin.
+//! Fit of a figure: corrects its dimensions until the tape reads the requested measurements on its skin.
 
 use super::figure_sites;
 use super::limb_tape::LimbSites;
@@ -13,20 +13,22 @@ use crate::{BodyError, Sex};
 use geom::TriMesh;
 use std::sync::LazyLock;
 
-/// Greatest number of rounds, and of corrections in each. The levels of the tape are fixed within a round and found
+/// Greatest number of rounds, and of corrections in each. The levels of the tape stay fixed in a round and are found
 /// again after it. Judgement.
 const ROUNDS: usize = 6;
 const CORRECTIONS: usize = 6;
 
-/// Error at which the corrections of a round stop, and error with new levels at which the fit stops, metres. Judgement.
+/// Error below which the corrections of a round end, and error with new levels below which the fit ends, m: both below
+/// the accepted deviations.
 const CORRECTED: f64 = 3e-4;
 const FITTED: f64 = 8e-4;
 
-/// Greatest accepted deviation of a girth, and of a length, from the request, metres. Judgement.
+/// Greatest accepted deviation of a girth, and of a length, from the request, m. Judgement: at most the error of a
+/// measurer ([`crate::people::likely`]).
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 
-/// A skin with its sites and girths.
+/// Skin with its sites and girths.
 #[derive(Clone)]
 pub(super) struct Fit<'a> {
     pub figure: Figure<'a>,
@@ -46,7 +48,7 @@ pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
     fit_from(profile, **factors)
 }
 
-/// Factors for which the template's own person measures as requested. They are a good start for others, since the
+/// Factors for which the person of the template measures as requested. They are a good start for others, because the
 /// difference between skin and figure varies little.
 fn start(sex: Sex) -> Factors {
     let person = Template::person(sex);
@@ -73,7 +75,7 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
         if anew.worst(profile).is_none_or(|worst| worst.off().abs() < FITTED) {
             return Ok(anew);
         }
-        // Levels that oscillate with the correction are set half way.
+        // The mean with the last levels ends oscillations between levels and corrections.
         let sites = if round == 0 { anew.sites } else { half_way(&fit.sites, anew.sites) };
         fit.hold(sites)?;
     }
@@ -86,13 +88,13 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
 }
 
 impl Fit<'_> {
-    /// The requested measurement with the greatest error.
+    /// Requested measurement with the greatest error. `None` without requests.
     fn worst(&self, profile: &Profile) -> Option<Fitted> {
         let asked = errors(profile, &self.girths).into_iter().filter(|error| error.is_asked(profile));
         asked.max_by(|a, b| a.off().abs().total_cmp(&b.off().abs()))
     }
 
-    /// Corrects every dimension by the ratio of requested and read value, with fixed levels.
+    /// Multiplies every dimension by requested / read value, with fixed levels.
     fn correct(&mut self, profile: &Profile, template: &Template) -> Result<(), BodyError> {
         for error in errors(profile, &self.girths) {
             self.figure.adjust(error.dimension, error.asked / error.read);
@@ -109,7 +111,7 @@ impl Fit<'_> {
     }
 }
 
-/// Sites with levels half way between those of two.
+/// Sites whose levels are the means of those of two sites.
 fn half_way(a: &Sites, b: Sites) -> Sites {
     let middle = |a: f64, b: f64| (a + b) / 2.0;
     Sites {
@@ -126,7 +128,7 @@ fn half_way(a: &Sites, b: Sites) -> Sites {
     }
 }
 
-/// Dimensions that are fitted whether given or not.
+/// Dimensions that are fitted even if they are only estimated.
 const MAIN: [Dimension; 5] = [
     Dimension::NeckGirth,
     Dimension::ChestGirth,
@@ -135,14 +137,14 @@ const MAIN: [Dimension; 5] = [
     Dimension::AcrossShoulder,
 ];
 
-/// Girths that the tape reads, including those of the limbs.
+/// Girths that the tape reads, with those of the limbs.
 fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyError> {
     let mut girths = sites::girths_at(mesh, sites)?;
     LimbSites::of(figure, sites).read(mesh, &mut girths);
     Ok(girths)
 }
 
-/// A fitted measurement: requested and read value, metres.
+/// A fitted measurement: requested and read value, m.
 struct Fitted {
     dimension: Dimension,
     asked: f64,
@@ -154,7 +156,7 @@ impl Fitted {
         self.read - self.asked
     }
 
-    /// True if it has to be met: it is given, or one of the main ones.
+    /// True if the measurement must be met: it is given, or one of [`MAIN`].
     fn is_asked(&self, profile: &Profile) -> bool {
         profile.is_given(self.dimension) || MAIN.contains(&self.dimension)
     }
@@ -179,7 +181,7 @@ impl Fitted {
     }
 }
 
-/// Dimensions by which a figure is corrected, in the order in which one that is not reached is reported.
+/// Dimensions of a figure that are corrected. Of several that are not reached, the first is reported.
 const CORRECTED_BY: [Dimension; 15] = {
     use Dimension::*;
     [
@@ -201,7 +203,7 @@ const CORRECTED_BY: [Dimension; 15] = {
     ]
 };
 
-/// Requested and read value of all these dimensions, without an under-bust girth that is not given.
+/// Requested and read value of all corrected dimensions, apart from an under-bust girth that is not given.
 fn errors(profile: &Profile, read: &Girths) -> Vec<Fitted> {
     let counts = |dimension: &Dimension| *dimension != Dimension::UnderbustGirth || profile.is_given(*dimension);
     let fitted = |dimension| Some(Fitted { dimension, asked: profile.at(dimension), read: read.get(dimension)? });

@@ -8,25 +8,25 @@ use crate::{Dimension, Girths};
 use geom::section::{Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Half of the range of heights over stature in which the greatest calf girth and the least ankle girth are sought.
+/// Half range of heights in which the greatest calf girth and the least ankle girth are sought, as a share of stature.
 /// Judgement.
 const CALF_REACH: f64 = 0.03;
 const ANKLE_REACH: f64 = 0.012;
 
-/// Height of the ankle girth over stature. Judgement.
+/// Height of the ankle girth / stature. Judgement.
 const ANKLE: f64 = 0.072;
 
-/// Sites of the tape on the right arm and leg, metres.
+/// Sites of the tape on right arm and leg, m.
 pub(super) struct LimbSites {
     stature: f64,
     knee: f64,
     calf: f64,
     shoulder: V3,
-    /// Centres of forearm (thickest), elbow and wrist.
+    /// Centres of forearm (where thickest), elbow and wrist.
     forearm: V3,
     elbow: V3,
     wrist: V3,
-    /// Axes of the arm: outward, forward, down the arm.
+    /// Axes of the arm: outwards, forwards, down the arm.
     axes: [V3; 3],
 }
 
@@ -60,7 +60,7 @@ impl LimbSites {
         girths.set(Dimension::ArmLength, self.arm_length(&arm));
     }
 
-    /// Arm length: from the shoulder point over the outside of the elbow to that of the wrist, metres.
+    /// Length of the tape from the shoulder point along the outside of elbow and wrist, m.
     fn arm_length(&self, arm: &TriMesh) -> Option<f64> {
         let outside = |centre: V3| {
             let plane = Plane { origin: centre, u: self.axes[1], v: self.axes[0] };

@@ -1,4 +1,4 @@
-//! The mannequin: the template skin carried to a figure, fitted to the tape, with its control mesh.
+//! The mannequin: template skin carried to a figure and fitted to the tape, with a control mesh.
 
 pub mod build;
 pub mod control;

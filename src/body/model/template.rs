@@ -1,8 +1,8 @@
 //! Template skin of a sex: polygonised once on an average figure, then carried to any other.
 //!
-//! Every vertex is bound to the body parts near it by coordinates in them: the position between two sections, the
-//! direction, the distance from the outline. On another figure the same coordinates give another position. Where parts
-//! meet, the positions that they give are blended. Topology and vertex order are thus the same for all bodies of a sex.
+//! Every vertex is bound to the nearby body parts by coordinates in them: position between two sections, direction,
+//! distance from the outline. On another figure the same coordinates give another position. Where parts meet, the
+//! positions by all of them are blended. All bodies of a sex thus have the same topology and vertex order.
 
 use crate::people::profile::Profile;
 use crate::shape::field::{NEAR, Parts};
@@ -14,31 +14,30 @@ use geom::contour::Grid;
 use geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
 
-/// Stature (m) and body mass index (kg/m2) of the template's figure. Judgement: in the middle of the adults whom it is
-/// carried to.
+/// Stature (m) and body mass index (kg/m2) of the figure of the template: in the middle of the adults to whom the
+/// template is carried.
 const FIGURE: [f64; 2] = [1.70, 24.0];
 
-/// Grid spacing of the skin over stature: of the body, and of arms (along x) and feet (along z). Judgement.
+/// Grid spacing / stature: of the body, and of the thinner arms (along x) and feet (along z). Judgement.
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
-/// Height of the ankles over stature. Judgement.
+/// Height of the ankles / stature, below which the grid is fine. Judgement.
 const ANKLE: f64 = 0.045;
 
-/// Difference of the distances from two parts up to which a vertex is bound to both, metres. Judgement.
+/// Difference between the distances from two parts up to which a vertex is bound to both, m. Judgement.
 const MIXING: f64 = 0.08;
 
-/// Passes of the smoothing where trunk and limbs meet, and its step. Judgement.
+/// Number of smoothing passes where trunk and limbs meet, and step of a pass. Judgement.
 const EVENING_PASSES: usize = 30;
 const EVENING_STEP: f64 = 0.6;
 
 /// Distance from the floor below which vertices belong to the sole, and from the median plane below which they lie on
-/// it, metres. Judgement.
+/// that plane, m: both far below the grid spacing.
 const SOLE: f64 = 1.5e-3;
 const MEDIAN: f64 = 1e-3;
 
-/// Greatest difference in height between a vertex and its mirror image, metres. It is caused by rounding, amplified by
-/// the fairing.
+/// Greatest difference in height between a vertex and its mirror image, m: rounding, amplified by the fairing.
 const PAIRED: f64 = 5e-3;
 
 /// A vertex of the right half, or its mirror image.
@@ -52,32 +51,32 @@ struct Image {
 /// Coordinates of a vertex in one part.
 #[derive(Clone, Debug)]
 struct Tie {
-    /// Index of the part, and true for that of the left side.
+    /// Index of the part, and true for its mirror image on the left.
     part: usize,
     left: bool,
     weight: f64,
-    /// Index of the tabulated section below, and the share of the way to the next.
+    /// Index of the tabulated section below, and share of the way to the next section.
     ring: usize,
     share: f64,
-    /// Direction in the section, as a vector and in units of the tabulated directions' spacing.
+    /// Direction in the section, as a vector and as a number of tabulated directions.
     direction: V2,
     column: f64,
-    /// Distance from the outline, and along the axis beyond the part's end, metres.
+    /// Distance from the outline, and along the axis past the end of the part, m.
     off: f64,
     past: f64,
 }
 
-/// A vertex of the right half or of the median plane.
+/// Vertex of the right half or the median plane.
 #[derive(Clone, Debug)]
 struct Vertex {
     ties: Vec<Tie>,
     median: bool,
     sole: bool,
-    /// Position on the template's own figure, metres.
+    /// Position on the figure of the template, m.
     home: V3,
-    /// Weight of the smoothing of its displacement: 1 where trunk and limb meet, 0 away from there.
+    /// Weight of the smoothing of the displacement: 1 where trunk and limb meet, 0 far from there.
     evened: f64,
-    /// The adjacent vertices.
+    /// Adjacent vertices.
     around: Vec<Image>,
 }
 
@@ -94,7 +93,7 @@ pub(super) struct Template {
 }
 
 impl Template {
-    /// Template of a sex, made on first use.
+    /// Template of a sex, which is made on first use.
     pub fn of(sex: Sex) -> &'static Self {
         static MALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Male));
         static FEMALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Female));
@@ -104,7 +103,7 @@ impl Template {
         }
     }
 
-    /// The person whose skin it is.
+    /// Person whose skin the template is.
     pub fn person(sex: Sex) -> Profile {
         let [stature, mass_index] = FIGURE;
         let weight_kg = Some(mass_index * stature * stature);
@@ -165,8 +164,7 @@ impl Template {
 }
 
 impl Template {
-    /// Smooths the displacements of the vertices where trunk and limbs meet. Two parts displace neighbouring vertices
-    /// differently there.
+    /// Smooths the displacements where trunk and limbs meet, because both displace neighbouring vertices differently.
     fn evened(&self, mut right: Vec<V3>, scale: f64) -> Vec<V3> {
         let mut moved: Vec<V3> = right.iter().zip(&self.vertices).map(|(p, vertex)| p - vertex.home * scale).collect();
         let joints: Vec<usize> = (0..right.len()).filter(|&i| self.vertices[i].evened > 0.0).collect();
@@ -232,7 +230,7 @@ impl Tie {
     }
 }
 
-/// Vertex of the right half (the indices `right`) for each vertex of the mesh.
+/// Vertex of the right half (vertices `right`) for each vertex of the mesh.
 fn images(positions: &[V3], right: &[usize]) -> Vec<Image> {
     let mut by_height: Vec<usize> = (0..right.len()).collect();
     by_height.sort_by(|&a, &b| positions[right[a]].z.total_cmp(&positions[right[b]].z));
@@ -251,7 +249,7 @@ fn images(positions: &[V3], right: &[usize]) -> Vec<Image> {
     (0..positions.len()).map(image).collect()
 }
 
-/// Grid on which the skin of a figure is polygonised. It is finer beyond the shoulders and below the ankles.
+/// Grid for the skin of a figure, finer beyond the shoulders and below the ankles.
 fn grid(figure: &Figure) -> Grid {
     let stature = figure.stature();
     let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::Sex;
 
-/// A body dimension. The order is that of the survey's tables (`survey.rs`).
+/// Body dimension, in the order of the tables of the survey (`survey.rs`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Dimension {
@@ -18,17 +18,17 @@ pub enum Dimension {
     WaistGirth,
     /// Girth at the greatest protrusion of the buttocks.
     HipGirth,
-    /// Least girth of the neck, the tape perpendicular to it.
+    /// Least girth of the neck, with the tape perpendicular to its axis.
     NeckGirth,
-    /// Length of the tape from shoulder point to shoulder point over the back neck point.
+    /// Length of the tape from shoulder point to shoulder point across the back neck point.
     AcrossShoulder,
     /// Girth of the thigh just below the crotch.
     ThighGirth,
     /// Knee girth, at the middle of the kneecap.
     KneeGirth,
-    /// Calf girth, the greatest.
+    /// Greatest girth of the calf.
     CalfGirth,
-    /// Ankle girth, the smallest above the ankle.
+    /// Least girth above the ankle.
     AnkleGirth,
     /// Upper arm girth, relaxed.
     UpperArmGirth,
@@ -42,7 +42,7 @@ pub enum Dimension {
     ArmLength,
     /// Length of the foot, from the heel to the tip of the longest toe.
     FootLength,
-    /// Breadth over the upper arms (bideltoid, ISO 7250-1). It is always estimated.
+    /// Breadth across the upper arms (bideltoid, ISO 7250-1), which is always estimated.
     ShoulderBreadth,
     /// Girth of the trunk under the bust.
     UnderbustGirth,
@@ -65,7 +65,7 @@ const fn facts(key: &'static str, name: &'static str, words: &'static str, range
 }
 
 impl Dimension {
-    /// All dimensions that may be given for a subject, the most usual first.
+    /// All dimensions that may be given for a subject, the most common first.
     pub const ALL: [Self; COUNT - 1] = {
         use Dimension::*;
         [
@@ -102,19 +102,19 @@ impl Dimension {
         self.facts().name
     }
 
-    /// Description, where the name alone does not suffice.
+    /// Description, if the name alone does not suffice.
     #[must_use]
     pub const fn words(self) -> &'static str {
         self.facts().words
     }
 
-    /// Least and greatest accepted value, m or kg. Judgement: wider than the range of the adults of the survey.
+    /// Least and greatest accepted value, m or kg. Judgement: wider than the range of the adults in the survey.
     #[must_use]
     pub fn range(self) -> [f64; 2] {
         self.facts().range
     }
 
-    /// Units of the key in one SI unit.
+    /// Number of units of the key in one SI unit.
     #[must_use]
     pub fn per_si(self) -> f64 {
         if self == Self::Weight { 1.0 } else { 1e3 }
@@ -166,39 +166,40 @@ impl Dimension {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "Written", try_from = "Written")]
 pub struct Measurements {
-    /// Sex, which decides the survey's table that estimates what was not measured.
+    /// Sex, which decides the table of the survey by which missing dimensions are estimated.
     pub sex: Sex,
     values: [Option<f64>; COUNT],
 }
 
 impl Measurements {
-    /// A subject of whom only the sex and the stature (m) are known.
+    /// Subject of whom only sex and stature (m) are known.
     #[must_use]
     pub fn of(sex: Sex, stature_m: f64) -> Self {
         Self { sex, values: [None; COUNT] }.with(Dimension::Stature, stature_m)
     }
 
-    /// Returns the subject with a dimension set, m or kg, or removed.
+    /// Returns the subject with a dimension set, m or kg, or removed by `None`.
     #[must_use]
     pub fn with(mut self, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
         self.set(dimension, value);
         self
     }
 
-    /// Value of a dimension, m or kg, where it is known.
+    /// Value of a dimension, m or kg. `None` if it is unknown.
     #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
         self.values[dimension as usize]
     }
 
-    /// Sets a dimension, m or kg, or removes it. The breadth over the upper arms cannot be given and is ignored.
+    /// Sets a dimension, m or kg, or removes it by `None`. The breadth across the upper arms cannot be given and is
+    /// ignored.
     pub fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
         if dimension != Dimension::ShoulderBreadth {
             self.values[dimension as usize] = value.into();
         }
     }
 
-    /// Stature, m. Not a number where it is not known.
+    /// Stature, m. NaN if it is unknown.
     #[must_use]
     pub fn stature_m(&self) -> f64 {
         self.get(Dimension::Stature).unwrap_or(f64::NAN)
@@ -210,7 +211,7 @@ impl Measurements {
     }
 }
 
-/// [`Measurements`] as they are serialised: SI values by key, such as `chest_girth_m`.
+/// [`Measurements`] as serialised: SI values by key, such as `chest_girth_m`.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Written {
     sex: Sex,

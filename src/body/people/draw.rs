@@ -3,9 +3,9 @@
 use super::survey::Survey;
 use crate::{Dimension, Measurements, Sex};
 
-/// Person with given normal scores. The first dimension lies so many standard deviations from the median. Each further
-/// one does so among the people who share the dimensions before it. Independent normal scores give people as frequently
-/// as the survey has them [Gordon 2014].
+/// Person with given normal scores. The first dimension lies its score away from the median of all people, each further
+/// one from that of the people with the same preceding dimensions. Independent normal scores give people as often as
+/// they occur in the survey [Gordon 2014].
 #[must_use]
 pub fn person(sex: Sex, scores: &[(Dimension, f64)]) -> Measurements {
     let survey = Survey::of(sex);

@@ -1,11 +1,11 @@
 //! Measurement files of other programs: SeamlyMe and Valentina (XML), GarmentCode (YAML or JSON).
 //!
-//! Only measurements with the definitions used here are taken. A value of zero means that it was not measured.
+//! Only measurements defined as here are taken. A value of zero means that it was not measured.
 
 use super::dimension::{Dimension, Measurements};
 use crate::{BodyError, Sex};
 
-/// Names of the dimensions in other programs. Of several names for one dimension, the first that is present counts.
+/// Names of the dimensions in other programs. Of several names for a dimension, the first one in the file counts.
 const NAMES: [(Dimension, &[&str]); 18] = [
     (Dimension::Stature, &["height"]),
     (Dimension::Weight, &["weight"]),
@@ -27,7 +27,7 @@ const NAMES: [(Dimension, &[&str]); 18] = [
     (Dimension::FootLength, &["foot_length"]),
 ];
 
-/// Reads the measurements of a file in any of these formats. `sex` is used where the file does not state it.
+/// Reads the measurements of a file in any of these formats. `sex` is used if the file does not say it.
 pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, BodyError> {
     let text = std::str::from_utf8(bytes).map_err(|error| refused(error.to_string(), "a text file in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
@@ -48,7 +48,7 @@ pub fn read_foreign(bytes: &[u8], sex: Option<Sex>) -> Result<Measurements, Body
 /// Content of a file.
 struct Told {
     sex: Option<Sex>,
-    /// Length of the file's unit, m.
+    /// Unit of length of the file, m.
     metres: f64,
     values: Vec<(String, f64)>,
 }
@@ -77,7 +77,7 @@ fn of_xml(text: &str) -> Result<Told, BodyError> {
         _ => None,
     };
     let measures = document.descendants().filter(|node| node.has_tag_name("m"));
-    // A value may be a formula of other measurements. It was then not measured.
+    // A value may be a formula of other measurements. It is then not measured.
     let value = |node: roxmltree::Node<'_, '_>| {
         Some((node.attribute("name")?.to_owned(), node.attribute("value")?.trim().parse().ok()?))
     };

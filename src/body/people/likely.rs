@@ -1,4 +1,5 @@
-//! Posterior distribution of a person's dimensions, given readings with errors: the survey is the prior [Gordon 2014].
+//! Posterior distribution of the dimensions of a person, given readings with errors. The survey is the prior [Gordon
+//! 2014].
 
 use super::dimension::{COUNT, Dimension};
 use super::profile::Profile;
@@ -6,9 +7,9 @@ use super::survey::Survey;
 use crate::{BodyError, Measurements, Sex};
 use nalgebra::{DMatrix, DVector};
 
-/// Standard deviations of one reading by a trained measurer, m: of small girths and heights, of large girths, of
-/// lengths, of the foot. They are the mean differences that ISO 20685-1 accepts between a scan and a trained measurer
-/// [ISO 20685-1; Kouchi 2020].
+/// Standard deviations of one reading by a trained measurer, m: of small girths and heights, large girths, lengths, the
+/// foot. These are the mean differences that ISO 20685-1 accepts between a scan and a trained measurer [ISO 20685-1;
+/// Kouchi 2020].
 const SMALL_M: f64 = 4e-3;
 const LARGE_M: f64 = 9e-3;
 const LENGTH_M: f64 = 5e-3;
@@ -32,7 +33,7 @@ impl Dimension {
     }
 }
 
-/// Distribution of a person's true dimensions: normal in their logarithms.
+/// Distribution of the true dimensions of a person, normal in their logarithms.
 #[derive(Clone, Debug)]
 pub struct Likely {
     sex: Sex,
@@ -41,7 +42,7 @@ pub struct Likely {
     root: DMatrix<f64>,
 }
 
-/// A measured value with the standard deviation of its error, m or kg.
+/// Measured value, and standard deviation of its error, m or kg.
 #[derive(Clone, Copy)]
 struct Reading {
     dimension: Dimension,
@@ -59,9 +60,9 @@ impl Likely {
         Self::seen(sex, &[])
     }
 
-    /// Distribution of a person with these readings, given the standard deviation of the error of each (m, kg). The
-    /// posterior mean lies between a reading and its expectation from the other readings, in proportion to their
-    /// uncertainties.
+    /// Distribution of a person with these readings. `error` is the standard deviation of the error of each reading (m,
+    /// kg). The posterior mean lies between a reading and its expectation by the other readings, nearer to the more
+    /// certain one.
     pub fn of(readings: &Measurements, error: impl Fn(Dimension) -> f64) -> Result<Self, BodyError> {
         Profile::new(readings)?;
         let reading = |(dimension, value)| Reading { dimension, value, error: error(dimension) };
@@ -92,7 +93,7 @@ impl Likely {
         self.person(&[0.0; COUNT])
     }
 
-    /// The person with independent normal scores.
+    /// Person with independent normal scores.
     #[must_use]
     pub fn person(&self, scores: &[f64; Self::SCORES]) -> Measurements {
         let off = &self.root * DVector::from_column_slice(scores);

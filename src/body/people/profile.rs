@@ -1,19 +1,18 @@
-//! All dimensions of a figure from those that were measured, and whether the measurements are consistent.
+//! All dimensions of a figure from the measured ones, and a check of their consistency.
 
 use super::dimension::{COUNT, Dimension};
 use super::survey::{Expected, Survey};
 use crate::{BodyError, Measurements, Sex};
 
-/// Judgement: deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are
-/// refused.
+/// Deviations from the conditional expectation, in standard deviations, beyond which girths and lengths are refused.
+/// Judgement.
 const IMPOSSIBLE_GIRTH: f64 = 8.0;
 const IMPOSSIBLE_LENGTH: f64 = 5.0;
 
-/// Two-sided 99 % quantile of the normal distribution. Beyond it a measurement is doubtful: one person in a hundred has
-/// it.
+/// Two-sided 99 % quantile of the normal distribution, beyond which a measurement is doubtful: one person in a hundred.
 const DOUBTFUL: f64 = 2.576;
 
-/// All dimensions that a figure is made from, in SI units: measured where known, estimated elsewhere.
+/// All dimensions of a figure in SI units: measured if known, otherwise estimated.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Profile {
     pub sex: Sex,
@@ -22,8 +21,8 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Checks the measurements and estimates the missing ones. Each estimate is the median among the people of the
-    /// survey who share all that is known.
+    /// Checks the measurements and estimates the missing ones: each as the median of the people of the survey who share
+    /// all that is known.
     pub fn new(known: &Measurements) -> Result<Self, BodyError> {
         check_ranges(known)?;
         check_pairs(known)?;
@@ -60,16 +59,16 @@ fn check_ranges(known: &Measurements) -> Result<(), BodyError> {
     Err(BodyError::OutOfRange { name, value: value * dimension.per_si(), least, greatest, unit })
 }
 
-/// A measurement that is inconsistent with another.
+/// Measurement that is inconsistent with another one.
 struct Misfit {
-    /// Deviation from the expectation over the accepted deviation.
+    /// Deviation from the expectation, divided by the accepted deviation.
     excess: f64,
     dimension: Dimension,
     partner: Dimension,
     expected: Expected,
 }
 
-/// Refuses two measurements that are inconsistent at this stature, or one that is inconsistent with the stature itself.
+/// Refuses two measurements that are inconsistent at this stature, or one that is inconsistent with the stature.
 fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     let survey = Survey::of(known.sex);
     let stature = (Dimension::Stature, known.stature_m());
@@ -99,7 +98,7 @@ fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     Err(BodyError::Contradiction { found: told(dimension), with, least, greatest, unit: dimension.unit() })
 }
 
-/// Standard deviations beyond which a dimension is refused.
+/// Deviation beyond which a dimension is refused, in standard deviations.
 fn limit(dimension: Dimension) -> f64 {
     match dimension {
         Dimension::Inseam | Dimension::ArmLength | Dimension::FootLength | Dimension::AcrossShoulder => {
@@ -109,7 +108,7 @@ fn limit(dimension: Dimension) -> f64 {
     }
 }
 
-/// A measurement that few people have.
+/// Measurement that few people have.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Doubt {
     /// Key of the measurement.
@@ -118,9 +117,9 @@ pub struct Doubt {
     pub value: f64,
     /// Percentile among all adults of the sex.
     pub percentile: f64,
-    /// Percentile among people of the same stature and, where known, weight.
+    /// Percentile among people of the same stature and, if known, weight.
     pub percentile_alike: f64,
-    /// Range that holds 98 % of such people, mm or kg.
+    /// Range that contains 98 % of these people, mm or kg.
     pub usual: [f64; 2],
 }
 
@@ -135,8 +134,8 @@ impl std::fmt::Display for Doubt {
     }
 }
 
-/// Measurements of a subject that are possible, but that fewer than one in a hundred people of the same stature and
-/// weight have.
+/// Measurements of a subject that fewer than one in a hundred people of the same stature and weight have, but that are
+/// possible.
 #[must_use]
 pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
     let finite = known.known().all(|(_, value)| value.is_finite() && value > 0.0);
@@ -163,19 +162,19 @@ const DENSITY: f64 = 1.01;
 /// Greatest relative difference between weight and mass from volume that is not reported. Judgement.
 const UNEXPLAINED: f64 = 0.10;
 
-/// Mass that follows from a body's volume, beside its weight.
+/// Mass by the volume of a body, and requested weight.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Mass {
-    /// Volume times 1.01 kg/l.
+    /// Mass, kg: volume times 1.01 kg/l.
     pub mass_from_volume_kg: f64,
-    /// Requested weight, kg.
+    /// Requested weight, kg. `None` if none was requested.
     pub weight_asked_kg: Option<f64>,
-    /// Relative difference of the mass from the requested weight, per cent.
+    /// Relative difference between mass and requested weight, per cent. `None` without a requested weight.
     pub mass_off_percent: Option<f64>,
 }
 
 impl Mass {
-    /// Mass of a volume in litres.
+    /// Mass of a volume in l.
     #[must_use]
     pub fn of(volume_l: f64, weight_kg: Option<f64>) -> Self {
         let mass = DENSITY * volume_l;
@@ -200,14 +199,14 @@ impl std::fmt::Display for Mass {
     }
 }
 
-/// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], and of a stature (m) and a
-/// weight (kg) where these are given.
+/// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], of the given stature (m) and
+/// weight (kg). `None` for any stature or weight.
 #[must_use]
 pub fn percentile(sex: Sex, dimension: Dimension, value: f64, stature_m: Option<f64>, weight_kg: Option<f64>) -> f64 {
     100.0 * share_below(alike(sex, dimension, stature_m, weight_kg).score(value))
 }
 
-/// Distribution of a dimension among people of a stature and a weight.
+/// Distribution of a dimension among people of a stature and a weight. `None` for any.
 fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Option<f64>) -> Expected {
     let given: Vec<(Dimension, f64)> = [(Dimension::Stature, stature_m), (Dimension::Weight, weight_kg)]
         .into_iter()
@@ -217,7 +216,7 @@ fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Opti
     Survey::of(sex).expect(&[dimension], &given)[0]
 }
 
-/// Standard normal distribution function [Abramowitz & Stegun 7.1.26], with an error below 1e-7.
+/// Standard normal distribution function [Abramowitz & Stegun 7.1.26], error below 1e-7.
 fn share_below(score: f64) -> f64 {
     let x = score.abs() / std::f64::consts::SQRT_2;
     let t = 1.0 / (1.0 + 0.327_591_1 * x);

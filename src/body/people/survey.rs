@@ -1,18 +1,18 @@
-//! Joint distribution of body dimensions in the ANSUR II survey, from which missing ones are estimated.
+//! Joint distribution of body dimensions in the ANSUR II survey, by which missing dimensions are estimated.
 
 use super::dimension::{COUNT, Dimension};
 use crate::Sex;
 use nalgebra::{DMatrix, DVector};
 
 /// Joint normal distribution of the natural logarithms of the dimensions (m, kg) of one sex. The distribution of some
-/// dimensions given others follows by conditioning. Girths grow with the root of the mass and never turn negative,
-/// which logarithms reproduce.
+/// dimensions given others follows by conditioning. In logarithms, girths grow with the root of the mass and are never
+/// negative.
 ///
-/// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. The survey's own dimensions
-/// are converted into those of ISO 8559-1 by constant factors for men and women. From the waist at the navel they are
-/// 0.997 and 0.968, from flexed upper arm and forearm to relaxed 0.92 and 0.95, from lower thigh to knee 0.93. From
-/// biacromial breadth to tape over the back neck point they are 1.066 and 1.115 (means of three reference bodies of
-/// each sex). The under-bust follows from chest and waist, by least squares over 80 model bodies of each sex
+/// Means, standard deviations and correlations of 4,082 men and 1,986 women [Gordon 2014]. Dimensions of the survey are
+/// converted into those of ISO 8559-1 by constant factors for men and women. From the waist at the navel they are 0.997
+/// and 0.968, from flexed to relaxed upper arm and forearm 0.92 and 0.95, from lower thigh to knee 0.93. From
+/// biacromial breadth to tape across the back neck point they are 1.066 and 1.115 (means of three reference bodies of
+/// each sex). The under-bust girth follows from chest and waist, by least squares for 80 model bodies of each sex
 /// (MakeHuman, CC0-1.0).
 pub(crate) struct Survey {
     mean: [f64; COUNT],
@@ -34,7 +34,7 @@ impl Expected {
         self.mean.exp()
     }
 
-    /// Normal score of a value: its deviation from the median, in standard deviations.
+    /// Normal score of a value: deviation of its logarithm from the mean, in standard deviations.
     pub fn score(self, value: f64) -> f64 {
         (value.ln() - self.mean) / self.sd
     }
@@ -70,15 +70,15 @@ impl Survey {
         (DVector::from_column_slice(&self.mean), covariance)
     }
 
-    /// Covariance with a ridge. Correlations that are rounded to three places need not be positive definite; a
-    /// thousandth of each variance, taken as independent, makes them so.
+    /// Covariance with a ridge. Correlations rounded to three places need not be positive definite. A thousandth of
+    /// each variance, taken as independent, makes them so.
     fn ridged(&self, a: Dimension, b: Dimension) -> f64 {
         let covariance = self.covariance(a, b);
         covariance * (1.0 - RIDGE) + if a == b { RIDGE * covariance } else { 0.0 }
     }
 
-    /// Distribution of each of the `wanted` dimensions among people with the `given` values (m, kg; each dimension
-    /// once).
+    /// Distribution of each of the `wanted` dimensions among people with the `given` values (m or kg, each dimension at
+    /// most once).
     pub fn expect(&self, wanted: &[Dimension], given: &[(Dimension, f64)]) -> Vec<Expected> {
         let count = given.len();
         let covariance = DMatrix::from_fn(count, count, |i, j| self.ridged(given[i].0, given[j].0));
@@ -100,7 +100,7 @@ impl Survey {
 /// Share of each variance that is taken as independent of all other dimensions, against rounding.
 const RIDGE: f64 = 1e-3;
 
-/// Least share of the variance that is left, however much is given. Judgement.
+/// Least share of a variance that remains, however much is given. Judgement.
 const LEAST_SHARE: f64 = 0.02;
 
 static MALE: Survey = Survey {

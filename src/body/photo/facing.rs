@@ -1,25 +1,25 @@
-//! Direction that the subject of a side picture faces. Front cameras of phones mirror pictures, and people may turn
-//! either way.
+//! Direction that the subject of a side picture faces. Front cameras of phones mirror pictures, and people turn either
+//! way.
 
 use super::sections::{LOWEST, SIDES, STEP};
 use super::silhouette::Mask;
 use super::trunk;
 use crate::Sex;
 
-/// Ranges of height over that of the figure in which the feet and the ankles are seen. From above, insteps reach up to
+/// Ranges of height of feet and ankles, as shares of the height of the figure. Seen from above, insteps reach up to
 /// 0.08. Judgement.
 const FEET: [f64; 2] = [0.0, 0.05];
 const ANKLES: [f64; 2] = [0.10, 0.14];
 
-/// Least distance between the middles of feet and ankles that tells the direction, over stature. Toes reach about 0.08
-/// in front of the ankle, heels 0.02 behind it, so the distance is about 0.03. This is a third of it.
+/// Least distance between the middles of feet and ankles that tells the direction, as a share of stature. Toes reach
+/// 0.08 in front of the ankle and heels 0.02 behind it, so the distance is about 0.03, of which this is a third.
 const FORWARD: f64 = 0.01;
 
-/// Least correlation that tells the direction, between the line through the middle of the trunk, from thigh to
-/// shoulders, and that of people. The two then share a quarter of their variance.
+/// Least correlation that tells the direction: of the line through the middle of the trunk, from thigh to shoulders,
+/// with that of people. They then share a quarter of their variance.
 const ALIKE: f64 = 0.5;
 
-/// Turns a side silhouette to face its right. Returns a note for the user if it was turned or is undecided.
+/// Turns a side silhouette to face right. Returns a note for the user if it was turned or is undecided.
 pub(super) fn to_the_right(mask: Mask, sex: Sex) -> (Mask, Option<String>) {
     let Some(rows) = mask.rows() else { return (mask, None) };
     let told = by_toes(&mask, rows) + by_trunk(&mask, rows, sex);
@@ -41,7 +41,7 @@ fn by_toes(mask: &Mask, rows: (usize, usize)) -> i32 {
     sign(forward / (rows.1 + 1 - rows.0) as f64, FORWARD)
 }
 
-/// Middle column of the silhouette between two heights over that of the figure.
+/// Middle column of the silhouette between two heights, as shares of the height of the figure. `None` without pixels.
 fn middle(mask: &Mask, rows: (usize, usize), heights: [f64; 2]) -> Option<f64> {
     let [low, high] = heights.map(|height| row(rows, height));
     let runs: Vec<_> = (high..=low).flat_map(|row| mask.runs(row)).collect();
@@ -49,14 +49,14 @@ fn middle(mask: &Mask, rows: (usize, usize), heights: [f64; 2]) -> Option<f64> {
     Some((left + right) as f64 / 2.0)
 }
 
-/// Direction by belly, buttocks and the bend of the back, as [`by_toes`].
+/// Direction by belly, buttocks and the bend of the back, as of [`by_toes`].
 fn by_trunk(mask: &Mask, rows: (usize, usize), sex: Sex) -> i32 {
     let widest = |height: f64| mask.runs(row(rows, height)).into_iter().max_by_key(|(start, end)| end - start);
     by_middles(|height| widest(height).map(|(start, end)| (start + end) as f64 / 2.0), sex)
 }
 
-/// Direction by the middle of a trunk, half way from its back to its front, at heights over stature: 1 where it varies
-/// as that of people, -1 where it varies the other way, 0 undecided.
+/// Direction by the middle of a trunk (mean of back and front) at heights as shares of stature: 1 if it varies as in
+/// people, -1 if it varies in the opposite way, 0 if undecided.
 pub(crate) fn by_middles(middle: impl Fn(f64) -> Option<f64>, sex: Sex) -> i32 {
     let usual = trunk::usual_middles(sex);
     let both = (0..SIDES).filter_map(|i| Some((middle(LOWEST + STEP * i as f64)?, usual[i])));

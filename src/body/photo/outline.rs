@@ -8,56 +8,55 @@ use crate::measure::sites::{CHEST, usual_chest};
 use crate::measure::slices::steps;
 use crate::{BodyError, Sex};
 
-/// Height of the ISO 8559-1 waist over stature, men and women [Gordon 2014].
+/// Height of the ISO 8559-1 waist / stature, men and women [Gordon 2014].
 const WAIST: [f64; 2] = [0.6212, 0.6299];
 
-/// Distance of breasts and buttocks from the median plane towards the camera, as a share of half the width. Their
-/// outline in the side view is nearer to the camera by as much. Judgement.
+/// Distance from the median plane of the most prominent points of breasts and buttocks, as a share of half the width:
+/// in the side view they are nearer to the camera by it. Judgement.
 const NEARER: f64 = 0.4;
 
-/// Range of height over stature of the narrowest section of the neck. Judgement.
+/// Range of height of the narrowest section of the neck, as shares of stature. Judgement.
 const NECK: [f64; 2] = [0.83, 0.90];
 
-/// Least width or depth of a neck over stature. Those of model bodies are at least 0.045.
+/// Least width or depth of a neck, as a share of stature. Model bodies have at least 0.045.
 const LEAST_NECK: f64 = 0.03;
 
-/// Mean height of the narrowest section over stature, of the 160 model bodies of [`crate::shape::atlas`].
+/// Mean height of the narrowest section, as a share of stature, of the 160 model bodies of [`crate::shape::atlas`].
 const USUAL_NECK: f64 = 0.8714;
 
-/// Radius of the crown over stature. Seen from below or above, the edge of the head is not its highest point.
-/// Judgement.
+/// Radius of the crown / stature. Seen from below or above, the edge of the head is not its highest point. Judgement.
 const CROWN: f64 = 0.05;
 
-/// Distance over stature by which the nearest edge of the soles lies in front of the subject's axis. It is seen below
-/// the floor under the axis. Judgement.
+/// Distance by which the nearest edge of the soles lies in front of the subject's axis, as a share of stature. The edge
+/// is seen below the floor under the axis. Judgement.
 const SOLES_NEARER: f64 = 0.09;
 
-/// Weight of the crown against the soles in the estimate of the camera's height, in the front and in the side view.
-/// Hair lies on the crown. In the side view the nearer foot is nearer to the camera by an unknown step. These weights
-/// leave the least standard deviation over 700 pictures of model bodies: 4 and 6 mm.
+/// Weight of the crown against the soles in the estimate of the camera's height, in front and side view. Hair raises
+/// the crown, and in the side view the nearer foot is nearer to the camera by an unknown step. These weights leave the
+/// least standard deviation for 700 pictures of model bodies: 4 and 6 mm.
 const CROWN_COUNTS: [f64; 2] = [0.5, 0.8];
 
-/// Greatest relative difference between a person's height in a picture and the height that follows from stature,
-/// distance and focal length. Judgement.
+/// Greatest relative difference between a person's height in a picture and the height by stature, distance and focal
+/// length. Judgement.
 const MISFIT: f64 = 0.03;
 
-/// Range of heights over stature, from thigh to waist, at which the subject's axis is found in the side view, and their
-/// number. Judgement.
+/// Range of heights, from thigh to waist, at which the subject's axis is found in the side view, as shares of stature,
+/// and number of these heights. Judgement.
 const UPRIGHT: [f64; 2] = [0.30, 0.62];
 const UPRIGHTS: u32 = 33;
 
-/// Distance over stature by which the middle of thigh and trunk lies in front of the axis, which passes through the
-/// pelvis. Mean of 80 model bodies, with a standard deviation of 0.0023.
+/// Distance by which the middle of thigh and trunk lies in front of the axis, which passes through the pelvis, as a
+/// share of stature. Mean of 80 model bodies, standard deviation 0.0023.
 const MIDDLE_BEFORE_AXIS: f64 = 0.012;
 
-/// Focal length in pixels of a picture, and distance of its camera in metres.
+/// Focal length of a picture, pixels, and distance of the camera, m.
 #[derive(Clone, Copy, Debug)]
 struct Lens {
     focal_px: f64,
     distance_m: f64,
 }
 
-/// A silhouette with its scale.
+/// Silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
     mask: Mask,
@@ -65,7 +64,7 @@ pub(super) struct View {
     rows: (usize, usize),
     /// Lens and distance. `None` for an orthographic view.
     camera: Option<Lens>,
-    /// Height of the camera, metres. 0 for an orthographic view.
+    /// Height of the camera, m. 0 for an orthographic view.
     camera_height: f64,
 }
 
@@ -83,7 +82,7 @@ impl View {
         Ok(Self { mask, rows, camera, camera_height: 0.0 })
     }
 
-    /// True if two parts of the size of legs are seen side by side over most of the legs' height.
+    /// True if two runs of the width of legs are seen side by side in most rows of the legs.
     fn shows_two_legs(&self) -> bool {
         let (top, bottom) = self.rows;
         let height = bottom - top + 1;
@@ -113,7 +112,7 @@ impl View {
     }
 }
 
-/// Both silhouettes, measured in metres.
+/// Both silhouettes, measured in m.
 #[derive(Clone, Debug)]
 pub(super) struct Outlines {
     front: View,
@@ -121,7 +120,7 @@ pub(super) struct Outlines {
     stature: f64,
     /// Column of the subject's axis in the side view.
     axis: f64,
-    /// Height of the crotch, metres.
+    /// Height of the crotch, m.
     pub crotch: f64,
 }
 
@@ -138,9 +137,9 @@ impl Outlines {
         Ok(outlines)
     }
 
-    /// Note for the user on a view whose person is too tall or too small for stature, distance and focal length. A
-    /// camera that looks up or down shortens or lengthens the person as a wrong distance or focal length does. One
-    /// picture cannot tell them apart.
+    /// Note for the user on a person who is too tall or too small in a view for stature, distance and focal length.
+    /// `None` for a plausible height, or without a camera. A camera that looks up or down changes the height as a wrong
+    /// distance or focal length does, and one picture cannot tell them apart.
     pub fn doubt(&self, name: &str, side: bool) -> Option<String> {
         let view = if side { &self.side } else { &self.front };
         let Lens { focal_px: focal, distance_m: distance } = view.camera?;
@@ -183,18 +182,18 @@ impl Outlines {
         Ok((sections, hidden.is_some()))
     }
 
-    /// Outlines of the trunk at equal steps upwards. A width is missing where the trunk is not seen apart from arms or
+    /// Outlines of the trunk at equal steps upwards. A width is `None` if the trunk is not seen apart from arms or
     /// legs.
     pub fn trunk(&self) -> Profile {
         let height = |i: usize| (LOWEST + STEP * i as f64) * self.stature;
-        // A leg may cross the middle, too. The trunk does not begin there.
+        // A leg may cross the middle, too, but the trunk does not begin there.
         let is_trunk = |h: f64| self.trunk_run(h, self.middle_depth(h)).is_some_and(|run| self.is_central(run));
         let seen =
             |i: usize| (self.arms_apart(height(i)) && is_trunk(height(i))).then(|| self.width(height(i))).flatten();
         Profile { widths: std::array::from_fn(seen), sides: std::array::from_fn(|i| self.profile(height(i), [0.0; 2])) }
     }
 
-    /// Metres per pixel at a depth towards the camera.
+    /// Metres per pixel at a distance `nearer` towards the camera.
     fn scale(&self, view: &View, nearer: f64) -> f64 {
         view.camera.map_or_else(
             || self.stature / (view.rows.1 + 1 - view.rows.0) as f64,
@@ -202,7 +201,7 @@ impl Outlines {
         )
     }
 
-    /// Row of a view in which a point at a height is seen that lies `nearer` than the subject's axis.
+    /// Row of a view that shows a point at a height that is `nearer` to the camera than the subject's axis.
     fn row(&self, view: &View, height: f64, nearer: f64) -> Option<usize> {
         let scale = self.scale(view, nearer);
         let row = match view.camera {
@@ -212,7 +211,7 @@ impl Outlines {
         (row >= view.rows.0 as f64 - 0.5 && row <= view.rows.1 as f64 + 0.5).then_some(row as usize)
     }
 
-    /// Front and back of the trunk at a height in the side view, metres from the subject's axis.
+    /// Front and back of the trunk at a height in the side view, m from the subject's axis.
     fn profile(&self, height: f64, nearer: [f64; 2]) -> Option<[f64; 2]> {
         let edge = |nearer: f64, front: bool| {
             let (back_px, front_px) = self.side.widest(self.row(&self.side, height, nearer)?)?;
@@ -235,7 +234,7 @@ impl Outlines {
         middles.get(middles.len() / 2).map(|column| column - before)
     }
 
-    /// Run of the trunk at a height in the front view: the one nearest to the middle of the head.
+    /// Run of the trunk at a height in the front view: the nearest to the middle of the head.
     fn trunk_run(&self, height: f64, nearer: f64) -> Option<Run> {
         let middle = self.head_column()?;
         let off = |&(start, end): &Run| ((start + end) as f64 / 2.0 - middle).abs();
@@ -257,11 +256,11 @@ impl Outlines {
         Some((start + end) as f64 / 2.0)
     }
 
-    /// Depth of the trunk's middle towards the camera of the front view. Without a camera it is 0, since nothing
-    /// depends on it.
+    /// Distance of the middle of the trunk from the axis towards the camera of the front view. Without a camera 0,
+    /// because it changes nothing.
     fn middle_depth(&self, height: f64) -> f64 {
         let depth = |h: f64| self.profile(h, [0.0; 2]).map(|[front, back]| (front + back) / 2.0);
-        // The subject stands on the axis of the ankles, wherever the side picture shows it.
+        // The subject stands on the axis of the ankles, wherever in the side picture that is.
         if self.front.camera.is_none() { 0.0 } else { depth(height).unwrap_or(0.0) }
     }
 
@@ -287,12 +286,12 @@ impl Outlines {
             Some(!runs.iter().any(|(start, end)| (*start as f64) < middle && (*end as f64) > middle))
         };
         let heights: Vec<f64> = steps(0.30 * self.stature, 0.60 * self.stature, 300).collect();
-        // The highest gap counts, since a shadow may join the legs below it.
+        // A shadow may join the legs below the highest gap, so the highest counts.
         let last = heights.iter().rposition(|&height| gap(height) == Some(true))?;
         heights.get(last + 1).copied()
     }
 
-    /// Level of the greatest protrusion of the buttocks.
+    /// Level of the greatest protrusion of the buttocks. `None` if the outline is not seen.
     fn hip_level(&self) -> Option<f64> {
         let heights = steps(self.crotch + 0.01 * self.stature, self.crotch + 0.10 * self.stature, 48);
         let back = |z: f64| Some((z, self.profile(z, [0.0, NEARER * 0.1 * self.stature])?[1]));
@@ -301,8 +300,8 @@ impl Outlines {
         middle_of(lows.iter().filter(|(_, y)| *y < least + 1e-3).map(|(z, _)| *z))
     }
 
-    /// Level of the nipples: half way between the height at which the front stands out most from the chord between ribs
-    /// and collar bones, and the expected height by proportion.
+    /// Level of the nipples: the mean of the height at which the front stands out most from the chord between ribs and
+    /// collar bones, and of the expected height by proportion.
     fn chest_level(&self) -> Option<f64> {
         let (low, high) = (0.66 * self.stature, 0.80 * self.stature);
         let front = |z: f64| Some(self.profile(z, [0.0; 2])?[0]);
@@ -315,8 +314,8 @@ impl Outlines {
         Some((foremost + usual_chest(self.stature, self.crotch)) / 2.0)
     }
 
-    /// Narrowest section of the neck: its width from the front, and the least distance between its front and back
-    /// outline from the side.
+    /// Narrowest section of the neck: width in the front view, and least distance between front and back outline in the
+    /// side view.
     fn neck(&self) -> Result<Section, BodyError> {
         let heights: Vec<f64> = steps(NECK[0] * self.stature, NECK[1] * self.stature, 40).collect();
         let width = heights.iter().filter_map(|&z| Some((z, self.width(z)?))).min_by(|a, b| a.1.total_cmp(&b.1));
@@ -335,13 +334,12 @@ impl Outlines {
             );
             return Err(refused(view, problem));
         }
-        // A neck is nearly as narrow over some centimetres. The mean with the usual height makes its level more
-        // certain.
+        // A neck is nearly as narrow over some centimetres, so the mean with the usual height is more certain.
         let height = (height + USUAL_NECK * self.stature) / 2.0;
         Ok(Section { level: Level::Neck, height, width, depth })
     }
 
-    /// True if both arms are seen apart from the trunk at a height in the front view.
+    /// True if both arms are apart from the trunk at a height in the front view.
     fn arms_apart(&self, height: f64) -> bool {
         let nearer = self.middle_depth(height);
         let (Some(row), Some((start, end))) = (self.row(&self.front, height, nearer), self.trunk_run(height, nearer))
@@ -352,8 +350,8 @@ impl Outlines {
         runs.iter().any(|run| run.1 <= start) && runs.iter().any(|run| run.0 >= end)
     }
 
-    /// Width of a chest whose sides the arms hide: that at the nearest height below at which they are clear. `None`
-    /// where they do not hide it.
+    /// Width of a chest whose sides the arms hide: at the nearest height below at which the arms are apart. `None` if
+    /// they do not hide the chest.
     fn hidden_chest_width(&self, chest: f64) -> Option<f64> {
         if self.arms_apart(chest) {
             return None;
@@ -363,8 +361,7 @@ impl Outlines {
         self.width(clear - 2.0 * step)
     }
 
-    /// Refuses arms that touch the trunk at the waist. Arms that are stretched out are far from it, hanging ones must
-    /// be apart.
+    /// Refuses arms that touch the trunk at the waist. Arms stretched out are far from it, hanging arms must be apart.
     fn check_arms(&self, waist: f64) -> Result<(), BodyError> {
         let missing = || refused("front", "no waist is found in its outline");
         let width = self.width(waist).ok_or_else(missing)?;
@@ -383,12 +380,12 @@ impl Outlines {
     }
 }
 
-/// True for front and back of a level if they bulge beside the median plane.
+/// True for front and back of a level that bulges beside the median plane.
 fn bulges(level: Level) -> [bool; 2] {
     [level == Level::Chest, level == Level::Hip]
 }
 
-/// Middle between the least and the greatest value.
+/// Mean of the least and the greatest value. `None` without values.
 fn middle_of(values: impl Iterator<Item = f64> + Clone) -> Option<f64> {
     let (low, high) = (values.clone().min_by(f64::total_cmp)?, values.max_by(f64::total_cmp)?);
     Some((low + high) / 2.0)

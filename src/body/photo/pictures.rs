@@ -11,24 +11,23 @@ use crate::{BodyError, Dimension, Measurements, Sex};
 use image::DynamicImage;
 use std::io::Cursor;
 
-/// Greatest number of pixels of a picture, and of its longer side at the working size. Judgement.
+/// Greatest number of pixels of a picture, and length of its longer side at the working size, pixels. Judgement.
 const MOST_PIXELS: u64 = 120_000_000;
 const WORKING: u32 = 2400;
 
-/// Least height of a person at the working size, pixels. Judgement.
+/// Least height of a person at the working size, pixels. Judgement: a pixel is then 7 mm.
 const LEAST_HEIGHT: usize = 250;
 
-/// Greatest lean of the figure in the front and in the side view, degrees. In the side view posture leans it, too.
-/// Judgement.
+/// Greatest lean of the figure in front and side view, degrees. In the side view posture adds to it. Judgement.
 const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
 
-/// Greatest dark and least bright gray level of a mask. Judgement.
+/// Greatest dark and least bright gray level of a mask, which has nothing between. Judgement.
 const MASK_LEVELS: [u8; 2] = [40, 215];
 
-/// Measurements of a body from two pictures: height, width, depth and girth of its levels.
+/// Measurements of a body from two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
-    /// Sex, stature and the girths, ready for [`crate::build`].
+    /// Sex, stature and girths, ready for [`crate::build`].
     pub measurements: Measurements,
     /// Neck, chest, waist and hip: height, width, depth and girth.
     pub levels: Vec<PicturedLevel>,
@@ -38,7 +37,7 @@ pub struct Pictured {
     pub notes: Vec<String>,
 }
 
-/// One girth level read from two pictures, metres.
+/// Girth level read from two pictures, m.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct PicturedLevel {
@@ -47,12 +46,12 @@ pub struct PicturedLevel {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
-    /// Half width of the interval of the girth that holds four people in five.
+    /// Half width of the interval of the girth that contains four in five people.
     pub within_m: f64,
 }
 
-/// Measures a body in a front and a side picture, scaled by the stature. The pictures are PNG or JPEG: photographs
-/// against a plain background, or black and white masks. Without a camera they are treated as orthographic.
+/// Measures a body in a front and a side picture, scaled by its stature. The pictures are PNG or JPEG: photographs with
+/// a plain background, or black and white masks. Without a camera they count as orthographic.
 pub fn from_pictures(
     front: &[u8],
     side: &[u8],
@@ -114,12 +113,12 @@ fn size(view: &'static str, bytes: &[u8]) -> Result<(u32, u32), BodyError> {
 /// Height of the front picture in pixels, for [`Camera::of_focal`].
 ///
 /// # Errors
-/// [`BodyError::Picture`] when it cannot be read.
+/// [`BodyError::Picture`] if the picture cannot be read.
 pub fn picture_height(front: &[u8]) -> Result<u32, BodyError> {
     size("front", front).map(|(_, height)| height)
 }
 
-/// Mask of the person in a picture, which is read from a mask or segmented from a photograph.
+/// Mask of the person in a picture: read from a mask, or segmented from a photograph.
 fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     let (width, height) = size(view, bytes)?;
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
@@ -138,7 +137,7 @@ fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     Ok(found.cleaned())
 }
 
-/// Mask of a black and white picture. The colour of its border is that of the background. `None` for a photograph.
+/// Mask of a black and white picture, whose border has the colour of the background. `None` for a photograph.
 fn mask(picture: &DynamicImage) -> Option<Mask> {
     let gray = picture.to_luma8();
     let (width, height) = (gray.width() as usize, gray.height() as usize);
@@ -161,7 +160,7 @@ fn is_colourless(picture: &DynamicImage) -> bool {
     rgb.pixels().step_by(97).all(|p| p.0.iter().max().zip(p.0.iter().min()).is_none_or(|(a, b)| a - b < 24))
 }
 
-/// Refuses all but one standing person who is wholly in the picture.
+/// Refuses anything but one standing person who is wholly in the picture.
 fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
     let pieces = mask.pieces();
     let Some(person) = pieces.first().filter(|piece| piece.len() * 400 > mask.bits.len()) else {
@@ -196,7 +195,7 @@ fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
     Ok(())
 }
 
-/// Angle of the figure's long axis from the vertical, clockwise positive, degrees.
+/// Angle of the long axis of the figure from the vertical, degrees, clockwise positive.
 fn lean_deg(mask: &Mask, person: &[usize]) -> f64 {
     let place = |i: &usize| [(i % mask.width) as f64, (i / mask.width) as f64];
     let count = person.len().max(1) as f64;
@@ -204,7 +203,7 @@ fn lean_deg(mask: &Mask, person: &[usize]) -> f64 {
     let (x, y) = (mean(&|p| p[0]), mean(&|p| p[1]));
     let (xx, yy) = (mean(&|p| (p[0] - x).powi(2)), mean(&|p| (p[1] - y).powi(2)));
     let xy = mean(&|p| (p[0] - x) * (p[1] - y));
-    // Principal axis of the second moments. Rows run downwards.
+    // Principal axis of the second moments. Rows count downwards.
     -((2.0 * xy).atan2(yy - xx) / 2.0).to_degrees()
 }
 

@@ -1,15 +1,15 @@
-//! Trunk as pictures show it: its outlines, its girth levels, and the ellipse that a section is compared with.
+//! Trunk as pictures show it: outlines, girth levels, and the ellipse with which a section is compared.
 
 use geom::{V2, hull};
 
-/// Heights over stature at which the outlines of the trunk are read: the lowest, their spacing, the number of widths,
-/// and the number of fronts and backs. Judgement.
+/// Heights at which the outlines of the trunk are read, as shares of stature: the lowest, their spacing, the number of
+/// widths, and the number of fronts and backs. Judgement.
 pub(super) const LOWEST: f64 = 0.48;
 pub(super) const STEP: f64 = 0.02;
 pub(super) const WIDTHS: usize = 12;
 pub(super) const SIDES: usize = 17;
 
-/// A girth level that pictures show.
+/// Girth level that pictures show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Neck,
@@ -29,7 +29,7 @@ impl Level {
     }
 }
 
-/// A horizontal section measured in both views, metres.
+/// Horizontal section measured in both views, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
     pub level: Level,
@@ -38,7 +38,7 @@ pub(super) struct Section {
     pub depth: f64,
 }
 
-/// Outlines of the trunk in two pictures, metres.
+/// Outlines of the trunk in two pictures, m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
     /// Widths from side to side.

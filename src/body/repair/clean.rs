@@ -3,26 +3,27 @@
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Share of the body's area below which a piece is noise. Judgement.
+/// Area of a piece as a share of the body's, below which the piece is noise. Judgement: a greater one drops a separate
+/// head.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Share of the body's area above which a second piece is another body. Judgement.
+/// Area of a second piece as a share of the body's, above which it is another body. Judgement.
 const SECOND_BODY: f64 = 0.5;
 
-/// Ratio of the least to the greatest standard deviation below which a piece is flat: floor or wall. Judgement.
+/// Least / greatest standard deviation below which a piece is flat: a floor or a wall. Judgement.
 const FLAT: f64 = 0.02;
 
-/// Greatest sine of the tilt of a floor triangle, and thickness of a floor over stature. Judgement.
+/// Greatest sine of the tilt of a floor triangle, and thickness of a floor / stature. Judgement.
 const FLOOR_TILT: f64 = 0.2;
 const FLOOR_THICKNESS: f64 = 0.008;
 
-/// Least area of a floor over squared stature. The area of two soles is less.
+/// Least area of a floor, divided by squared stature. Two soles have less.
 const FLOOR_AREA: f64 = 0.025;
 
-/// Keeps the body's pieces of a mesh, and notes what was left out.
+/// Keeps the pieces of the body, and notes what was left out.
 ///
-/// The body is the piece with the greatest area that is not flat. Other pieces stay if they are large and not flat,
-/// such as a head that a gap separates from its trunk.
+/// The body is the piece of greatest area that is not flat. Other pieces stay if they are large and not flat, such as a
+/// head that a gap separates from its trunk.
 pub(crate) fn keep_body(mesh: &TriMesh, notes: &mut Vec<String>) -> TriMesh {
     let pieces = pieces(mesh);
     if pieces.len() == 1 {
@@ -48,7 +49,7 @@ pub(crate) fn several(mesh: &TriMesh) -> bool {
     areas.get(1).is_some_and(|second| *second > SECOND_BODY * areas[0])
 }
 
-/// Removes the floor under an upright body where it is joined to the feet. `None` if there is none.
+/// Removes the floor that is joined to the feet of an upright body. `None` without a floor.
 pub(crate) fn drop_floor(mesh: &TriMesh, notes: &mut Vec<String>) -> Option<TriMesh> {
     let (low, high) = mesh.bounds()?;
     let stature = high.z - low.z;
@@ -111,7 +112,7 @@ fn is_flat(mesh: &TriMesh, triangles: &[[usize; 3]]) -> bool {
     spread.is_none_or(|spread| spread[2] < FLAT * spread[0])
 }
 
-/// Principal axes of a surface and the variances along them, the greatest first, weighted by area.
+/// Variances of a surface along its principal axes, the greatest first, and these axes, weighted by area.
 pub(crate) fn principal_axes(mesh: &TriMesh, triangles: &[[usize; 3]]) -> Option<([f64; 3], [V3; 3])> {
     let weighted: Vec<(f64, V3)> = triangles
         .iter()
@@ -134,7 +135,7 @@ pub(crate) fn principal_axes(mesh: &TriMesh, triangles: &[[usize; 3]]) -> Option
     Some((order.map(|i| eigen.eigenvalues[i].max(0.0)), order.map(axis)))
 }
 
-/// Mesh of some triangles, with only the vertices that they use.
+/// Mesh of some triangles, with the vertices that they use.
 pub(crate) fn used_part(mesh: &TriMesh, triangles: &[[usize; 3]]) -> TriMesh {
     let mut number = vec![usize::MAX; mesh.positions.len()];
     let mut part = TriMesh::default();

@@ -1,4 +1,4 @@
-//! Detection of missing feet in a scan. Scanners lose them, and pipelines cut them off. The rest then stands on its
+//! Detection of missing feet in a scan. Scanners lose feet and pipelines cut them off, and the rest then stands on its
 //! ankles as if on the floor.
 //!
 //! A foot is longer than any part of the leg above it is deep. It is sought at the lower end of each leg, before holes
@@ -6,23 +6,23 @@
 
 use geom::{TriMesh, V2, V3, hull};
 
-/// Height of the end of a leg that is examined, over the height of the mesh. An instep is no higher.
+/// Height of the examined end of a leg, as a share of the height of the mesh. No instep is higher.
 const END: f64 = 0.06;
 
-/// Least length of a foot over stature. That of people is 0.15, with a standard deviation of 0.005 [Gordon 2014], that
-/// of model bodies at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
+/// Least length of a foot / stature. People have 0.15, with a standard deviation of 0.005 [Gordon 2014], model bodies
+/// at least 0.132. A leg cut 40 mm above the floor has at most 0.128 left, one cut at the ankle 0.09.
 const FOOT: f64 = 0.130;
 
-/// The same where the leg is closed. A shoe or a raised heel shortens what stands on the floor, and no hole suggests
-/// that something is lost. Judgement.
+/// The same for a leg without a hole. A shoe or a raised heel shortens what stands on the floor, and no hole suggests
+/// that something is missing. Judgement.
 const CLOSED_FOOT: f64 = 0.115;
 
-/// A hole is the end of a leg if it is as low as the leg, within this over the height, and at least as long as this
-/// share of its end. Judgement.
+/// A hole is the end of a leg if it is as low as the leg, up to this share of the height, and at least as long as this
+/// share of the end of the leg. Judgement.
 const AS_LOW: f64 = 0.005;
 const WHOLE_END: f64 = 0.5;
 
-/// The feet that a body has.
+/// Feet that a body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Feet {
     pub right: bool,
@@ -30,10 +30,10 @@ pub(crate) struct Feet {
 }
 
 impl Feet {
-    /// Feet of a whole body.
+    /// Both feet.
     pub const BOTH: Self = Self { right: true, left: true };
 
-    /// Detects the feet of an upright mesh. `rims` are the rims of its holes.
+    /// Detects the feet of an upright mesh. `rims` are the rims of the holes of the mesh.
     pub fn of(mesh: &TriMesh, rims: &[Vec<usize>]) -> Self {
         let Some((low, high)) = mesh.bounds() else { return Self::BOTH };
         let middle = (low.x + high.x) / 2.0;
@@ -41,12 +41,12 @@ impl Feet {
         Self { right: has(1.0), left: has(-1.0) }
     }
 
-    /// True if the floor is known, since at least one foot stands on it.
+    /// True if the floor is known, because at least one foot stands on it.
     pub fn stand(self) -> bool {
         self.right || self.left
     }
 
-    /// Note for the user on missing feet.
+    /// Note for the user on missing feet. `None` if both are there.
     pub fn note(self) -> Option<String> {
         let note = match (self.right, self.left) {
             (true, true) => return None,

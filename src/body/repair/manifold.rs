@@ -1,4 +1,4 @@
-//! Orientable manifold from what a scanner joined wrongly: inverted, duplicate and branching triangles, touching
+//! Orientable manifold from what a scanner joined wrongly: inverted, duplicate and branching triangles, and touching
 //! vertices.
 
 use geom::TriMesh;
@@ -24,7 +24,7 @@ fn edges(mesh: &TriMesh) -> Vec<([usize; 2], usize)> {
     edges
 }
 
-/// Keeps the triangles for which a flag is set.
+/// Keeps the triangles whose flag is true.
 fn keep(mesh: &mut TriMesh, kept: &[bool]) {
     let mut flags = kept.iter();
     mesh.triangles.retain(|_| flags.next().copied().unwrap_or(true));
@@ -43,7 +43,7 @@ fn drop_doubles(mesh: &mut TriMesh) {
     keep(mesh, &kept);
 }
 
-/// Drops the triangles at edges where more than two meet. The holes are closed as others are.
+/// Drops the triangles at edges where more than two meet. The resulting holes are closed as others are.
 fn drop_branches(mesh: &mut TriMesh) {
     let mut kept = vec![true; mesh.triangles.len()];
     for group in edges(mesh).chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 2) {
@@ -52,7 +52,7 @@ fn drop_branches(mesh: &mut TriMesh) {
     keep(mesh, &kept);
 }
 
-/// Orients the triangles of each piece alike, as most of them are.
+/// Orients the triangles of each piece in the way of the majority.
 fn orient(mesh: &mut TriMesh) {
     let mut joined: Vec<Vec<(usize, bool)>> = vec![Vec::new(); mesh.triangles.len()];
     let runs = |triangle: usize, [a, b]: [usize; 2]| {
@@ -88,7 +88,7 @@ fn orient(mesh: &mut TriMesh) {
     }
 }
 
-/// Drops triangles that still traverse an edge in the same direction as another. They belong to one-sided pieces.
+/// Drops triangles of one-sided pieces: those that still traverse an edge in the same direction as another triangle.
 fn drop_twisted(mesh: &mut TriMesh) {
     let sides = |(i, &[a, b, c]): (usize, &[usize; 3])| [([a, b], i), ([b, c], i), ([c, a], i)];
     let mut directed: Vec<([usize; 2], usize)> = mesh.triangles.iter().enumerate().flat_map(sides).collect();
@@ -98,7 +98,7 @@ fn drop_twisted(mesh: &mut TriMesh) {
     keep(mesh, &kept);
 }
 
-/// Gives every fan of triangles round a vertex a vertex of its own.
+/// Gives every fan of triangles its own vertex where several fans touch.
 fn part_fans(mesh: &mut TriMesh) {
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); mesh.positions.len()];
     for (i, triangle) in mesh.triangles.iter().enumerate() {

@@ -9,29 +9,29 @@ use feet::Feet;
 use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of Taubin's low-pass filter, inwards and outwards, and the number of passes [Taubin 1995]. Judgement.
+/// Steps of Taubin's low-pass filter, inwards and outwards, and number of passes [Taubin 1995]. The outward step is the
+/// greater one, to keep the volume. Judgement.
 const SMOOTHING: [f64; 2] = [0.5, -0.53];
 const PASSES: usize = 12;
 
-/// Roughness over the mean length of an edge above which a mesh is smoothed. That of the facets alone is less.
+/// Roughness / mean edge length above which a mesh is smoothed. The facets of a smooth mesh alone give less.
 const ROUGH: f64 = 0.022;
 
-/// Length of a hole's rim from which on it stays open, metres: half a body or a missing limb.
+/// Length of the rim of a hole from which the hole stays open, m: half a body or a missing limb.
 const LONGEST_HOLE: f64 = 0.9;
 
-/// Height below which a rim is that of a sole, and greatest depth of its patch below the rim, metres. Soles are flat.
-/// Judgement.
+/// Height below which a rim belongs to a sole, and greatest depth of its patch below the rim, m: a sole is flat.
 const SOLE_HEIGHT: f64 = 0.03;
 const SOLE_DEPTH: f64 = 0.007;
 
-/// Greatest number of times that holes are sought and closed again. Judgement.
+/// Greatest number of times that holes are sought and closed: a closed hole may leave others.
 const MENDED: usize = 3;
 
-/// Greatest number of vertices of a patch that is faired. Larger patches stay flat, since the solve is dense.
+/// Greatest number of vertices of a patch that is faired. The solve is dense, so larger patches stay flat.
 const LARGEST_PATCH: usize = 900;
 
-/// Makes a mesh an orientable manifold, smooths it where it is rough and closes its holes. Adds notes for the user, and
-/// returns the feet that it has.
+/// Makes a mesh an orientable manifold, smooths it if it is rough, and closes its holes. Adds notes for the user, and
+/// returns the feet that the mesh has.
 pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet, BodyError> {
     let dropped = manifold::make_manifold(mesh);
     if dropped > 0 {
@@ -49,7 +49,7 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<Feet
         if mesh.is_closed_manifold() {
             break;
         }
-        // A rim that touches itself leaves parts of a hole, and patches that share an edge.
+        // A rim that touches itself leaves parts of its hole, and patches that share an edge.
         manifold::make_manifold(mesh);
         *mesh = clean::keep_body(mesh, &mut Vec::new());
         holes += close_holes(mesh);
@@ -85,7 +85,7 @@ fn neighbours(mesh: &TriMesh) -> Vec<Vec<usize>> {
     around
 }
 
-/// Vector from a vertex's value to the mean of its neighbours' (umbrella operator).
+/// Vector from the value of a vertex to the mean of its neighbours (umbrella operator).
 fn to_mean(values: &[V3], around: &[usize], vertex: usize) -> V3 {
     if around.is_empty() {
         return V3::zeros();
@@ -93,8 +93,8 @@ fn to_mean(values: &[V3], around: &[usize], vertex: usize) -> V3 {
     around.iter().map(|&i| values[i]).sum::<V3>() / around.len() as f64 - values[vertex]
 }
 
-/// Roughness of a mesh, metres, which measures the noise of a scan: the median over the vertices of the normal
-/// component of the second umbrella, halved.
+/// Roughness of a mesh, m, which measures the noise of a scan: median of half the normal component of the second
+/// umbrella over all vertices.
 fn roughness(mesh: &TriMesh) -> f64 {
     let around = neighbours(mesh);
     let normals = mesh.vertex_normals();
@@ -107,7 +107,7 @@ fn roughness(mesh: &TriMesh) -> f64 {
     off.get(off.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Taubin's low-pass filter of the vertex positions, which keeps the volume. The rims of holes stay.
+/// Taubin's low-pass filter of the vertex positions, which keeps the volume. Rims of holes stay in place.
 fn smooth(mesh: &mut TriMesh) {
     let around = neighbours(mesh);
     let mut free = vec![true; mesh.positions.len()];
@@ -123,7 +123,7 @@ fn smooth(mesh: &mut TriMesh) {
     }
 }
 
-/// Directed edges without an opposite one, sorted.
+/// Directed edges without an opposite edge, sorted.
 fn rim_edges(mesh: &TriMesh) -> Vec<[usize; 2]> {
     let mut edges: Vec<[usize; 2]> = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     edges.sort_unstable();
@@ -131,7 +131,7 @@ fn rim_edges(mesh: &TriMesh) -> Vec<[usize; 2]> {
     edges.iter().filter(|edge| open(edge)).copied().collect()
 }
 
-/// Closed rims of holes, in the direction in which their patch is oriented.
+/// Closed rims of holes, in the direction in which a patch is oriented.
 fn rims(mesh: &TriMesh) -> Vec<Vec<usize>> {
     let edges = rim_edges(mesh);
     let mut used = vec![false; edges.len()];
@@ -158,7 +158,7 @@ fn rims(mesh: &TriMesh) -> Vec<Vec<usize>> {
     rims
 }
 
-/// Closes every hole with a patch that continues the curvature around it. Returns their number.
+/// Closes every hole with a patch that continues the curvature round it. Returns the number of holes.
 fn close_holes(mesh: &mut TriMesh) -> usize {
     let holes: Vec<(Vec<usize>, f64)> = rims(mesh)
         .into_iter()
@@ -209,7 +209,8 @@ fn patch(mesh: &mut TriMesh, rim: &[usize], length: f64) -> std::ops::Range<usiz
     first..tip + 1
 }
 
-/// Places the vertices of a patch as a thin plate clamped at its rim: the umbrella of the umbrella is zero at each.
+/// Places the vertices of a patch as a thin plate clamped at its rim: the umbrella of the umbrella is zero at each
+/// vertex.
 fn fair(mesh: &mut TriMesh, around: &[Vec<usize>], fresh: std::ops::Range<usize>) {
     let count = fresh.len();
     let mut matrix = DMatrix::<f64>::zeros(count, count);

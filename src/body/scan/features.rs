@@ -1,6 +1,6 @@
-//! Body from a scan: landmarks found on the skin alone, and the control mesh cut through the scan's own sections.
+//! Body from a scan: landmarks found on the skin alone, and the control mesh cut by sections of the scan.
 //!
-//! Left and right are found separately: the left side is the right one of the mirrored mesh.
+//! Left and right are found separately, the left side as the right side of the mirrored mesh.
 
 use crate::measure::arm::Arm;
 use crate::measure::sites::{self, Sites};
@@ -31,7 +31,7 @@ pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
 }
 
-/// Landmarks of one side, on the right of its mesh.
+/// Landmarks of one side, found as the right side of a mesh.
 struct Half {
     shoulder: V3,
     side_neck: V3,
@@ -99,7 +99,7 @@ fn landmarks(mesh: &TriMesh, sex: Sex, sites: &Sites, right: &Half, left: &Half)
     })
 }
 
-/// Planes that cut the rings of the control mesh, those of the limbs for the right side.
+/// Planes of the rings of the control mesh. Those of the limbs are for the right side.
 fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &Half) -> Cuts {
     let (atlas, h) = (Atlas::of(sex), sites.crown - sites.floor);
     let (shoulder, armpit, arm) = (half.shoulder, half.armpit, &half.arm);

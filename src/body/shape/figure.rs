@@ -1,7 +1,7 @@
-//! The figure: sections of trunk, neck and head, arms and legs from the dimensions of a person.
+//! The figure: sections of trunk, neck and head, arms and legs by the dimensions of a person.
 //!
-//! The mean sections are those of [`super::atlas`]. Judgement: the numbers that stand in the functions here. No source
-//! of them is recorded.
+//! The mean sections are those of [`super::atlas`]. The numbers inside the functions are judgement: no source of them
+//! is recorded.
 
 use super::atlas::Atlas;
 use super::interpolate::Monotone;
@@ -16,16 +16,16 @@ const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Shape of an elliptic section.
 pub(super) const ELLIPSE: Shape = [0.0; 9];
 
-/// A factor for each dimension.
+/// One factor for each dimension.
 pub(crate) type Factors = [f64; COUNT];
 
-/// A profile laid out in space.
+/// Person of a profile, laid out in space.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure<'a> {
     pub profile: &'a Profile,
     pub atlas: &'static Atlas,
-    /// Factors on the dimensions of the profile, by [`Dimension`]. They are adjusted until the tape reads the requested
-    /// dimensions on the skin.
+    /// Factors of the dimensions of the profile, indexed by [`Dimension`]. They are adjusted until the tape reads the
+    /// requested dimensions on the skin.
     pub factors: Factors,
 }
 
@@ -35,42 +35,42 @@ impl<'a> Figure<'a> {
         Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT] }
     }
 
-    /// A dimension with its factor, metres.
+    /// Dimension times its factor, m.
     pub fn size(&self, dimension: Dimension) -> f64 {
         self.profile.at(dimension) * self.factors[dimension as usize]
     }
 
-    /// Multiplies a dimension's factor by at most 1.18 and at least 0.85 at a time.
+    /// Multiplies the factor of a dimension, by 0.85 to 1.18 at a time.
     pub fn adjust(&mut self, dimension: Dimension, factor: f64) {
         self.factors[dimension as usize] *= factor.clamp(0.85, 1.18);
     }
 
-    /// Half of the distance between the shoulder points, metres.
+    /// Half of the distance between the shoulder points, m.
     pub fn shoulder_x(&self) -> f64 {
         self.size(Dimension::AcrossShoulder) / self.atlas.tape_over_biacromial / 2.0
     }
 
-    /// Height of the crotch, metres.
+    /// Height of the crotch, m.
     pub fn crotch(&self) -> f64 {
         self.size(Dimension::Inseam)
     }
 
-    /// Height of the hip, metres: above the crotch by the mean share of the stature.
+    /// Height of the hip, m: above the crotch by the mean share of stature.
     pub fn hip(&self) -> f64 {
         self.crotch() + (self.atlas.hip - self.atlas.crotch) * self.stature()
     }
 
-    /// Height of the section that the under-bust girth adjusts, metres.
+    /// Height of the section that the under-bust girth adjusts, m.
     pub fn underbust(&self) -> f64 {
         self.trunk_heights()[6]
     }
 
-    /// Heights of knee and calf, metres, by their shares of the leg.
+    /// Heights of knee and calf, m, by their shares of the leg.
     pub fn knee_and_calf(&self) -> [f64; 2] {
         [self.atlas.knee, self.atlas.calf].map(|share| share / self.atlas.crotch * self.crotch())
     }
 
-    /// Least and greatest corner of a box round the figure with room for its fit, metres.
+    /// Least and greatest corner of a box round the figure, m, with room for the fit.
     pub fn extent(&self) -> (V3, V3) {
         let h = self.stature();
         let room = 0.03 * h;
@@ -83,7 +83,7 @@ impl<'a> Figure<'a> {
         (V3::new(-hand.x - room, back - room, -0.4 * room), V3::new(hand.x + room, front + room, h + 0.4 * room))
     }
 
-    /// All parts: trunk with head, arm, thumb, leg and foot, those of the right side.
+    /// All parts of the right half: trunk with head, arm, thumb, leg, foot.
     pub fn parts(&self) -> [Part; 5] {
         let trunk = self.trunk_sections();
         let leg = self.leg_sections(&trunk);
@@ -98,23 +98,23 @@ impl<'a> Figure<'a> {
         [standing(core, None), self.arm(), self.thumb(), standing(leg, root), foot]
     }
 
-    /// Height of the back neck point, metres.
+    /// Height of the back neck point, m.
     pub fn back_neck_height(&self) -> f64 {
         self.atlas.cervicale * self.stature()
     }
 
-    /// Height of the front neck point, metres.
+    /// Height of the front neck point, m.
     pub fn front_neck_height(&self) -> f64 {
         self.atlas.suprasternale * self.stature()
     }
 
-    /// Height at which the shoulder line meets the neck, metres.
+    /// Height at which the shoulder line meets the neck, m.
     pub fn side_neck_height(&self) -> f64 {
         let (_, z_neck) = self.shoulder_line();
         z_neck
     }
 
-    /// Inner end of the shoulder line: its distance from the median plane, and its height.
+    /// Inner end of the shoulder line: distance from the median plane, and height.
     fn shoulder_line(&self) -> (f64, f64) {
         let h = self.stature();
         let x_neck = self.atlas.neck_half_width * h * self.neck_factor() * 1.10;
@@ -127,7 +127,7 @@ impl<'a> Figure<'a> {
         self.profile.at(Dimension::Stature)
     }
 
-    /// Heights of the nine trunk sections, metres.
+    /// Heights of the nine trunk sections, m.
     fn trunk_heights(&self) -> [f64; 9] {
         let h = self.stature();
         let (crotch, hip) = (self.crotch(), self.hip());
@@ -147,9 +147,9 @@ impl<'a> Figure<'a> {
     }
 
     /// Sections of the trunk. Hip, waist and chest have the requested girths. Between hip and waist, and above the
-    /// chest, the girths depart from linear interpolation by the same factor as in the mean body. Between waist and
-    /// chest they are at the same share of the difference as in the mean body, so that ribs do not draw in below the
-    /// chest of a body without a waist.
+    /// chest, girths depart from linear interpolation by the same factor as in the mean body. Between waist and chest
+    /// they lie at the same share of the difference as in the mean body, so that the ribs of a body without a waist do
+    /// not draw in below the chest.
     pub fn trunk_sections(&self) -> Vec<Station> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
@@ -166,7 +166,7 @@ impl<'a> Figure<'a> {
         (0..9).map(|i| self.trunk_section(i, heights[i], girth(i) * self.underbust_share(i))).collect()
     }
 
-    /// Factor on the sections between waist and chest that adjusts the under-bust girth.
+    /// Factor of the sections between waist and chest that gives the under-bust girth.
     fn underbust_share(&self, i: usize) -> f64 {
         let factor = self.factors[Dimension::UnderbustGirth as usize];
         match i {
@@ -205,7 +205,7 @@ impl<'a> Figure<'a> {
         vec![end]
     }
 
-    /// Sections from the armpit over the shoulder line up to the neck.
+    /// Sections from the armpit along the shoulder line up to the neck.
     fn shoulder_sections(&self, axilla: &Station) -> Vec<Station> {
         let h = self.stature();
         let outline = self.neck_outline();
@@ -241,14 +241,14 @@ impl<'a> Figure<'a> {
         widths.into_iter().map(section).collect()
     }
 
-    /// Front and back of a section, displaced with the girth of the chest near the armpit and with that of the neck
+    /// Front and back of a section, displaced with the girth of the chest near the armpit, and with that of the neck
     /// above.
     fn grown(&self, axilla: &Station, at: f64, front: f64, back: f64, neck: f64) -> (f64, f64) {
         let h = self.stature();
         let outline = self.neck_outline();
         let [mean_front, mean_back] = outline.map(|curve| curve.at(self.atlas.axilla) * h);
         let upness = ((at / h - self.atlas.axilla) / (0.855 - self.atlas.axilla)).clamp(0.0, 1.0);
-        // Zero slope at the armpit leaves no ledge there.
+        // Zero slope at the armpit leaves no ledge.
         let by_chest = (1.0 - upness) * (1.0 - upness) * (1.0 + upness);
         let centre = (front + back) / 2.0;
         let by_neck = 1.0 + (neck - 1.0) * upness * upness;
@@ -259,14 +259,14 @@ impl<'a> Figure<'a> {
         )
     }
 
-    /// Front and back outline in the median plane over stature.
+    /// Front and back outline in the median plane, divided by stature.
     fn neck_outline(&self) -> [Monotone; 2] {
         let rows = &self.atlas.neck_outline;
         let heights: Vec<f64> = rows.iter().map(|row| row[0]).collect();
         [1, 2].map(|side| Monotone::new(&heights, &rows.iter().map(|row| row[side]).collect::<Vec<_>>()))
     }
 
-    /// Girth of the neck over that of the mean neck.
+    /// Girth of the neck divided by that of the mean neck.
     fn neck_factor(&self) -> f64 {
         self.size(Dimension::NeckGirth) / (self.atlas.neck_girth * self.stature())
     }
@@ -291,7 +291,7 @@ impl<'a> Figure<'a> {
                 0.0,
                 0.0,
             ];
-            // A thick neck widens the jaw above it.
+            // A thick neck widens the jaw.
             let size = head * (1.0 + (self.neck_factor().max(0.95) - 1.0) * (1.0 - up / 0.4).max(0.0));
             Station {
                 at: chin + up * head,
@@ -303,7 +303,7 @@ impl<'a> Figure<'a> {
         };
         let mut sections: Vec<Station> = self.atlas.head.iter().map(section).collect();
         let top = sections[sections.len() - 1];
-        // The crown is the rest of an ellipsoid whose section `top` lies at 0.9 of the head's height.
+        // The crown is the top of an ellipsoid whose section `top` lies at 0.9 of the height of the head.
         let rest = h - top.at;
         for share in [0.3_f64, 0.55, 0.75, 0.88, 0.96, 1.0] {
             let factor = (1.0 - share).sqrt().max(0.02);

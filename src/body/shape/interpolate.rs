@@ -1,6 +1,6 @@
 //! Monotone interpolation of a quantity along an axis.
 
-/// Monotone piecewise cubic interpolant [Fritsch & Butland 1984]. It is smooth and does not overshoot.
+/// Monotone piecewise cubic interpolant [Fritsch & Butland 1984], smooth and without overshoot.
 #[derive(Clone, Debug)]
 pub(super) struct Monotone {
     at: Vec<f64>,
@@ -9,7 +9,7 @@ pub(super) struct Monotone {
 }
 
 impl Monotone {
-    /// Interpolant through `(at[i], value[i])`; `at` increases strictly.
+    /// Interpolant through `(at[i], value[i])`, where `at` strictly increases.
     pub fn new(at: &[f64], value: &[f64]) -> Self {
         let secant: Vec<f64> =
             at.windows(2).zip(value.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect();

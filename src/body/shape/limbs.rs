@@ -1,6 +1,6 @@
-//! Arms and legs of the figure. They are the right ones; the left are mirrored.
+//! Right arm and leg of the figure. The left ones are mirror images.
 //!
-//! Judgement: the proportions of the sections in these functions. No source of them is recorded.
+//! The proportions of the sections inside the functions are judgement: no source of them is recorded.
 
 use super::figure::{ELLIPSE, Figure};
 use super::loft::{Part, Shape, Station, dome};
@@ -11,33 +11,33 @@ use geom::{V2, V3};
 /// Angle of the arms from the vertical, radians. Judgement.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 
-/// Distance of the wrist from the shoulder joint over the arm length, distance of the elbow over that, and length of
-/// the hand over stature. Judgement.
+/// Distance of the wrist from the shoulder joint / arm length, distance of the elbow / that of the wrist, and length of
+/// the hand / stature. Judgement.
 const WRIST: f64 = 0.94;
 const ELBOW: f64 = 0.534;
 const HAND: f64 = 0.107;
 
-/// Position of the upper arm girth between shoulder joint and elbow. Judgement.
+/// Position of the upper arm girth as a share of the distance from shoulder joint to elbow. Judgement.
 pub(crate) const UPPER_ARM: f64 = 0.58;
 
-/// Least height of the armpit above the chest level over stature, without its fillet. Judgement.
+/// Least height of the armpit, without its fillet, above the chest level, as a share of stature.
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
 
 impl Figure<'_> {
-    /// Distance along the arm's axis from the shoulder joint at which the hand begins.
+    /// Distance from the shoulder joint along the axis of the arm at which the hand begins, m.
     pub fn hand_start(&self) -> f64 {
         self.arm_lengths()[1]
     }
 
-    /// Centre of the right shoulder joint. It lies below the shoulder point, as far out as the breadth over the upper
-    /// arms gives, and so far that the armpit lies above the chest.
+    /// Centre of the right shoulder joint: below the shoulder point, as far out as the breadth across the upper arms,
+    /// and far enough that the armpit lies above the chest.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
         let z = self.atlas.shoulder * h - radius;
         let (sin, cos) = ARM_ANGLE.sin_cos();
         let trunk = &self.trunk_sections()[8];
-        // Height at which the lower edge of the arm would meet the side of the trunk if the joint were at x = 0.
+        // Height at which the lower edge of the arm would meet the side of the trunk with the joint at x = 0.
         let meets = z - (trunk.half_width * cos + radius) / sin;
         let clear = (self.atlas.chest * h + ARMPIT_ABOVE_CHEST * h - meets) * sin / cos;
         V3::new((self.size(Dimension::ShoulderBreadth) / 2.0 - radius).max(clear), -0.014 * h, z)
@@ -47,13 +47,13 @@ impl Figure<'_> {
         self.size(Dimension::UpperArmGirth) * 0.99 / std::f64::consts::TAU
     }
 
-    /// Distances from the shoulder joint to elbow, wrist and finger tips.
+    /// Distances of elbow, wrist and finger tips from the shoulder joint, m.
     pub fn arm_lengths(&self) -> [f64; 3] {
         let wrist = self.size(Dimension::ArmLength) * WRIST;
         [ELBOW * wrist, wrist, wrist + HAND * self.stature()]
     }
 
-    /// Axes of the arm's loft: outward in the frontal plane, forward, down the arm.
+    /// Axes of the loft of the arm: outwards in the frontal plane, forwards, down the arm.
     pub fn arm_axes(&self) -> [V3; 3] {
         let (sin, cos) = ARM_ANGLE.sin_cos();
         [V3::new(cos, 0.0, sin), V3::y(), V3::new(sin, 0.0, -cos)]
@@ -108,7 +108,7 @@ impl Figure<'_> {
         }
     }
 
-    /// The thumb: a tapering rod at the front edge of the palm.
+    /// Thumb: a tapering rod at the front edge of the palm.
     pub fn thumb(&self) -> Part {
         let h = self.stature();
         let [outward, forward, down] = self.arm_axes();
@@ -183,8 +183,8 @@ impl Figure<'_> {
         sections
     }
 
-    /// Upper end of the leg. It fills the outer half of the hip up to the buttocks, with its front half way between
-    /// those of thigh and trunk, and ends inside the pelvis.
+    /// Upper end of the leg: fills the outer half of the hip up to the buttocks, with its front half way between those
+    /// of thigh and trunk, and ends inside the pelvis.
     fn leg_roots(&self, trunk: &[Station], thigh: &Station, crotch_x: f64) -> Vec<Station> {
         let fill = |at: f64, outer: &Station, inner_x: f64, share: f64, depth: f64| {
             let outer_x = outer.half_width * share;
@@ -214,8 +214,8 @@ impl Figure<'_> {
         let length = self.size(Dimension::FootLength);
         let ankle = self.size(Dimension::AnkleGirth) / 0.229;
         let heel_y = -0.018 * self.stature() - 0.24 * length;
-        // Position along the foot, half width, height, and sideways position (towards the big toe negative), all over
-        // the length.
+        // Position along the foot, half width, height, and sideways position (negative towards the big toe), each
+        // divided by the length of the foot.
         let rows: [[f64; 4]; 6] = [
             [0.10, 0.118, 0.270, 0.0],
             [0.25, 0.122, 0.300, 0.0],
@@ -225,7 +225,7 @@ impl Figure<'_> {
             [0.90, 0.155, 0.112, -0.022],
         ];
         let section = |&[along, half_width, height, side]: &[f64; 4]| {
-            // The ellipse reaches below the floor, which cuts off the sole.
+            // The ellipse extends below the floor, which cuts off the sole.
             let half_depth = 0.62 * height * length;
             Station {
                 at: along * length,
@@ -243,13 +243,13 @@ impl Figure<'_> {
         Part { origin: V3::new(x, heel_y, 0.0), axes: [V3::x(), V3::z(), V3::y()], stations, root: None }
     }
 
-    /// Sideways position of the right ankle. The legs are inclined less than the thighs.
+    /// Sideways position of the right ankle. The lower legs lean less than the thighs.
     fn ankle_x(&self, hip_x: f64) -> f64 {
         hip_x + 0.022 * self.stature()
     }
 }
 
-/// Narrows a section to `half_width` and deepens it, with the same mean square radius and so nearly the same girth.
+/// Narrows a section to `half_width` and deepens it, keeping the mean square radius and so nearly the girth.
 fn slimmed(section: Station, half_width: f64) -> Station {
     if section.half_width <= half_width {
         return section;
@@ -258,17 +258,17 @@ fn slimmed(section: Station, half_width: f64) -> Station {
     Station { half_width, half_depth: square.sqrt(), ..section }
 }
 
-/// Forward position of the thigh's centre below the crotch, over the stature `h`; the buttocks lie behind it. Fitted to
-/// the six reference bodies (girths over stature of 0.29 to 0.40, with a residual of up to 5 mm). Their thighs lie no
-/// more than a hundredth of the stature in front of the hip.
+/// Forward position of the centre of the thigh below the crotch, for a stature `h`. The buttocks lie behind it. Fitted
+/// to six reference bodies (girth / stature 0.29 to 0.40, residual up to 5 mm), whose thighs lie at most a hundredth of
+/// the stature in front of the hip.
 fn thigh_forward(hip: &Station, thigh: &Station, girth: f64, h: f64) -> f64 {
     let usual = 0.0125 + 0.08 * (girth.clamp(0.26, 0.46) - 0.335);
     let at_most = (hip.centre.y + hip.half_depth - thigh.half_depth) / h + 0.010;
     usual.min(at_most.max(0.0))
 }
 
-/// Sideways position of the right thigh below the crotch. Its outer side continues that of the hip, and the thighs are
-/// apart.
+/// Sideways position of the right thigh below the crotch: its outer side continues that of the hip, and the thighs do
+/// not touch.
 fn thigh_x(low: &Station, thigh: &Station) -> f64 {
     (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.008)
 }

@@ -1,21 +1,21 @@
-//! Lofted body parts: star-shaped cross-sections on parallel planes along an axis, and a field that approximates the
-//! signed distance from the surface through them.
+//! Lofted body parts: star-shaped sections on parallel planes along an axis, and a field that approximates the signed
+//! distance from the surface through these sections.
 
 use super::interpolate::Monotone;
 use geom::{V2, V3, hull, smooth_step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::LazyLock;
 
-/// Cosine coefficients of a section's radius, harmonics 0 to 8.
+/// Cosine coefficients of the radius of a section, harmonics 0 to 8.
 pub(super) type Shape = [f64; 9];
 
-/// Number of directions in which a section is tabulated. Judgement.
+/// Number of tabulated directions of a section: twelve per period of the highest harmonic.
 pub(super) const DIRECTIONS: usize = 96;
 
-/// Greatest slope of the outline along the axis that the field is divided by. Judgement.
+/// Bound on the slope of the outline along the axis, by which the field is divided. Judgement.
 const MAX_SLOPE: f64 = 4.0;
 
-/// Greatest relative change of the radius with the angle that the field is divided by. Judgement.
+/// Bound on the relative change of the radius with the angle, by which the field is divided. Judgement.
 const MAX_TURN: f64 = 2.0;
 
 /// A tabulated direction, with the cosines of the harmonics of its angle from the front.
@@ -33,23 +33,24 @@ static COMPASS: LazyLock<Vec<Direction>> = LazyLock::new(|| {
     (0..DIRECTIONS).map(direction).collect()
 });
 
-/// One cross-section: an ellipse whose radius is multiplied by `1 + sum shape[k] cos(k phi)`, `phi` from the front.
+/// A section: an ellipse with its radius multiplied by `1 + sum shape[k] cos(k phi)`, where `phi` is the angle from the
+/// front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Station {
-    /// Position along the axis, metres.
+    /// Position along the axis, m.
     pub at: f64,
-    /// Centre in the section plane, metres.
+    /// Centre in the plane of the section, m.
     pub centre: V2,
-    /// Half of the extent along the first axis of the section plane, metres.
+    /// Half of the extent along the first axis of the plane, m.
     pub half_width: f64,
-    /// Half of the extent along the second axis, metres.
+    /// Half of the extent along the second axis of the plane, m.
     pub half_depth: f64,
     /// Cosine coefficients of the departure from the ellipse.
     pub shape: Shape,
 }
 
 impl Station {
-    /// Distances from the centre to the outline in the tabulated directions, metres.
+    /// Radii in the tabulated directions, m.
     pub fn radii(&self) -> Vec<f64> {
         let radius = |direction: &Direction| {
             let (cos, sin) = (direction.along.x, direction.along.y);
@@ -58,7 +59,7 @@ impl Station {
             let departure: f64 = self.shape.iter().zip(&direction.harmonics).map(|(c, cosine)| c * cosine).sum();
             ellipse * (1.0 + departure)
         };
-        // The shape is symmetric. Half of the directions, from the front over the left to the back, give the others.
+        // The shape is symmetric: the directions from the front through the left to the back give the others.
         let [front, back] = [DIRECTIONS / 4, 3 * DIRECTIONS / 4];
         let half: Vec<f64> = COMPASS[front..=back].iter().map(radius).collect();
         let mirrored = |i: usize| (DIRECTIONS + DIRECTIONS / 2 - i) % DIRECTIONS;
@@ -66,13 +67,13 @@ impl Station {
         (0..DIRECTIONS).map(|i| half[place(i) - front]).collect()
     }
 
-    /// Tape girth of the section, metres.
+    /// Tape girth of the section, m.
     pub fn girth(&self) -> f64 {
         let point = |(direction, radius): (&Direction, f64)| direction.along * radius;
         hull::tape_girth(&COMPASS.iter().zip(self.radii()).map(point).collect::<Vec<_>>())
     }
 
-    /// Scales the section about its centre to a tape girth, metres.
+    /// Scales the section about its centre to a tape girth, m.
     pub fn with_girth(mut self, girth: f64) -> Self {
         let factor = girth / self.girth();
         self.half_width *= factor;
@@ -81,60 +82,60 @@ impl Station {
     }
 }
 
-/// Value and gradient direction of a field.
+/// Value of a field and direction of its gradient.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
-    /// Approximate signed distance from the surface, metres; negative inside.
+    /// Approximate signed distance from the surface, m, negative inside.
     pub distance: f64,
-    /// Unit outward direction.
+    /// Unit vector outwards.
     pub outward: V3,
 }
 
-/// A body part: sections in order along an axis, in the frame `axes = [u, v, along]` at `origin`.
+/// Body part: sections in order along an axis, in the frame `axes = [u, v, along]` at `origin`.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     pub origin: V3,
     pub axes: [V3; 3],
     pub stations: Vec<Station>,
-    /// Positions along the axis between which the part blends in from its neighbours: it counts 0 at the first and 1 at
-    /// the second. The part's end before the first lies inside them and is not skin.
+    /// Positions along the axis between which the weight of the part rises from 0 to 1, because its neighbours take its
+    /// place before. The end of the part before the first position lies inside these and is not skin.
     pub root: Option<[f64; 2]>,
 }
 
 impl Part {
-    /// Weight of the part at a position along the axis, more than 0, at most 1.
+    /// Weight of the part at a position along the axis, above 0 and at most 1.
     pub fn own(&self, at: f64) -> f64 {
         self.root.map_or(1.0, |[none, all]| smooth_step(((at - none) / (all - none)).max(1e-3)))
     }
 
-    /// Tabulates the sections at positions along the axis.
+    /// Tabulates sections at positions along the axis.
     fn rings(&self, places: impl Iterator<Item = f64>) -> Vec<Ring> {
         let curves = Curves::new(&self.stations);
         places.map(|place| Ring::new(&curves.at(place))).collect()
     }
 
-    /// Tabulates the part at the positions that correspond to `rings` of the same part of another figure, with the same
-    /// share of the distance between its sections.
+    /// Tabulates the part at the positions that correspond to `rings` of the part `other` of another figure: at the
+    /// same shares of the distances between sections.
     pub fn like(&self, other: &Self, rings: &[Ring]) -> Vec<Ring> {
         let places = |part: &Self| part.stations.iter().map(|station| station.at).collect::<Vec<_>>();
         let course = Monotone::new(&places(other), &places(self));
         self.rings(rings.iter().map(|ring| course.at(ring.at)))
     }
 
-    /// Point at `local` coordinates of the section at the position `along`.
+    /// Point with the coordinates `local` in the section at the position `along`.
     pub fn lift(&self, local: V2, along: f64) -> V3 {
         let [u, v, w] = self.axes;
         self.origin + u * local.x + v * local.y + w * along
     }
 }
 
-/// One tabulated section.
+/// A tabulated section.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
-    /// Position along the axis, metres.
+    /// Position along the axis, m.
     pub at: f64,
     pub centre: V2,
-    /// Radius in each of the tabulated directions.
+    /// Radius in each tabulated direction.
     pub radii: Vec<f64>,
 }
 
@@ -143,7 +144,7 @@ impl Ring {
         Self { at: section.at, centre: section.centre, radii: section.radii() }
     }
 
-    /// Radius at a direction `column`, in units of the tabulated directions' spacing, by linear interpolation.
+    /// Radius in a direction, by linear interpolation. `column` is the number of the tabulated direction.
     pub fn radius(&self, column: f64) -> f64 {
         let left = column as usize % DIRECTIONS;
         let across = column - column.floor();
@@ -151,26 +152,26 @@ impl Ring {
     }
 }
 
-/// Slope of the outline along the axis, with the drift of the centre included, and its relative derivative by the
-/// angle, in each direction.
+/// Slope of the outline along the axis (with the drift of the centre), and relative derivative of the radius by the
+/// angle, in each tabulated direction.
 type Slopes = Vec<[f64; 2]>;
 
 /// Coordinates of a point in a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
-    /// Position along the axis in units of the tabulated sections' spacing, clamped to the part.
+    /// Position along the axis as a number of tabulated sections, clamped to the part.
     pub ring: f64,
-    /// Distance along the axis beyond the part's ends, metres.
+    /// Distance along the axis past the ends of the part, m.
     pub past: f64,
     /// Coordinates in the section.
     pub local: V2,
 }
 
-/// Field in a section, without the part's ends.
+/// Field in a section, apart from the ends of the part.
 struct Radial {
-    /// Distance beyond the outline along the ray from the centre, metres.
+    /// Distance from the outline along the ray from the centre, m.
     distance: f64,
-    /// Gradient within the section plane.
+    /// Gradient in the plane of the section.
     gradient: V2,
     /// Slope of the outline along the axis.
     slope: f64,
@@ -188,7 +189,7 @@ pub(crate) struct Loft {
 }
 
 impl Loft {
-    /// Tabulates the field of a part about every `step` metres.
+    /// Tabulates the field of a part at intervals of about `step`, m.
     pub fn new(part: Part, step: f64) -> Self {
         let stations = &part.stations;
         let (start, end) = (stations[0].at, stations[stations.len() - 1].at);
@@ -201,7 +202,7 @@ impl Loft {
         Self { part, start, step, rings, slopes, greatest_radius }
     }
 
-    /// Weight of the part at a point, more than 0, at most 1.
+    /// Weight of the part at a point, above 0 and at most 1.
     pub fn own(&self, point: V3) -> f64 {
         self.part.own(self.along(point))
     }
@@ -220,14 +221,14 @@ impl Loft {
         Place { ring: within, past: (place - within) * self.step, local: V2::new(offset.dot(&u), offset.dot(&v)) }
     }
 
-    /// Position of a point along the axis, metres.
+    /// Position of a point along the axis, m.
     pub fn along(&self, point: V3) -> f64 {
         (point - self.part.origin).dot(&self.part.axes[2])
     }
 
     /// Field at a point.
     ///
-    /// Beyond the distance `near`, where only the order of magnitude matters, it is that of a bounding cylinder.
+    /// Farther away than `near`, where only the order of magnitude matters, the distance from a bounding cylinder.
     pub fn sample(&self, point: V3, near: f64) -> Sample {
         let [u, v, along] = self.part.axes;
         let Place { ring: place, past, local } = self.locate(point);
@@ -253,7 +254,7 @@ impl Loft {
         Sample { distance, outward: (side * radial + end * beyond) / distance }
     }
 
-    /// Field in a section, without the part's ends.
+    /// Field in a section, apart from the ends of the part.
     fn radial(&self, local: V2, place: f64) -> Radial {
         let row = (place as usize).min(self.rings.len() - 2);
         let share = place - row as f64;
@@ -276,12 +277,12 @@ impl Loft {
     }
 }
 
-/// Direction of a vector in the section plane, in units of the tabulated directions' spacing.
+/// Direction of a vector in the plane of a section, as a number of tabulated directions.
 pub(crate) fn column(vector: V2) -> f64 {
     vector.y.atan2(vector.x).rem_euclid(TAU) / TAU * DIRECTIONS as f64
 }
 
-/// Slopes of a section by differences of its neighbours, the first and the last of `around`.
+/// Slopes of a section by the difference of its neighbours, which are the first and the last of `around`.
 fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
     let (before, after) = (&around[0], &around[around.len() - 1]);
     let length = (after.at - before.at).max(1e-12);
@@ -295,7 +296,7 @@ fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
     (0..DIRECTIONS).map(slope).collect()
 }
 
-/// All numbers of a station, interpolated along the axis.
+/// All numbers of a section, interpolated along the axis.
 struct Curves {
     numbers: [Monotone; 13],
 }
@@ -329,9 +330,9 @@ impl Curves {
     }
 }
 
-/// Stations that close a part with an elliptic dome of a `length` beyond `end`, in the direction of `sign`.
+/// Sections that close a part with an elliptic dome of a `length` past `end`, in the direction of `sign`.
 ///
-/// They are in order of increasing distance from `end`. The last has almost no extent.
+/// They are in the order of their distance from `end`. The last has almost no extent.
 pub(super) fn dome(end: &Station, length: f64, sign: f64) -> Vec<Station> {
     let ring = |share: &f64| {
         let factor = (1.0 - share * share).sqrt().max(0.01);

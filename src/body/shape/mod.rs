@@ -1,4 +1,4 @@
-//! Shape of a person: cross-sections, limbs and trunk lofted through them, and the skin over all.
+//! Shape of a person: sections, trunk and limbs lofted through these, and the skin.
 
 pub mod atlas;
 pub mod field;

@@ -4,11 +4,11 @@ use super::field::Parts;
 use geom::contour::{Grid, QuadMesh, contour};
 use geom::{TriMesh, V3};
 
-/// Passes of tangential smoothing. Judgement.
+/// Number of passes of tangential smoothing, which make the mesh uniform. Judgement.
 const PASSES: usize = 8;
 
-/// Passes of the fairing of the joints and of the whole skin, and its step. The step is stable up to 0.5 at vertices of
-/// four edges, and up to less elsewhere.
+/// Number of passes of the fairing of joints and of the whole skin, and step of a pass. The step is stable up to 0.5 at
+/// vertices of four edges, and up to less elsewhere.
 const JOINT_PASSES: usize = 170;
 const BASE_PASSES: usize = 9;
 const FAIRING_STEP: f64 = 0.25;
@@ -59,8 +59,8 @@ impl Skin {
         Self { mesh, neighbours }
     }
 
-    /// One pass of tangential smoothing: every vertex moves to the mean of its neighbours and is projected back onto
-    /// the skin.
+    /// One pass of tangential smoothing: moves every vertex to the mean of its neighbours and projects it onto the
+    /// skin.
     fn even_out(&mut self, parts: &Parts) {
         let targets: Vec<V3> = (0..self.neighbours.len())
             .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
@@ -68,8 +68,8 @@ impl Skin {
         self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
     }
 
-    /// Fairs the skin as a thin plate: a little everywhere, against facets, and strongly at the joints between trunk
-    /// and limbs, so that no crease is left there.
+    /// Fairs the skin as a thin plate: a little everywhere, to remove facets, and strongly where trunk and limbs meet,
+    /// to leave no crease.
     fn fair(&mut self, parts: &Parts) {
         let everywhere = vec![BASE_FAIRING; self.mesh.positions.len()];
         self.fair_weighted(&everywhere, BASE_PASSES);
@@ -101,7 +101,7 @@ impl Skin {
         }
     }
 
-    /// Vector from a vertex's value to the mean of its neighbours' (umbrella operator).
+    /// Vector from the value of a vertex to the mean of its neighbours (umbrella operator).
     fn to_mean(&self, values: &[V3], i: usize) -> V3 {
         let around = &self.neighbours[i];
         around.iter().map(|&j| values[j]).sum::<V3>() / around.len() as f64 - values[i]
@@ -120,7 +120,7 @@ impl Skin {
         normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
     }
 
-    /// Triangulates the skin, with every quadrilateral split along its shorter diagonal.
+    /// Triangulates the skin: divides every quadrilateral along its shorter diagonal.
     pub fn triangles(self) -> TriMesh {
         let positions = self.mesh.positions;
         let triangles = self.mesh.quads.iter().flat_map(|quad| split(quad, &positions)).collect();
@@ -128,7 +128,7 @@ impl Skin {
     }
 }
 
-/// Splits a quadrilateral along its shorter diagonal.
+/// Divides a quadrilateral along its shorter diagonal.
 fn split(&[a, b, c, d]: &[usize; 4], positions: &[V3]) -> [[usize; 3]; 2] {
     let length = |i: usize, j: usize| (positions[i] - positions[j]).norm();
     if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }

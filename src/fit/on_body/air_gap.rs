@@ -5,25 +5,24 @@ use geom::polyline::signed_area;
 use geom::section::{Outline, Plane, section};
 use geom::{TriMesh, V2, V3};
 
-/// Distance below the armpit or the crotch at which upper arm and thigh are cut, m. Judgement: about where their girths
-/// are measured.
+/// Distance below armpit and crotch at which upper arm and thigh are cut, m: about where their girths are measured.
 const BELOW_FOLD_M: f64 = 0.025;
-/// Number of directions in which the gap is stated. Judgement.
+/// Number of directions in which the gap is reported: every 10 degrees.
 pub const DIRECTIONS: usize = 36;
-/// Number of directions over which the area of air is integrated. Judgement.
+/// Number of directions over which the area of air is integrated: every half degree.
 const FINE: usize = 720;
 
 /// A plane that cuts a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// Its level: `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, or a height in words.
+    /// Level: `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, or a height in words.
     pub level: String,
-    /// The plane. Its first axis points to the subject's right, its second to the front.
+    /// Plane whose first axis points to the subject's right, the second to the front.
     pub plane: Plane,
 }
 
 impl Site {
-    /// The horizontal plane at a height above the floor. Below the crotch its origin lies in the right leg.
+    /// Horizontal plane at a height above the floor. Below the crotch its origin lies in the right leg.
     #[must_use]
     pub fn at(level: &str, body: &Body, height_m: f64) -> Self {
         let is_leg = height_m < body.levels.crotch_m;
@@ -42,14 +41,14 @@ impl Site {
         self.plane.normal().z.abs() > 1.0 - 1e-9
     }
 
-    /// Height above the floor of the plane's origin, which lies on the axis of the limb or trunk, m.
+    /// Height above the floor of the origin of the plane, which lies on the axis of the trunk or limb, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.plane.origin.z
     }
 }
 
-/// The sections of a body, from the chest down, and across the right upper arm.
+/// Sections of a body, from the chest down, and across the right upper arm.
 #[must_use]
 pub fn sites(body: &Body) -> Vec<Site> {
     let levels = &body.levels;
@@ -66,7 +65,7 @@ pub fn sites(body: &Body) -> Vec<Site> {
     found
 }
 
-/// The plane across the right upper arm below the armpit. `None` for an arm without length.
+/// Plane across the right upper arm below the armpit. `None` for an arm without length.
 fn upper_arm(body: &Body) -> Option<Site> {
     let [shoulder, elbow] = [Joint::ShoulderRight, Joint::ElbowRight].map(|joint| body.skeleton.at(joint));
     let up = (shoulder - elbow).try_normalize(1e-6)?;
@@ -81,42 +80,42 @@ fn upper_arm(body: &Body) -> Option<Site> {
 pub struct Angle {
     /// Direction from the front towards the subject's right, degrees.
     pub deg: f64,
-    /// Distance from the outline's centroid to the skin, m.
+    /// Distance from the centroid of the outline to the skin, m.
     pub skin_m: f64,
-    /// Distance from the skin outwards to the first cloth, m. It is negative where cloth lies inside the body. `None`
-    /// where there is no cloth.
+    /// Distance from the skin outwards to the first cloth, m, negative if the cloth lies inside the body. `None`
+    /// without cloth in this direction.
     pub gap_m: Option<f64>,
 }
 
 /// Section of body and cloth by a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// The plane.
+    /// Plane.
     pub site: Site,
-    /// Outline of the trunk or limb.
+    /// Outline of the trunk or limb that is cut.
     pub skin: Outline,
     /// Outlines of the other limbs that the plane cuts.
     pub others: Vec<Outline>,
-    /// Outlines of the cloth round it.
+    /// Outlines of the cloth round the trunk or limb.
     pub cloth: Vec<Outline>,
-    /// Centroid of the skin's outline, in the plane.
+    /// Centroid of the outline of the skin, in the plane.
     pub centre: V2,
 }
 
 /// A ray from the centroid of a section.
 #[derive(Clone, Copy, Default)]
 struct Ray {
-    /// Distance at which it last leaves the skin, m.
+    /// Distance at which the ray last leaves the skin, m.
     skin_m: f64,
-    /// Distance at which it first meets cloth, m.
+    /// Distance at which the ray first meets cloth, m. `None` if the ray meets no cloth.
     cloth_m: Option<f64>,
 }
 
 impl Section {
-    /// Cuts a body and the sewn cloth on it. `None` where the plane does not meet the body.
+    /// Cuts a body and the sewn cloth on it. `None` if the plane does not meet the body.
     ///
-    /// The trunk or limb is the outline round the plane's origin, or else the one nearest to it. Cloth belongs to it
-    /// where it encloses its centroid or lies nearer to it than to the other outlines of the body.
+    /// The trunk or limb is the outline round the origin of the plane, or else the nearest outline. Cloth belongs to
+    /// this outline if it encloses its centroid, or lies nearer to this outline than to the others of the body.
     #[must_use]
     pub fn cut(site: Site, body: &TriMesh, cloth: &TriMesh) -> Option<Self> {
         let mut outlines: Vec<Outline> =
@@ -143,13 +142,13 @@ impl Section {
         signed_area(&self.skin.points).abs()
     }
 
-    /// Length of the cloth's outlines, m.
+    /// Length of the outlines of the cloth, m.
     #[must_use]
     pub fn cloth_length_m(&self) -> f64 {
         self.cloth.iter().flat_map(segments).map(|(a, b)| (b - a).norm()).sum()
     }
 
-    /// Air gap in `count` directions, the front first, then towards the subject's right.
+    /// Air gap in `count` directions, from the front towards the subject's right.
     #[must_use]
     pub fn gaps(&self, count: usize) -> Vec<Angle> {
         let angle = |k: usize| {
@@ -160,7 +159,7 @@ impl Section {
         (0..count).map(angle).collect()
     }
 
-    /// Area between the skin and the first cloth, where there is cloth, m2. Cloth inside the body counts negative.
+    /// Area between skin and first cloth, in the directions with cloth, m2. Cloth inside the body counts negative.
     #[must_use]
     pub fn air_m2(&self) -> f64 {
         let rays = (0..FINE).filter_map(|k| self.ray((k as f64 + 0.5) / FINE as f64 * 360.0));
@@ -168,9 +167,8 @@ impl Section {
         sectors.sum::<f64>() * std::f64::consts::TAU / FINE as f64
     }
 
-    /// Ray from the centroid at an angle. Its cloth counts only if no other limb lies before it, and if it is nearer to
-    /// this limb than to any other, since the air otherwise belongs to that one. `None` if the ray does not meet the
-    /// skin.
+    /// Ray from the centroid at an angle. Cloth counts if no other limb lies in front of it, and it is nearer to this
+    /// limb than to any other, to which the air would belong otherwise. `None` if the ray does not meet the skin.
     fn ray(&self, deg: f64) -> Option<Ray> {
         let (sin, cos) = deg.to_radians().sin_cos();
         let way = V2::new(sin, cos);
@@ -189,26 +187,26 @@ impl Section {
     }
 }
 
-/// Segments of an outline, with the closing one of a closed outline.
+/// Segments of an outline, including the closing segment of a closed outline.
 fn segments(outline: &Outline) -> impl Iterator<Item = (V2, V2)> {
     let points = &outline.points;
     let count = if outline.closed { points.len() } else { points.len().saturating_sub(1) };
     (0..count).map(|k| (points[k], points[(k + 1) % points.len()]))
 }
 
-/// Distances at which a ray from `from` along the unit vector `way` crosses an outline.
+/// Distances from `from` at which a ray along the unit vector `way` crosses an outline.
 fn crossings(from: V2, way: V2, outline: &Outline) -> impl Iterator<Item = f64> {
     segments(outline).filter_map(move |(a, b)| {
         let (a, b) = (a - from, b - from);
         let (left, right) = (way.perp(&a), way.perp(&b));
-        // A point on the ray counts as left of it, so that a corner on the ray is crossed once.
+        // A point on the ray counts as left of the ray, so that a corner on the ray is crossed once.
         ((left >= 0.0) != (right >= 0.0))
             .then(|| (a + (b - a) * (left / (left - right))).dot(&way))
             .filter(|at| *at >= 0.0)
     })
 }
 
-/// Centroid of a polygon's area, or the mean of its points if it has no area.
+/// Centroid of the area of a polygon, or the mean of its points if it has no area.
 fn centroid(points: &[V2]) -> V2 {
     let first = points.first().copied().unwrap_or_default();
     let local: Vec<V2> = points.iter().map(|p| p - first).collect();
@@ -225,7 +223,7 @@ fn distance(point: V2, outline: &Outline) -> f64 {
     outline.points.iter().map(|p| (p - point).norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// Mean distance of an outline's vertices from another outline.
+/// Mean distance of the vertices of an outline from another outline.
 fn mean_distance(outline: &Outline, other: &Outline) -> f64 {
     outline.points.iter().map(|p| distance(*p, other)).sum::<f64>() / outline.points.len().max(1) as f64
 }

@@ -1,12 +1,11 @@
-//! Balance of a garment: the heights of its edges and the lean of its side seams.
+//! Balance of a garment: heights of its edges, and lean of its side seams.
 
 use geom::V3;
 
-/// Half angle of the sector that counts as front, back or side, radians (15 degrees). Judgement.
+/// Half angle of the sectors that count as front, back and sides, radians (15 degrees). Judgement.
 const HALF_SECTOR: f64 = std::f64::consts::PI / 12.0;
 
-/// Heights of a closed edge above the floor, m. `None` where there is no cloth on that side, as at the opening of a
-/// coat.
+/// Heights of a closed edge above the floor, m. `None` for a side without cloth, as at the opening of a coat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sides {
     /// At the front.
@@ -22,17 +21,17 @@ pub struct Sides {
 /// Balance of a garment.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Hang {
-    /// Lower edge. Trousers have that of one leg.
+    /// Lower edge. Of trousers, that of one leg.
     pub hem: Option<Sides>,
     /// Upper edge of trousers and skirts.
     pub waist: Option<Sides>,
-    /// Angle of the right and the left side seam from the vertical, radians. It is positive where a seam runs forwards
-    /// going down.
+    /// Angles of right and left side seam from the vertical, radians, positive for a seam that runs forwards on its way
+    /// down.
     pub lean_rad: [Option<f64>; 2],
 }
 
-/// Balance of a garment from the lines of its lower edge, its upper edge and its side seams on the body. Each may
-/// consist of several pieces.
+/// Balance of a garment from the lines of its lower edge, upper edge and side seams on the body, each of one or several
+/// parts.
 #[must_use]
 pub fn hang(hem: &[Vec<V3>], waist: &[Vec<V3>], side_seams: &[Vec<V3>]) -> Hang {
     let is_right = |right: bool| {
@@ -69,8 +68,8 @@ fn sides(edge: &[Vec<V3>]) -> Option<Sides> {
     Some(Sides { front_m, back_m, right_m, left_m })
 }
 
-/// Angle of a seam from the vertical between its highest and its lowest point, radians. It is positive where the lower
-/// end lies in front of the upper.
+/// Angle of a seam from the vertical, from its highest to its lowest point, radians, positive if the lower end lies in
+/// front of the upper.
 fn lean(seam: &[V3]) -> Option<f64> {
     let high = seam.iter().max_by(|a, b| a.z.total_cmp(&b.z))?;
     let low = seam.iter().min_by(|a, b| a.z.total_cmp(&b.z))?;

@@ -1,28 +1,28 @@
 //! Folds and drag lines: lines along which cloth stands off the skin.
 //!
-//! A ridge is cloth that does not touch the skin and is bent outwards more sharply than round the narrowest limb. The
-//! curvature at a vertex is the mean of the adjacent triangles', from the normals of their corners [Rusinkiewicz 2004].
-//! Adjacent ridge vertices with similar directions form one fold.
+//! A ridge is cloth that is off the skin and bent outwards more sharply than round the narrowest limb. The curvature at
+//! a vertex is the mean of the curvatures of the adjacent triangles, from the normals of their corners [Rusinkiewicz
+//! 2004]. Adjacent ridge vertices with similar directions form one fold.
 
 use geom::{TriMesh, V3};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-/// Radius of curvature below which cloth is folded, m: that of the narrowest limb that cloth lies on, the wrist.
+/// Radius of curvature below which cloth counts as folded, m: that of the narrowest limb that cloth lies on, the wrist.
 const SHARP_M: f64 = 0.026;
-/// Distance from the skin from which on cloth stands off it, m. It is well above the distance at which contact holds
+/// Distance from the skin from which cloth counts as off the skin, m: well above the distance at which contact holds
 /// cloth.
 const OFF_M: f64 = 0.005;
-/// Least length of a fold, m: a few edges of the mesh.
+/// Least length of a fold, m: a few mesh edges.
 const SHORTEST_M: f64 = 0.05;
-/// Cosine of the greatest angle between the directions of neighbours in one fold, 30 degrees.
+/// Cosine of the greatest angle between the directions of neighbours in one fold: 30 degrees.
 const TOGETHER: f64 = 0.866;
-/// Tension along a fold from which on it is a drag line, N/m: the weight of a metre of heavy cloth.
+/// Tension along a fold from which the fold is a drag line, N/m: the weight of a metre of heavy cloth.
 const DRAGGED_N_M: f64 = 5.0;
 
-/// Cloth of a garment with the fields at its vertices that folds are found by.
+/// Cloth of a garment, with the fields at its vertices from which folds are found.
 #[derive(Clone, Copy, Debug)]
 pub struct Worn<'a> {
-    /// The sewn cloth, counter-clockwise seen from outside.
+    /// Sewn cloth, counter-clockwise seen from outside.
     pub cloth: &'a TriMesh,
     /// Distance from the skin, m.
     pub gap_m: &'a [f64],
@@ -33,17 +33,17 @@ pub struct Worn<'a> {
 /// A fold of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fold {
-    /// True for a drag line, whose cloth is under tension, and false for a fold that hangs free.
+    /// True for a drag line, whose cloth is under tension. False for a fold that hangs free.
     pub is_drag: bool,
-    /// Length, as the extent along its principal axis, m.
+    /// Extent of the vertices along their principal axis, m.
     pub length_m: f64,
-    /// Angle of that axis from the vertical, radians, 0 to a right angle.
+    /// Angle of that axis from the vertical, radians, 0 to pi / 2.
     pub from_vertical_rad: f64,
-    /// Mean position of its vertices, m.
+    /// Mean position of the vertices, m.
     pub middle: V3,
-    /// Radius of the mean curvature of its vertices, m.
+    /// Radius of the mean curvature of the vertices, m.
     pub radius_m: f64,
-    /// Mean tension of its cloth, N/m.
+    /// Mean tension of the vertices, N/m.
     pub tension_n_m: f64,
 }
 
@@ -69,7 +69,7 @@ pub fn folds(worn: &Worn<'_>) -> Vec<Fold> {
     found
 }
 
-/// Fold of some vertices. `None` where it is too short.
+/// Fold of some vertices. `None` if they extend less than [`SHORTEST_M`].
 fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<Fold> {
     let count = group.len() as f64;
     let mean = |value: &dyn Fn(usize) -> f64| group.iter().map(|(_, v)| value(*v)).sum::<f64>() / count;
@@ -99,13 +99,13 @@ fn fold(worn: &Worn<'_>, crests: &[Crest], group: &[(usize, usize)]) -> Option<F
 /// Principal curvature of the cloth at a vertex.
 #[derive(Clone, Copy)]
 struct Crest {
-    /// Greater principal curvature, 1/m, positive where the cloth bends outwards.
+    /// Greater principal curvature, 1/m, positive for cloth that bends outwards.
     curvature: f64,
-    /// Unit direction of the lesser principal curvature, along a ridge.
+    /// Unit direction of the lesser principal curvature, which runs along a ridge.
     along: V3,
 }
 
-/// Principal curvature at each vertex, from the second fundamental forms of the adjacent triangles weighted by area.
+/// Principal curvature at each vertex, from the second fundamental forms of the adjacent triangles, weighted by area.
 fn crests(cloth: &TriMesh) -> Vec<Crest> {
     let normals = cloth.vertex_normals();
     let mut sums = vec![(Matrix3::zeros(), 0.0); cloth.positions.len()];
@@ -135,8 +135,8 @@ fn crests(cloth: &TriMesh) -> Vec<Crest> {
     sums.into_iter().zip(&normals).map(crest).collect()
 }
 
-/// Second fundamental form of a triangle as a tensor of space, by least squares from the change of normals along its
-/// edges.
+/// Second fundamental form of a triangle as a 3x3 tensor, by least squares from the change of normals along the edges.
+/// `None` for a degenerate triangle.
 fn shape(corners: [V3; 3], normals: [V3; 3]) -> Option<Matrix3<f64>> {
     let u = (corners[1] - corners[0]).try_normalize(1e-12)?;
     let v = u.cross(&(corners[2] - corners[0])).try_normalize(1e-12)?.cross(&u);
@@ -165,7 +165,7 @@ impl Sets {
         v
     }
 
-    /// Merges two sets. The least vertex of a set is its root, whatever the order of merging.
+    /// Merges two sets. The root of a set is its least vertex, whatever the order of merging.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b);

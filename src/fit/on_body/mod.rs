@@ -1,6 +1,6 @@
 //! Fit of a garment on the body, as a fitter sees and feels it [ISO 20947-2].
 //!
-//! [`Section`] cuts body and cloth and measures the air gap between them. [`Hang`] is the balance of hem, waist edge
+//! [`Section`] cuts body and cloth, and measures the air gap between them. [`Hang`] is the balance of hem, waist edge
 //! and side seams. [`folds()`] finds folds and drag lines. [`pressed`] sums up the pressure on each region of a body.
 
 mod air_gap;

@@ -3,10 +3,10 @@
 use body::{Body, Dimension, Joint};
 use geom::{TriMesh, V3};
 
-/// Least pressure that counts, kPa: several times the weight of a heavy cloth on what it lies on.
+/// Least pressure that counts, kPa: several times that of a heavy cloth by its weight.
 const PRESSING_KPA: f64 = 0.02;
-/// Share of the pressing cloth with more than the greatest pressure that is stated, so that single vertices do not
-/// count.
+/// Share of the pressing area with more than the greatest pressure that is reported, so that single vertices do not
+/// decide it.
 const SHARE: f64 = 0.01;
 
 /// A region of the body.
@@ -54,9 +54,9 @@ impl Region {
         }
     }
 
-    /// Region of a point on or in front of the skin: that of the nearest bone, with distances in units of the limb's
-    /// radius. On trunk and legs it follows from the height, between neck points, armpits, half-way heights between the
-    /// levels, crotch and knee.
+    /// Region of a point on or in front of the skin: that of the nearest bone, with distances divided by the radius of
+    /// the limb. On trunk and legs the height decides, with limits at neck points, armpits, half-way heights between
+    /// the levels, crotch and knee.
     #[must_use]
     pub fn of(body: &Body, point: V3) -> Self {
         let position = |joint: Joint| body.skeleton.at(joint);
@@ -110,17 +110,17 @@ fn off_segment(point: V3, from: V3, to: V3) -> f64 {
 /// Pressure on a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Region that is pressed.
+    /// Region.
     pub region: Region,
     /// Area of the cloth that presses, m2.
     pub area_m2: f64,
-    /// Mean pressure over that area, kPa.
+    /// Mean pressure on that area, kPa.
     pub mean_kpa: f64,
     /// Pressure that a hundredth of that area exceeds, kPa.
     pub most_kpa: f64,
 }
 
-/// Pressure by region, from the pressure at the vertices of the cloth, kPa. Regions without pressure are left out.
+/// Pressure by region, from the pressure at the vertices of the cloth, kPa. A region without pressure is left out.
 #[must_use]
 pub fn pressed(body: &Body, cloth: &TriMesh, pressure_kpa: &[f64]) -> Vec<Pressed> {
     let mut patches: Vec<Vec<Patch>> = vec![Vec::new(); Region::ALL.len()];
@@ -135,14 +135,14 @@ pub fn pressed(body: &Body, cloth: &TriMesh, pressure_kpa: &[f64]) -> Vec<Presse
     Region::ALL.into_iter().zip(patches).filter_map(|(region, patches)| summed(region, patches)).collect()
 }
 
-/// A triangle of pressing cloth.
+/// Triangle of pressing cloth.
 #[derive(Clone, Copy)]
 struct Patch {
     kpa: f64,
     area_m2: f64,
 }
 
-/// Pressure on a region from the triangles that press on it.
+/// Pressure on a region from the triangles that press on it. `None` without triangles.
 fn summed(region: Region, mut patches: Vec<Patch>) -> Option<Pressed> {
     let area_m2: f64 = patches.iter().map(|patch| patch.area_m2).sum();
     if area_m2 == 0.0 {

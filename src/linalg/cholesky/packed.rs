@@ -5,8 +5,8 @@ use wide::f32x4;
 use super::{Dense, Row};
 use crate::simd::{Simd, each};
 
-/// A 6x6 block. `heads` has rows 0-3 of each column, two columns side by side. `tails` has rows 4 and 5 of each, four
-/// columns side by side; the last half is zero.
+/// A 6x6 block. `heads` has rows 0-3 of each column, two columns side by side. `tails` has rows 4 and 5 of each column,
+/// four columns side by side, with a last half of zeros.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
 pub struct Packed {
@@ -24,14 +24,15 @@ impl Packed {
     }
 }
 
-/// Values in the layout of a packed block: factors that its entries are multiplied by, or sums of products with them.
+/// Values in the layout of a packed block: factors for its entries, or sums of products with its entries.
 #[derive(Clone, Copy)]
 pub struct Entries<T> {
     heads: [T; 3],
     tails: [T; 2],
 }
 
-/// A row of six numbers, each a sum of partial sums: two for each of the first four, four for each of the last two.
+/// A row of six numbers, each the sum of partial sums: two for each of the first four numbers, four for each of the
+/// last two.
 #[derive(Clone, Copy)]
 pub struct Parts<T> {
     head: T,
@@ -43,14 +44,14 @@ pub struct Parts<T> {
 pub struct Blockwise<S>(pub S);
 
 impl<S: Simd> Blockwise<S> {
-    /// Zeros, to accumulate in.
+    /// Zeros to accumulate in.
     #[inline(always)]
     pub fn nothing(self) -> Entries<S::F32x8> {
         let zero = self.0.join([f32x4::ZERO; 2]);
         Entries { heads: [zero; 3], tails: [zero; 2] }
     }
 
-    /// A row as the first of its partial sums; the others are zero.
+    /// Row in the first partial sums. The other partial sums are zero.
     #[inline(always)]
     pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, 0.0, 0.0]));
@@ -64,7 +65,7 @@ impl<S: Simd> Blockwise<S> {
         Parts { head: self.0.join([head; 2]), tail: self.0.join([tail; 2]) }
     }
 
-    /// The row as the totals of its partial sums.
+    /// Row of the totals of the partial sums.
     #[inline(always)]
     pub fn row(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b], [c, d]) = (self.0.split(parts.head), self.0.split(parts.tail));
@@ -72,7 +73,7 @@ impl<S: Simd> Blockwise<S> {
         [head[0], head[1], head[2], head[3], tail[0] + tail[2], tail[1] + tail[3]]
     }
 
-    /// The first partial sums, for a row that is repeated in all.
+    /// Row of the first partial sums, for a row that is repeated in all.
     #[inline(always)]
     pub fn first(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b, c, d], [e, f, ..]) =
@@ -80,7 +81,7 @@ impl<S: Simd> Blockwise<S> {
         [a, b, c, d, e, f]
     }
 
-    /// The entries of a row laid out as factors of the columns of a block.
+    /// Entries of a row, as factors of the columns of a block.
     #[inline(always)]
     pub fn factors(self, y: Row) -> Entries<S::F32x8> {
         let tails = each!(k of 3 => f32x4::from([y[2 * k], y[2 * k], y[2 * k + 1], y[2 * k + 1]]));
@@ -90,7 +91,7 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds a block times a row, given as `factors`, to `parts`.
+    /// Adds the product of a block and a row, given as `factors`, to `parts`.
     #[inline(always)]
     pub fn add_times(self, parts: &mut Parts<S::F32x8>, block: &Packed, factors: &Entries<S::F32x8>) {
         for (head, factor) in block.heads.iter().zip(&factors.heads) {
@@ -101,7 +102,8 @@ impl<S: Simd> Blockwise<S> {
         }
     }
 
-    /// Adds the products of the columns with a repeated row. Their totals are the transposed block times the row.
+    /// Adds the products of the columns of a block with a repeated row. Their totals are the transposed block times the
+    /// row.
     #[inline(always)]
     pub fn add_products(self, sums: &mut Entries<S::F32x8>, block: &Packed, row: &Parts<S::F32x8>) {
         for (sum, head) in sums.heads.iter_mut().zip(&block.heads) {

@@ -1,7 +1,7 @@
 //! Women's dress, drafted from eleven lengths, in one size: a sleeveless bodice down to the hip and a short pegged
 //! skirt.
 //!
-//! Choices that the published numbers leave open:
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::marks::{mirrored, mirrored_notch, net, notch, notches_along};
@@ -48,7 +48,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 11]) -> Draft {
     Draft::new("Womens dress", size, "JERSEY", pieces)
 }
 
-/// Half of the lower edge of the bodice, an arc at right angles to the side, and the underarm point.
+/// Half of the lower edge of the bodice, an arc at right angles to the side seam, and the underarm point.
 fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     let underarm = |flare: f64| {
         let lower = arc(half_seam, flare);
@@ -58,10 +58,10 @@ fn bodice_side(half_seam: f64, side: f64) -> (Vec<V2>, V2) {
     (arc(half_seam, flare), underarm(flare))
 }
 
-/// Drafts a skirt panel, its hem at `v = 0` on the centre line. The first argument after the name is half the hem and
-/// half the seam.
+/// Drafts a skirt panel with its hem at `v = 0` on the centre line. `half_hem` and `half_seam` are half of its lower
+/// and upper edge, m.
 fn skirt(block: &str, [half_hem, half_seam]: [f64; 2], centre: f64, side: f64) -> Piece {
-    // An arc that falls by the slope of the side meets it at a right angle.
+    // An arc with a total turning equal to the slope of the side meets the side at a right angle.
     let hem = arc(half_hem, -(half_seam - half_hem) / centre);
     let top = |angle: f64| -> Vec<V2> { arc(half_seam, -angle).into_iter().map(|p| p + V2::y() * centre).collect() };
     let last = hem.len() - 1;

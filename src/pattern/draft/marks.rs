@@ -9,7 +9,7 @@ pub const DOUBLE_NOTCH_M: f64 = 0.010;
 /// Depth of the notches, m.
 const NOTCH_DEPTH_M: f64 = 0.004;
 
-/// Makes a net piece with only an outline.
+/// Net piece with only an outline.
 pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
     Piece {
         block: block.to_owned(),
@@ -20,7 +20,7 @@ pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
     }
 }
 
-/// Adds size and texts to a piece. Every vertex that is no turn point becomes a curve point.
+/// Adds size and texts to a piece, and makes every vertex that is no turn point a curve point.
 pub fn finished(mut piece: Piece, size: &str, material: &str) -> Piece {
     let texts = [("Material", material), ("Annotation", "NET, NO SEAM ALLOWANCE")];
     piece.texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec();
@@ -30,12 +30,12 @@ pub fn finished(mut piece: Piece, size: &str, material: &str) -> Piece {
     piece
 }
 
-/// Makes a notch that is cut in a given direction.
+/// Notch cut in a given direction.
 pub fn notch(at: V2, angle_deg: f64) -> Notch {
     Notch { at, depth_m: Some(NOTCH_DEPTH_M), angle_deg: Some(angle_deg) }
 }
 
-/// Notches at arc lengths along a curve, cut at right angles to it. They point to the side of the line `u = 0`.
+/// Notches at arc lengths along a curve, cut at right angles to it, towards the line `u = 0`.
 pub fn notches_along(curve: &[V2], arcs: &[f64]) -> Vec<Notch> {
     let Some(line) = Polyline::new(curve.to_vec()) else { return Vec::new() };
     let step = 1e-3;

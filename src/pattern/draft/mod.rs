@@ -1,7 +1,7 @@
 //! Drafting of the four styles of the thesis, so that their measurements are the published ones.
 //!
-//! The pieces are **net**: layer 1 is the sew line, without allowances. The published numbers leave some choices open.
-//! The module of each style lists and explains them.
+//! The pieces are **net**: layer 1 is the sew line, without allowances. The published numbers leave some choices open,
+//! which are the constants of the module of each style.
 
 mod dress;
 mod marks;

@@ -1,6 +1,6 @@
 //! Women's tee-top, drafted from the same nine lengths per size as the T-shirt.
 //!
-//! Choices that the published numbers leave open:
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
@@ -9,7 +9,7 @@ use geom::units::from_mm;
 
 /// Depth of the back neck below the side-neck points, m.
 const BACK_NECK_DROP_M: f64 = 0.030;
-/// Ratio of the cap height to the depth of the armhole.
+/// Cap height divided by the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.78;
 
 /// Sizes with their published lengths `#1` to `#9`, mm [T tables 6-23, 6-26].

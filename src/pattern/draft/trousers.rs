@@ -1,9 +1,8 @@
-//! Men's trousers, drafted from six lengths per size: a front and a back for each leg, without darts and waistband.
+//! Men's trousers, drafted from six lengths per size: a front and a back for each leg, without darts and waistband. The
+//! published numbers leave the constants open.
 //!
-//! Choices that the published numbers leave open:
-//!
-//! A leg piece is drawn with the crease on `u = 0`, the outseam on `-u` and the hem at `v = 0`. This is the right front
-//! as seen from outside. The right back is the mirror image of such a drawing.
+//! A leg piece is drawn with the crease on `u = 0`, the outseam on `-u` and the hem at `v = 0`: the right front as seen
+//! from outside. The right back is the mirror image of such a drawing.
 
 use super::Draft;
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notches_along};
@@ -12,13 +11,13 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::units::from_mm;
 
-/// Hip girth less waist girth, m.
+/// Difference between hip girth and waist girth, m.
 const HIP_OVER_WAIST_M: f64 = 0.040;
-/// Width of a back piece less that of a front piece, at hem, knee and hip, and at the waist, m.
+/// Difference in width between back and front pieces: at hem, knee and hip, and at the waist, m.
 const BACK_OVER_FRONT_M: f64 = 0.020;
 /// Height of the hip line above the crotch line, m.
 const HIP_ABOVE_CROTCH_M: f64 = 0.075;
-/// Width of the leg at the knee over that at the hem, on either side of the crease, m.
+/// Distance of the leg's edge from the crease at the knee less that at the hem, m.
 const KNEE_FLARE_M: f64 = 0.010;
 /// Height of the knee above the middle of the inseam, m.
 const KNEE_ABOVE_MIDDLE_M: f64 = 0.045;
@@ -45,7 +44,7 @@ pub(super) fn draft(size: &str, lengths_mm: [f64; 6]) -> Draft {
         proportions,
     };
     let front = plan(-1.0, crotch_front, FRONT);
-    // The inseam of the front ends at the crotch line. The hip line lies above it in both pieces.
+    // The inseam of the front ends at the crotch line, below the hip line of both pieces.
     let crotch_line = bisect(0.5 * inseam, inseam, |v| length(&front.inseam_to(v)) - inseam);
     let hip_line = crotch_line + HIP_ABOVE_CROTCH_M;
     let front = Leg::solve(&front, crotch_line, hip_line, None);
@@ -60,7 +59,7 @@ fn back_piece(back: &Leg) -> Piece {
     let mut piece = back.piece("BACK", &[0.0, DOUBLE_NOTCH_M]);
     piece.outline = piece.outline.iter().rev().map(|&p| mirrored(p)).collect();
     piece.turn_points = piece.turn_points.iter().rev().map(|&p| mirrored(p)).collect();
-    // The first corner is the lower left one again.
+    // The first corner is again the lower left one.
     piece.turn_points.rotate_right(2);
     piece.notches = piece.notches.iter().map(|n| mirrored_notch(*n)).collect();
     piece
@@ -69,9 +68,9 @@ fn back_piece(back: &Leg) -> Piece {
 /// Proportions in which front and back differ, besides their girths.
 #[derive(Clone, Copy, Debug)]
 struct Proportions {
-    /// Ratio of the length of the fork to the hip girth.
+    /// Length of the fork divided by the hip girth.
     fork_share: f64,
-    /// Share of the fork by which the piece is shifted towards the outseam, so that it balances about the crease.
+    /// Share of the fork by which the piece is shifted towards the outseam, to balance about the crease.
     set_out: f64,
     /// Slant of the centre line from the vertical, degrees.
     slant_deg: f64,
@@ -96,7 +95,7 @@ struct Plan {
 }
 
 impl Plan {
-    /// Distance of the outseam from the crease at the hip line.
+    /// Distance of the outseam from the crease at the hip line, m.
     fn side(&self) -> f64 {
         self.hip / 2.0 + self.proportions.set_out * self.fork
     }
@@ -105,8 +104,8 @@ impl Plan {
         V2::new(self.hem / 2.0 + KNEE_FLARE_M, self.inseam / 2.0 + KNEE_ABOVE_MIDDLE_M)
     }
 
-    /// Knee point and the next control point on one `side` (1: inseam, -1: outseam). The control point continues the
-    /// lower leg by a third of the distance to `end`.
+    /// Knee point and next control point of the inseam (`side` 1) or outseam (`side` -1). The control point continues
+    /// the lower leg by a third of the distance to `end`.
     fn on_from_knee(&self, side: f64, end: V2) -> [V2; 2] {
         let knee = V2::new(side * self.knee().x, self.knee().y);
         let hem = V2::new(side * self.hem / 2.0, 0.0);
@@ -145,13 +144,13 @@ struct Leg {
     /// From hem to hip line, and from hip line to waist.
     outseam_lower: Vec<V2>,
     outseam_upper: Vec<V2>,
-    /// Arc length from the hem at which knee points are notched, m.
+    /// Arc length from the hem to the knee notch, m.
     knee_arc: f64,
 }
 
 impl Leg {
-    /// Drafts a leg with given heights of its fork and hip line. `outseam_lower` is the length below the hip line if
-    /// the other piece determines it.
+    /// Drafts a leg with given heights of fork and hip line. `outseam_lower` is the length of the outseam below the hip
+    /// line, if the other piece determines it.
     fn solve(plan: &Plan, fork_height: f64, hip_line: f64, outseam_lower: Option<f64>) -> Self {
         let inseam = plan.inseam_to(fork_height);
         let hip_at_side = outseam_lower.map_or(hip_line, |target| {
@@ -164,7 +163,8 @@ impl Leg {
         let upwards = V2::new(-slant.sin(), slant.cos());
         let seat = V2::new(plan.hip - plan.side(), hip_line);
         let rise = seat.y - fork.y;
-        // The crotch curve begins square to the inseam, so that front and back forks join without a peak.
+        // The crotch curve begins at a right angle to the inseam, so that the forks of front and back join without a
+        // peak.
         let along_inseam = (fork - inseam[inseam.len() - 2]).normalize();
         let square = V2::new(-along_inseam.y, along_inseam.x);
         let crotch_lower = bezier([fork, fork + square * (0.45 * plan.fork), seat - upwards * (0.66 * rise), seat]);
@@ -196,7 +196,7 @@ impl Leg {
         }
     }
 
-    /// The piece, counter-clockwise from the hem at the outseam. `marks` are its crotch notches above the hip line, m.
+    /// Leg piece, counter-clockwise from the hem at the outseam. `marks` are its crotch notches above the hip line, m.
     fn piece(&self, block: &str, marks: &[f64]) -> Piece {
         let reversed = |curve: &[V2]| -> Vec<V2> { curve.iter().rev().copied().collect() };
         let edges = [

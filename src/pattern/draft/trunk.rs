@@ -7,7 +7,7 @@ use geom::V2;
 
 /// Slope of the shoulder line below the horizontal, degrees.
 pub const SHOULDER_SLOPE_DEG: f64 = 20.0;
-/// Front armhole length minus the mean of front and back, m.
+/// Difference between the length of the front armhole and the mean of both, m.
 const ARMHOLE_BALANCE_M: f64 = 0.003;
 /// Position of the armhole notch, as a share of the armhole from the underarm.
 const ARMHOLE_NOTCH_SHARE: f64 = 0.35;
@@ -15,7 +15,7 @@ const ARMHOLE_NOTCH_SHARE: f64 = 0.35;
 /// Shape of the front neckline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrontNeck {
-    /// V neck: it leaves the apex along its chord, so that the apex is a corner.
+    /// V neck: it begins along its chord, which makes the apex a corner.
     V,
     /// Round neck: it leaves the centre line at a right angle.
     Round,
@@ -24,11 +24,11 @@ pub enum FrontNeck {
 /// Dimensions of the trunk block, m.
 #[derive(Clone, Debug)]
 pub struct TrunkPlan {
-    /// Half of the lower edge, from the centre line to the side. A straight edge has only its end.
+    /// Half of the lower edge, from the centre line to the side. For a straight edge, only its end.
     pub lower: Vec<V2>,
-    /// Top of the side.
+    /// Underarm point: upper end of the side.
     pub underarm: V2,
-    /// Heights of the centre front and centre back neck points.
+    /// Heights of the neck points at centre front and centre back.
     pub centre: [f64; 2],
     /// Depth of the back neck below the side-neck points.
     pub back_neck_drop: f64,
@@ -40,17 +40,17 @@ pub struct TrunkPlan {
     pub shoulder: f64,
     /// Length of the armhole, front and back together.
     pub armhole: f64,
-    /// Lengths of the Bezier handles of the front and back armhole at the shoulder, square to it, as shares of their
-    /// depth. A shorter handle makes the underarm rounder.
+    /// Length of the Bezier handle at the shoulder, square to it, as a share of the depth of the armhole, front and
+    /// back. A shorter handle makes the underarm rounder.
     pub armhole_reach: [f64; 2],
-    /// True if a sleeve is sewn in. The armhole is then notched, otherwise the side.
+    /// True if a sleeve is sewn in. The notches are then on the armhole, otherwise on the side.
     pub has_sleeve: bool,
 }
 
 /// Half front and half back, on the side `u > 0` of the centre line.
 pub struct Trunk {
     plan: TrunkPlan,
-    /// Curves, each from the centre outwards or from the shoulder downwards.
+    /// Curves from the centre outwards, or from the shoulder downwards.
     pub front_neck: Vec<V2>,
     pub back_neck: Vec<V2>,
     pub front_armhole: Vec<V2>,
@@ -58,7 +58,7 @@ pub struct Trunk {
 }
 
 impl Trunk {
-    /// Solves for the neck width that gives the neck opening, and for the scoops that give the armhole.
+    /// Solves for the neck width that gives the neck opening, and the scoops that give the armhole.
     pub fn solve(plan: TrunkPlan) -> Self {
         let slope = SHOULDER_SLOPE_DEG.to_radians();
         let along_shoulder = V2::new(slope.cos(), -slope.sin());
@@ -102,8 +102,8 @@ impl Trunk {
         }
     }
 
-    /// The whole front. Its outline goes from the lower edge up one side, over armhole, shoulder and neck, and down the
-    /// other.
+    /// Whole front. The outline goes from the lower edge up one side, along armhole, shoulder and neck, and down the
+    /// other side.
     pub fn front(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.front_armhole, &self.front_neck, &[0.0]);
         if self.plan.front_neck == FrontNeck::V {
@@ -112,21 +112,21 @@ impl Trunk {
         piece
     }
 
-    /// The whole back, with its double notches. Its neck is one smooth curve.
+    /// Whole back with double notches, and a neck of one smooth curve.
     pub fn back(&self, block: &str) -> Piece {
         let mut piece = self.both_halves(block, &self.back_armhole, &self.back_neck, &[0.0, -DOUBLE_NOTCH_M]);
         piece.notches.push(notch(self.back_neck[0], 270.0));
         piece
     }
 
-    /// A whole piece. `marks` are the offsets of its armhole notches from the first of them, m.
+    /// Whole piece. `marks` are the distances of its armhole notches from the first of them, m.
     fn both_halves(&self, block: &str, armhole: &[V2], neck: &[V2], marks: &[f64]) -> Piece {
         let (lower, bottom) = (&self.plan.lower, self.plan.bottom());
         let (tip, side_neck) = (armhole[0], neck[neck.len() - 1]);
         let mut right_half = vec![bottom];
         right_half.extend(armhole.iter().rev());
         right_half.extend(neck.iter().rev());
-        // The mirrored half runs back down; the centre points belong to both.
+        // The mirrored half runs back down. Both halves share the centre points.
         let left_half = right_half.iter().rev().skip(1).map(|&p| mirrored(p));
         let mut outline: Vec<V2> = lower.iter().rev().filter(|p| p.x > 0.0).map(|&p| mirrored(p)).collect();
         outline.extend(&lower[..lower.len() - 1]);
@@ -153,8 +153,8 @@ impl Trunk {
         }
     }
 
-    /// The right sleeve. The front half of the cap lies on `+u` and is as long as the front armhole, and the back half
-    /// likewise. The cap height is `cap_share` of the armhole depth, and the cap has no ease.
+    /// Right sleeve with its front half on `+u`. Each half of the cap is as long as the armhole on its side, without
+    /// ease. The cap height is `cap_share` times the depth of the armhole.
     pub fn sleeve(&self, cap_share: f64, opening: f64, underarm_seam: f64) -> Piece {
         let height = cap_share * (self.front_armhole[0].y - self.plan.underarm.y);
         let front = cap(height, length(&self.front_armhole));
@@ -182,12 +182,12 @@ impl Trunk {
 }
 
 impl TrunkPlan {
-    /// Bottom of the side.
+    /// Lower end of the side.
     fn bottom(&self) -> V2 {
         self.lower[self.lower.len() - 1]
     }
 
-    /// Unit vector outwards, normal to the side.
+    /// Unit vector outwards, at right angles to the side.
     fn square_to_side(&self) -> V2 {
         let side = (self.underarm - self.bottom()).normalize();
         V2::new(side.y, -side.x)

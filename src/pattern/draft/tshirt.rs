@@ -1,6 +1,6 @@
 //! Men's T-shirt, drafted from nine lengths per size.
 //!
-//! Choices that the published numbers leave open:
+//! The published numbers leave the constants open.
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
@@ -9,7 +9,7 @@ use geom::units::from_mm;
 
 /// Depth of the back neck below the side-neck points, m.
 const BACK_NECK_DROP_M: f64 = 0.022;
-/// Ratio of the cap height to the depth of the armhole.
+/// Cap height divided by the depth of the armhole.
 const CAP_HEIGHT_SHARE: f64 = 0.56;
 
 /// Seam file of the T-shirt, for all sizes.

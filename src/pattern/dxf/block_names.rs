@@ -1,7 +1,8 @@
 //! Names of written blocks, one per piece, as readers of DXF R12 accept them.
 //!
-//! A name in R12 has at most 31 characters: letters, digits, `$`, `-` and `_`. Some readers discard a file with another
-//! name, and some one with a `$`. Upper and lower case count as equal. The true name of a piece stands in its texts.
+//! A name in R12 has at most 31 characters: letters, digits, `$`, `-` and `_`. Some readers discard a file with any
+//! other name, and some a file with a `$`. Upper and lower case count as equal. The true name of a piece stands in its
+//! texts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,17 +12,17 @@ use crate::piece::Piece;
 /// Most characters of a name in R12.
 const MOST_CHARS: usize = 31;
 
-/// Converts a name into a block name of R12. Characters other than letters and digits of any script, `-` and `_` become
-/// `_`.
+/// Converts a name into a block name of R12: every character except letters and digits of any script, `-` and `_`
+/// becomes `_`.
 pub(crate) fn r12_name(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
     name.trim().chars().map(|c| if is_plain(c) { c } else { '_' }).take(MOST_CHARS).collect()
 }
 
-/// Returns a block name for each piece. All of them differ.
+/// Returns a block name for each piece, all different.
 ///
-/// A piece keeps the name of its block if no other has it. Otherwise the name of its size is appended, `FRONT_M`, as
-/// CAD programs name the blocks of a nest. A number tells apart those of equal name and size: `FRONT_M_2`.
+/// A piece keeps the name of its block if no other piece has it. Otherwise the name of its size is appended, `FRONT_M`,
+/// as CAD programs name the blocks of a nest. A number distinguishes pieces of equal name and size: `FRONT_M_2`.
 pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     let own: Vec<String> = pieces.iter().map(own_name).collect();
     let mut alike: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -49,13 +50,13 @@ pub fn block_names(pieces: &[Piece]) -> Vec<String> {
     names
 }
 
-/// Name of the block of a piece, or the name of the piece if it is drawn outside all blocks.
+/// Name of the block of a piece, or the name of a piece that is drawn outside all blocks.
 fn own_name(piece: &Piece) -> String {
     let named = [&piece.block, &piece.name].into_iter().find(|name| !name.trim().is_empty() && *name != NO_BLOCK);
     r12_name(named.map_or("PIECE", String::as_str))
 }
 
-/// Name of a block without the size that follows the name of the piece in it.
+/// Name of a block without the size that follows the name of the piece.
 fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = &'n str>) -> &'n str {
     let after = block.strip_prefix(name).filter(|_| !name.is_empty());
     let is_size = after.is_some_and(|after| {
@@ -65,7 +66,7 @@ fn without_size<'n>(block: &'n str, name: &str, mut sizes: impl Iterator<Item = 
     if is_size { &block[..name.len()] } else { block }
 }
 
-/// Joins a name and its suffix. The name is clipped to leave room.
+/// Joins a name and its suffix, clipping the name to leave room.
 fn joined(name: &str, after: &str) -> String {
     let after: String = after.chars().take(MOST_CHARS - 1).collect();
     let room = MOST_CHARS - after.chars().count();

@@ -21,7 +21,7 @@ use geom::units::mm;
 const LEAST_AREA_M2: f64 = 1e-6;
 /// Greatest depth of nested insertions of blocks.
 const DEEPEST_INSERT: usize = 8;
-/// Greatest number of entities and points of one piece that are read.
+/// Greatest number of entities and points that are read for one piece.
 const MOST_PARTS: usize = 400_000;
 
 /// Blocks of a file by name, to resolve insertions.
@@ -38,7 +38,7 @@ impl<'d> Library<'d> {
         Self(by_name)
     }
 
-    /// Finds a block by its name. `None` if the file has no such block.
+    /// Block with a name. `None` if the file has no such block.
     fn find(&self, name: &str) -> Result<Option<&'d Block>, String> {
         match self.0.get(&name.to_ascii_uppercase()).map(Vec::as_slice) {
             Some([block]) => Ok(Some(block)),
@@ -61,7 +61,7 @@ pub struct Text {
     is_inner: bool,
 }
 
-/// Drawing of a block, by AAMA layer, in metres.
+/// Drawing of a block, m, by AAMA layer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// Boundary (layer 1).
@@ -80,15 +80,15 @@ pub struct Drawn {
     pub texts: Vec<Text>,
     /// Names of inserted blocks that the file does not hold.
     missing: Vec<String>,
-    /// Descriptions of what cannot be read on layers 1 and 14, with the reason.
+    /// Unreadable parts of layers 1 and 14, each with the reason.
     pub unreadable: Vec<String>,
     /// Curves that were flattened, by kind.
     pub flattened: BTreeMap<&'static str, usize>,
     /// Number of unused entities by layer.
     pub unused: BTreeMap<String, usize>,
-    /// Boundary lines that duplicate another one.
+    /// Boundary lines that duplicate another boundary line.
     copies: Vec<Line>,
-    /// Number of used entities, without texts.
+    /// Number of used entities other than texts.
     used: usize,
     /// Number of points and entities so far.
     parts: usize,
@@ -112,12 +112,12 @@ impl Drawn {
         drawn
     }
 
-    /// True if nothing is drawn at all, as in the model and paper space of some writers.
+    /// True if the block draws nothing, as the model and paper space of some writers.
     pub fn is_empty(&self) -> bool {
         self.is_no_piece() && self.texts.is_empty() && self.unused.is_empty()
     }
 
-    /// True if nothing is drawn on the layers of a piece.
+    /// True if the block draws nothing on the layers of a piece.
     pub fn is_no_piece(&self) -> bool {
         self.used == 0 && self.unreadable.is_empty()
     }
@@ -136,7 +136,7 @@ impl Drawn {
                 self.unreadable.push(format!("more than {MOST_PARTS} points; accepted: fewer"));
                 return;
             }
-            // Entities on layer 0 of a block take the layer of its insertion [DXF reference, BLOCKS].
+            // An entity on layer 0 of a block takes the layer of the insertion [DXF reference, BLOCKS].
             let own = entity.common.layer.trim();
             let layer = layer_of_insert.filter(|_| own == "0").unwrap_or(own);
             let EntityType::Insert(insert) = &entity.specific else {
@@ -238,7 +238,7 @@ impl Drawn {
         *self.unused.entry(layer.to_owned()).or_default() += 1;
     }
 
-    /// Lines of a layer. Those of layer 8 stand for any other.
+    /// Lines of a layer. Layers without a list of lines share that of layer 8.
     fn lines_of(&mut self, layer: &str) -> &mut Vec<Line> {
         match layer {
             "1" => &mut self.boundary,
@@ -251,8 +251,8 @@ impl Drawn {
         }
     }
 
-    /// Joins the boundary into one outline. A duplicate line counts once, unless the outline closes only over both:
-    /// they are then the two sides of a slit.
+    /// Joins the boundary into one outline. Duplicate lines count once, unless the outline closes only with both: they
+    /// are then the two sides of a slit.
     fn outline(&self, block: &str, remarks: &mut Vec<String>) -> Result<Vec<V2>, String> {
         let once = joined(&self.boundary, "outline (layer 1)");
         if self.copies.is_empty() {
@@ -260,7 +260,7 @@ impl Drawn {
         }
         let what = "outline (layer 1)";
         let both = || joined(&[&self.boundary[..], &self.copies[..]].concat(), what);
-        // A slit that is drawn there and back as one line ends where it begins. The outline is closed without it.
+        // A slit drawn there and back as one line ends where it begins. Without it the outline is closed.
         let neither = || {
             let is_single = |line: &&Line| !self.copies.iter().any(|copy| copy.is_drawn_again_by(line));
             joined(&self.boundary.iter().filter(is_single).cloned().collect::<Vec<_>>(), what)
@@ -276,10 +276,10 @@ impl Drawn {
         Ok(outline)
     }
 
-    /// Makes the piece of the block. Remarks for the user are added to `remarks`.
+    /// Makes the piece of the block, and adds remarks for the user to `remarks`.
     ///
     /// # Errors
-    /// The reason why it is no usable piece, with the place in millimetres.
+    /// The reason why the block is no usable piece, with the place in millimetres.
     pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
         if let Some(reason) = std::mem::take(&mut self.unreadable).into_iter().next() {
             return Err(reason);
@@ -348,7 +348,7 @@ impl Drawn {
         })
     }
 
-    /// Size that the texts name.
+    /// Size named in the texts.
     pub fn size(&self) -> Option<String> {
         let texts = self.texts.iter().map(|text| key_and_value(&text.value));
         texts
@@ -357,7 +357,7 @@ impl Drawn {
             .next()
     }
 
-    /// A point of the drawing. If several entities are drawn, it is on the first of them.
+    /// A point of the first entity that is drawn.
     pub fn place(&self) -> Option<V2> {
         let lines = [&self.boundary, &self.sew_lines, &self.internal, &self.cut_outs];
         let more = [&self.grain, &self.mirror, &self.grade_reference];

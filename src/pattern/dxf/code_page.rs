@@ -7,7 +7,7 @@ use oem_cp::encode_string_lossy;
 /// Character encoding of texts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CodePage {
-    /// An encoding of the WHATWG standard, which include those of Windows and ISO 8859.
+    /// Encoding of the WHATWG standard, which include those of Windows and ISO 8859.
     Web(&'static Encoding),
     /// An OEM (DOS) code page, by its number.
     Dos(u16),
@@ -59,7 +59,7 @@ impl CodePage {
         }
     }
 
-    /// Encodes a text into the bytes that it was read from.
+    /// Encodes a decoded text into the bytes of the file.
     #[must_use]
     pub fn encoded(self, text: &str) -> Vec<u8> {
         match self {

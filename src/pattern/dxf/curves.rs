@@ -1,7 +1,7 @@
 //! Flattening of curved entities into chains of chords: bulges, arcs, ellipses and splines [DXF reference].
 //!
-//! Chords stay within [`CHORD_ERROR_M`] of the curve. Each turns so little that the length of a flattened arc is
-//! accurate to 0.004 %.
+//! Chords stay within [`CHORD_ERROR_M`] of the curve and turn so little that the length of a flattened arc is accurate
+//! to 0.004 %.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,15 +9,15 @@ use geom::V2;
 
 /// Greatest distance of a chord from its curve, m.
 pub const CHORD_ERROR_M: f64 = 0.01e-3;
-/// Greatest turning angle over one chord, radians. The relative error of the length of a chord is its square over 24.
+/// Greatest turning angle of a chord, radians. The relative error of its length is the squared angle divided by 24.
 const MOST_TURN: f64 = 0.03;
 /// Greatest number of bisections of a span of a spline.
 const MOST_HALVINGS: usize = 10;
-/// Greatest degree of a spline. DXF writers use 3, and the cost of de Boor's scheme is quadratic in it.
+/// Greatest degree of a spline. DXF writers use 3, and the cost of de Boor's algorithm is quadratic in the degree.
 const MOST_DEGREE: usize = 25;
 
-/// Points of an arc after `start` up to and including `end`. `bulge` is its sagitta over half of its chord. It is
-/// negative for an arc to the left of the chord.
+/// Points of an arc after `start` up to and including `end`. `bulge` is 2 * sagitta / chord, negative for an arc to the
+/// left of the chord.
 ///
 /// The bulge is the tangent of a quarter of the included angle [DXF reference, LWPOLYLINE].
 pub fn bulge(start: V2, end: V2, bulge: f64, tolerance: f64) -> Vec<V2> {
@@ -54,13 +54,13 @@ pub fn circle(centre: V2, radius: f64, tolerance: f64) -> Vec<V2> {
     points
 }
 
-/// Points of an elliptic arc between two parameters, radians. `major` is the semi-major axis, `ratio` that of the minor
-/// to the major axis.
+/// Points of an elliptic arc between two parameters, radians. `major` is the semi-major axis, `ratio` the minor axis
+/// divided by the major axis.
 pub fn ellipse(centre: V2, major: V2, ratio: f64, parameters: [f64; 2], tolerance: f64) -> Vec<V2> {
     let minor = V2::new(-major.y, major.x) * ratio;
     let turn = full_turn(parameters[1] - parameters[0]);
-    // The curvature is greatest at the ends of the longer axis. Steps that suit it are too fine elsewhere, which does
-    // no harm.
+    // The curvature is greatest at the ends of the longer axis. Steps that are fine enough there are fine enough
+    // elsewhere.
     let longest = major.norm().max(minor.norm());
     let eccentric = ratio.abs().max(1.0 / ratio.abs()).min(1.0 / MOST_TURN);
     let count = (steps(turn, longest, tolerance) as f64 * eccentric).ceil() as usize;
@@ -84,7 +84,7 @@ fn rotated(vector: V2, angle: f64) -> V2 {
     V2::new(cosine * vector.x - sine * vector.y, sine * vector.x + cosine * vector.y)
 }
 
-/// A B-spline. It is rational if it has weights.
+/// B-spline, rational if it has weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     degree: usize,
@@ -97,7 +97,7 @@ impl Spline {
     /// Makes a spline of the given degree.
     ///
     /// # Errors
-    /// A sentence for messages if knots, weights and control points do not match.
+    /// A message if knots, weights and control points do not match.
     pub fn new(degree: i32, knots: &[f64], control: &[V2], weights: &[f64]) -> Result<Self, String> {
         let of_degree = usize::try_from(degree).ok().filter(|degree| (1..=MOST_DEGREE).contains(degree));
         let Some(degree) = of_degree else {
@@ -127,7 +127,7 @@ impl Spline {
         Ok(Self { degree, knots: knots.to_vec(), control })
     }
 
-    /// Point at the parameter `u` within a knot span, by de Boor's scheme [de Boor].
+    /// Point at the parameter `u` in a knot span, by de Boor's algorithm [de Boor].
     fn at(&self, span: usize, u: f64) -> V2 {
         let p = self.degree;
         let mut points = self.control[span - p..=span].to_vec();
@@ -160,7 +160,7 @@ impl Spline {
         points
     }
 
-    /// Adds the points of a part of a span after its first end. It is bisected until the chords follow the curve.
+    /// Adds the points of a part of a span after its first end, bisecting it until the chords follow the curve.
     fn halve(&self, span: usize, ends: [(f64, V2); 2], tolerance: f64, halvings: usize, points: &mut Vec<V2>) {
         let [(from, start), (to, end)] = ends;
         let middle = 0.5 * (from + to);
@@ -170,7 +170,7 @@ impl Spline {
         let turn = |k: usize| (chain[k + 1] - chain[k]).angle(&(chain[k + 2] - chain[k + 1]));
         let is_straight = inner.iter().all(|point| off(point) <= tolerance)
             && ((end - start).norm() <= tolerance || (0..3).map(turn).sum::<f64>() <= MOST_TURN);
-        // At least one bisection is made. A curve with an inflection may pass through its chord.
+        // At least one bisection is made, because a curve with an inflection may cross its chord at the middle.
         if (is_straight && halvings < MOST_HALVINGS) || halvings == 0 {
             return points.push(end);
         }

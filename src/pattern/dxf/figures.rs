@@ -38,16 +38,16 @@ impl Placement {
         self.x * step.x + self.y * step.y
     }
 
-    /// Length of the longer image of the two unit vectors.
+    /// Scale factor: the longer image of the two unit vectors.
     fn scale(&self) -> f64 {
         self.x.norm().max(self.y.norm())
     }
 
-    /// Placement for an entity with this normal. If the normal points down, the entity is seen from behind and its x
-    /// axis is reversed [DXF reference, OCS].
+    /// Placement of an entity with this normal. An entity whose normal points down is seen from behind, with its x axis
+    /// reversed [DXF reference, OCS].
     ///
     /// # Errors
-    /// A sentence for messages if the normal is tilted.
+    /// A message if the normal is tilted.
     fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
         let tilt = normal.x.abs().max(normal.y.abs());
         if tilt > 1e-6 * normal.z.abs() {
@@ -56,10 +56,10 @@ impl Placement {
         Ok(if normal.z < 0.0 { Self { x: -self.x, ..*self } } else { *self })
     }
 
-    /// Placement of a block that is inserted in a drawing with this placement. `base` is the base point of the block.
+    /// Placement of a block that is inserted into a drawing with this placement. `base` is the base point of the block.
     ///
     /// # Errors
-    /// A sentence for messages for an array of insertions, or a tilted one.
+    /// A message if the insertion is an array or tilted.
     pub fn of_insert(&self, insert: &Insert, base: &Point) -> Result<Self, String> {
         if insert.column_count > 1 || insert.row_count > 1 {
             return Err(format!(
@@ -79,7 +79,7 @@ impl Placement {
 /// Curves of one kind that were flattened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Curves {
-    /// Number of them.
+    /// Number of curves.
     pub count: usize,
     /// Name of the kind, for messages.
     pub kind: &'static str,
@@ -88,11 +88,11 @@ pub struct Curves {
 /// Geometry of an entity, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Figure {
-    /// A polyline. Its curves are flattened.
+    /// A polyline with its curves flattened.
     Line {
-        /// Points, m. The first is not repeated if it is closed.
+        /// Points, m. The first is not repeated in a closed polyline.
         points: Vec<V2>,
-        /// True if its last point joins its first.
+        /// True if the last point joins the first.
         is_closed: bool,
         /// Curves that were flattened.
         curves: Curves,
@@ -108,7 +108,7 @@ pub enum Figure {
     Point {
         /// Position in the plane, m.
         at: V2,
-        /// Its z coordinate: the depth of a notch, m.
+        /// Depth of a notch, m: the z coordinate.
         depth_m: f64,
         /// Direction, degrees counter-clockwise from +u.
         angle_deg: f64,
@@ -120,7 +120,7 @@ pub enum Figure {
         /// Content of the text.
         value: String,
     },
-    /// Anything else: labels, and kinds that [`super::guard`] has counted as unsupported.
+    /// Anything else: labels, and kinds that [`super::guard`] counts as unsupported.
     Label,
 }
 
@@ -130,7 +130,7 @@ const FARTHEST_M: f64 = 1_000.0;
 /// Geometry of an entity at a placement.
 ///
 /// # Errors
-/// A sentence for messages: what cannot be read, and what is accepted.
+/// A message on what cannot be read, and what is accepted.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let figure = figure_anywhere(entity, placement)?;
     let places: &[V2] = match &figure {
@@ -225,7 +225,7 @@ fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
         }
         EntityType::Ellipse(drawn) => {
             let major = V2::new(drawn.major_axis.x, drawn.major_axis.y);
-            // Its axes are in world coordinates. A normal that points down only reverses its parameter.
+            // Axes are in world coordinates. A normal that points down only reverses the parameter.
             let ratio = drawn.minor_axis_ratio * if drawn.normal.z < 0.0 { -1.0 } else { 1.0 };
             if !(1e-4..=1e4).contains(&ratio.abs()) {
                 return Err(format!("an ellipse of ratio {}; accepted: 0.0001 to 10000", drawn.minor_axis_ratio));

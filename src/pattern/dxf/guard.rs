@@ -1,8 +1,8 @@
 //! Inventory of a DXF file, counted from its tags before the `dxf` crate reads it.
 //!
-//! The crate returns `Ok` even where it drops entities. It drops polylines with unknown group codes (240-269, as some
-//! 3D garment CAD writes them) and vertices with malformed numbers. Every number is therefore checked here, and the
-//! unknown codes are removed. Afterwards the entities of the crate are compared with these counts.
+//! The crate returns `Ok` even where it drops entities: polylines with unknown group codes (240-269, as some 3D garment
+//! CAD writes them) and vertices with malformed numbers. Every number is therefore checked here, and the unknown codes
+//! are removed. Afterwards the entities that the crate returns are compared with these counts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,8 @@ use super::tags::{Tag, ValueType, clipped, value_type};
 pub const KINDS: [&str; 11] =
     ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"];
 
-/// Other kinds of entities of DXF [DXF reference, ENTITIES section]. Any further kind means a damaged or foreign file.
+/// Other kinds of entities of DXF [DXF reference, ENTITIES section]. A kind that is in neither list means a damaged or
+/// foreign file.
 const OTHER_KINDS: [&str; 37] = [
     "3DFACE",
     "3DLINE",
@@ -58,11 +59,10 @@ const OTHER_KINDS: [&str; 37] = [
 const SECTIONS: [&str; 8] =
     ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"];
 
-/// Number of drawing entities of unsupported kinds, by layer (as bytes of the file) and kind. The crate drops some of
-/// them.
+/// Number of drawing entities of unsupported kinds, by layer (as bytes of the file) and kind.
 pub type Foreign<'a> = BTreeMap<(&'a [u8], &'a str), usize>;
 
-/// Other kinds that draw no part of a piece.
+/// Unsupported kinds that draw no part of a piece.
 const LABELS: [&str; 4] = ["ATTDEF", "ATTRIB", "MTEXT", "SEQEND"];
 
 /// Number of entities of each kind.
@@ -71,9 +71,9 @@ pub type Counts = BTreeMap<&'static str, usize>;
 /// Inventory of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlockCount<'a> {
-    /// Name as bytes of the file.
+    /// Name, as bytes of the file.
     pub name: &'a [u8],
-    /// Line number of its `0/BLOCK`.
+    /// Line number of its `0/BLOCK` tag.
     pub line: usize,
     /// Number of supported entities by kind.
     pub counts: Counts,
@@ -90,10 +90,10 @@ pub struct HeaderValue<'a> {
     pub line: usize,
 }
 
-/// A value as bytes of the file.
+/// Bytes of the file with their line number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Located<'a> {
-    /// Its bytes.
+    /// Bytes.
     pub bytes: &'a [u8],
     /// Line number, from 1.
     pub line: usize,
@@ -114,7 +114,7 @@ pub struct Inventory<'a> {
     pub texts: Vec<Located<'a>>,
     /// Names of inserted blocks.
     inserted: Vec<Located<'a>>,
-    /// Tags for the crate: version, blocks and entities, without undefined group codes.
+    /// Tags for the crate: version, blocks and entities, without the undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
 
@@ -125,7 +125,7 @@ pub struct Inventory<'a> {
 /// undefined (other than 240-269, which are skipped).
 pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
     let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
-    // A record is a tag of group code 0 with those up to the next.
+    // A record is a tag of group code 0 and the tags up to the next one.
     let starts: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
     if let Some(stray) = tags[..starts.first().copied().unwrap_or(tags.len())].iter().find(|tag| tag.code != 999) {
         return Err(walk.fail(stray, format!("group code {} before the first section", stray.code), "0/SECTION"));
@@ -151,7 +151,7 @@ impl Inventory<'_> {
         self.texts.iter().map(|text| text.bytes).chain(self.blocks.iter().map(|block| block.name))
     }
 
-    /// Names of inserted blocks that the file does not hold, each once, with the line number of the insertion.
+    /// Names of inserted blocks that the file does not hold, each once, with the line number of an insertion.
     pub fn missing_blocks(&self) -> Vec<(String, usize)> {
         let mut known: BTreeSet<Vec<u8>> = self.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
         let missing = self.inserted.iter().filter(|name| known.insert(name.bytes.to_ascii_uppercase()));
@@ -247,7 +247,7 @@ impl<'a> Walk<'a, '_> {
                 self.inventory.blocks.push(BlockCount { name, line: head.line, counts, foreign });
             }
             "ENDBLK" if is_in_blocks => {
-                // Some writers end the section with an ENDBLK of a block that was never opened. It holds nothing.
+                // Some writers end the section with the ENDBLK of a block that was never opened.
                 self.block = None;
             }
             _ if is_in_blocks && self.block.is_none() => {
@@ -331,7 +331,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// Checks the number of points and knots of a spline, because the crate pairs incomplete lists without an error.
+    /// Checks the numbers of points and knots of a spline: the crate pairs incomplete lists without an error.
     fn check_spline(&self, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
         for (x, y, stated, what) in [(10, 20, 73, "control points"), (11, 21, 74, "fit points"), (40, 40, 72, "knots")]
@@ -347,7 +347,7 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    /// Checks that all coordinates are given, because the crate takes a missing one for zero.
+    /// Checks that all coordinates are given: the crate takes a missing coordinate for zero.
     fn check_coordinates(&self, keyword: &str, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let needed: &[i32] = match keyword {
             "VERTEX" | "POINT" => &[10, 20],
@@ -378,7 +378,7 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
-/// An integer without zero decimals (`0.000000`), which some writers add. Other values stay as they are.
+/// Integer without the zero decimals (`0.000000`) that some writers add. Other values stay as they are.
 fn without_zero_decimals(value: &[u8]) -> &[u8] {
     match value.iter().position(|&byte| byte == b'.') {
         Some(point) if point > 0 && value[point + 1..].trim_ascii_end().iter().all(|&byte| byte == b'0') => {

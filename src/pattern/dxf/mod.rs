@@ -3,8 +3,8 @@
 //! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 5 grade reference, 6 mirror
 //! line, 7 grain line, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line. Curves are flattened.
 //!
-//! A file is read in three steps. Its tags are scanned and counted (`guard`). The `dxf` crate reads them, and its
-//! entities are compared with the counts. Then each block becomes a piece or is refused.
+//! A file is read in three steps. `guard` scans and counts its tags. The `dxf` crate reads the tags, and its entities
+//! are compared with these counts. Then each block becomes a piece or is refused.
 
 mod block_names;
 mod blocks;
@@ -36,18 +36,18 @@ use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};
 
-/// Name of the block of an outline that is drawn outside all blocks.
+/// Name in place of that of a block, for an outline that is drawn outside all blocks.
 pub const NO_BLOCK: &str = "(no block)";
 
 /// Error of reading a DXF file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
 pub struct DxfError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
-    /// Line number, if one can be named.
+    /// Line number. `None` if the error has no line.
     pub line: Option<usize>,
-    /// Name of the block, if one can be named.
+    /// Name of the block. `None` if the error is in no block.
     pub block: Option<String>,
     /// Description of what was found.
     pub found: String,
@@ -74,7 +74,7 @@ pub struct Refused {
     pub block: String,
     /// Line number at which the block begins. `None` for a file without blocks.
     pub line: Option<usize>,
-    /// Size of the refused piece, if one is named.
+    /// Size of the refused piece. `None` if the block names none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
     /// Reason, with the place in millimetres.
@@ -100,7 +100,7 @@ pub struct PatternFile {
     pub refused: Vec<Refused>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// Warning if the file contradicts the unit that it is read in. It is one of the warnings.
+    /// Warning that the file contradicts the unit in which it is read. It is in `warnings` too.
     pub unit_remark: Option<String>,
     /// Number of unused entities by layer.
     pub unused: BTreeMap<String, usize>,
@@ -110,7 +110,7 @@ pub struct PatternFile {
 
 impl PatternFile {
     /// Name of a block byte for byte as in the file, each byte as the character of that number (Latin-1). In a UTF-8
-    /// file it is the name itself. It identifies the block whatever code page a reader assumes.
+    /// file it is the name itself. It names the block whatever the code page of a reader.
     #[must_use]
     pub fn as_written(&self, block: &str) -> String {
         if block == NO_BLOCK || self.encoding.is_utf8() {
@@ -119,14 +119,14 @@ impl PatternFile {
         self.encoding.encoded(block).into_iter().map(char::from).collect()
     }
 
-    /// Doubt about the unit, told by the length of the longest piece.
+    /// Doubt about the unit from the length of the longest piece. `None` without a doubt.
     fn doubt(&self) -> Option<String> {
         let longest_m = self.pieces.iter().map(|piece| scale::extent_m(&piece.outline)).fold(0.0, f64::max);
         if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 
-    /// Sizes from the smallest to the largest. Those whose names do not tell their order stay in the order of the file.
-    /// Pieces without a size count as size `""`.
+    /// Sizes from the smallest to the largest. Sizes whose names have no order stay in the order of the file. Pieces
+    /// without a size count as size `""`.
     #[must_use]
     pub fn sizes(&self) -> Vec<&str> {
         let mut sizes = Vec::new();
@@ -149,11 +149,11 @@ impl PatternFile {
         sample.copied().unwrap_or_else(|| sizes.get(sizes.len() / 2).copied().unwrap_or_default())
     }
 
-    /// Pieces of one size, half pieces unfolded, ready for a seam file. Without `size` the file must hold only one.
-    /// Upper and lower case count as equal.
+    /// Pieces of one size, half pieces unfolded, ready for a seam file. Without `size` the file must hold only one
+    /// size. Upper and lower case count as equal.
     ///
     /// # Errors
-    /// [`DxfError`] if no unit is known, a block of this size was refused, or the size is missing or ambiguous. A
+    /// [`DxfError`] if no unit is known, the size is missing or ambiguous, or a block of this size was refused: a
     /// garment without one of its pieces would be another garment.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
         let doubt = self.doubt();
@@ -179,7 +179,7 @@ impl PatternFile {
                 ));
             }
         };
-        // A refused piece of another size is no part of this one.
+        // A refused piece of another size does not belong to this garment.
         let is_part = |refused: &&Refused| refused.size.as_ref().is_none_or(|size| size.eq_ignore_ascii_case(wanted));
         if let Some(refused) = self.refused.iter().find(is_part) {
             return Err(DxfError {
@@ -222,11 +222,11 @@ impl PatternFile {
     }
 }
 
-/// Gives each piece of one size its counterparts in every size. A counterpart has the same name, or the same name but
-/// for the size. Pieces of equal name are matched by their order.
+/// Gives each piece of one size its counterparts in the other sizes: the same name, or the same name except for the
+/// size. Pieces of equal name are matched in their order.
 fn join_sizes(pieces: &mut [Piece], sizes: &[Vec<Piece>]) {
     let bare = |piece: &Piece| without(&piece.name, piece.size.as_deref().unwrap_or_default());
-    // Full names are compared first, because the 2 of a `SLEEVE 2` may be no size.
+    // Full names are compared first: the 2 of `SLEEVE 2` may be no size.
     let is_same = |is_whole: bool, a: &Piece, b: &Piece| if is_whole { a.name == b.name } else { bare(a) == bare(b) };
     for k in 0..pieces.len() {
         let in_size = |size: &Vec<Piece>| {
@@ -259,9 +259,8 @@ fn plain(key: &str) -> String {
 
 /// Reads a DXF file. `unit` overrides the unit of the file. `file_name` is used in messages.
 ///
-/// # Errors
-/// [`DxfError`] if the file is empty, binary, truncated or no DXF, has a malformed number, or names an unknown unit or
-/// code page. It is also an error if the `dxf` crate loses an entity. A block that cannot be used is no error: it is in
+/// [`DxfError`] if the file is empty, binary, truncated or no DXF, has a malformed number, names an unknown unit or
+/// code page, or the `dxf` crate loses an entity. A block that cannot be used is no error: it is listed in
 /// [`PatternFile::refused`].
 pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
     let tags = tags::scan(bytes, file_name)?;
@@ -312,7 +311,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
 }
 
 impl PatternFile {
-    /// Adds the pieces of all blocks and those outside of blocks.
+    /// Adds the pieces of all blocks, and those drawn outside all blocks.
     fn add_all(&mut self, drawing: &Drawing, inventory: &Inventory<'_>) {
         let placement = Placement::scaled(geom::units::from_mm(self.unit.mm_per_unit()));
         let blocks: Vec<&Block> = drawing.blocks().collect();
@@ -349,7 +348,7 @@ impl PatternFile {
         self.warnings.extend(loose.remarks);
         if let Some(rest) = loose.rest {
             self.count_unused(&rest);
-            // A file without blocks must hold an outline.
+            // Without blocks, the outline must be outside of them.
             if inventory.blocks.is_empty() {
                 self.add(NO_BLOCK, None, rest);
             }
@@ -373,11 +372,11 @@ impl PatternFile {
         }
     }
 
-    /// Gives pieces without texts those of the piece of the same name in another size. CAD programs write them to the
-    /// sample size alone.
+    /// Gives pieces without texts the texts of the piece of the same name in another size: CAD programs write texts in
+    /// the sample size alone.
     fn share_texts(&mut self) {
         let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
-        // Of several pieces the first counts.
+        // Of several pieces of a name, the first counts.
         let told: BTreeMap<String, usize> =
             self.pieces.iter().enumerate().filter(has_texts).rev().map(|(k, piece)| (piece.name.clone(), k)).collect();
         for k in 0..self.pieces.len() {
@@ -429,7 +428,7 @@ fn load(inventory: &Inventory<'_>, code_page: CodePage, file: &str) -> Result<Dr
     for tag in &inventory.clean {
         clean.extend(format!("{}\n", tag.code).into_bytes());
         match code_page {
-            // The crate supports no OEM code pages.
+            // The crate supports no OEM code page.
             CodePage::Dos(_) if !tag.value.is_ascii() => clean.extend(code_page.decoded(tag.value).into_bytes()),
             _ => clean.extend(tag.value),
         }

@@ -8,31 +8,31 @@ use geom::units::mm;
 
 /// Greatest gap between the ends of boundary lines that join, m.
 pub const JOIN_M: f64 = 0.05e-3;
-/// Distance below which points coincide, m.
+/// Distance below which points count as equal, m.
 const SAME_M: f64 = 1e-6;
 /// Greatest number of vertices of an outline. A piece has some hundreds.
 const MOST_VERTICES: usize = 20_000;
-/// Greatest number of lines of an outline. One that is drawn segment by segment has some hundreds.
+/// Greatest number of lines of an outline. An outline that is drawn segment by segment has some hundreds.
 pub const MOST_LINES: usize = 5_000;
-/// Greatest area of the loops of a cut line, as a share of the piece. Those of trousers with pockets enclose a
+/// Greatest area of the loops of a cut line, as a share of the piece. The loops of trousers with pockets enclose a
 /// thousandth.
 pub const LOOPS_SHARE: f64 = 0.01;
-/// Greatest area of the loops of an outline that is sewn itself, m2: a knot from grading that no scissors could follow.
+/// Greatest area of the loops of an outline that is sewn, m2: a knot from grading, smaller than scissors could follow.
 pub const TRIFLE_M2: f64 = 1e-5;
-/// Greatest number of loops of a cut line. It has a few at each inner corner at most.
+/// Greatest number of loops of a cut line, which has at most a few at each inner corner.
 const MOST_LOOPS: usize = 200;
 
-/// Greatest width of a spike, m. The coarsest grid that programs write on is a thousandth of an inch. Either side may
-/// be off by half of it.
+/// Greatest width of a spike, m: each of its two sides may be off by half of a thousandth of an inch, the coarsest grid
+/// on which programs write.
 const SPIKE_M: f64 = 0.026e-3;
 
-/// Greatest slope of one side of a spike relative to the other. It tells a spike from a short sharp corner.
+/// Greatest slope of one side of a spike relative to the other. A short sharp corner has a greater one.
 const SPIKE_SLOPE: f64 = 1e-3;
 
-/// Distance below which an outline touches itself, m.
+/// Distance below which two corners of an outline touch, m.
 const TOUCHING_M: f64 = 0.01e-3;
 
-/// Distance by which the corners of an outline that touches itself are moved inwards there, m.
+/// Distance by which touching corners are moved inwards, m.
 const PARTED_M: f64 = 0.02e-3;
 
 /// A polyline as drawn.
@@ -40,7 +40,7 @@ const PARTED_M: f64 = 0.02e-3;
 pub struct Line {
     /// Points, at least one.
     pub points: Vec<V2>,
-    /// True if it is drawn as closed.
+    /// True if the line is drawn as closed.
     pub is_closed: bool,
 }
 
@@ -61,19 +61,19 @@ impl Line {
         (end - start).norm()
     }
 
-    /// True if it is closed by its flag, or ends where it begins.
+    /// True if the line is drawn as closed, or ends where it begins.
     pub fn closes(&self) -> bool {
         self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M && !self.is_slit())
     }
 
-    /// True if it only runs out and back along itself. The sides of a slit end where they begin, but the outline
-    /// continues there.
+    /// True if the line only runs out and back along itself, as the two sides of a slit. It ends where it begins, but
+    /// the outline continues there.
     fn is_slit(&self) -> bool {
         let length: f64 = self.points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
         signed_area(&self.points).abs() < JOIN_M * length
     }
 
-    /// True if another line has the same points, in this or the reverse direction.
+    /// True if another line has the same points, in the same or the reverse order.
     pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let near = |(a, b): (&V2, &V2)| (a - b).norm() < SAME_M;
         self.points.len() == other.points.len()
@@ -82,12 +82,12 @@ impl Line {
     }
 }
 
-/// Separates lines from their duplicates. Returns both.
+/// Separates lines from their duplicates, and returns both.
 pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
     let (mut kept, mut copies): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
     let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for line in lines {
-        // Duplicates have the same midpoint of their ends, up to rounding to the next cell.
+        // Duplicates have the same midpoint between their ends, up to rounding into a neighbouring cell.
         let [start, end] = line.ends();
         let key = cell(&((start + end) * 0.5));
         let is_copy = around(key)
@@ -132,7 +132,8 @@ impl<'a> Ends<'a> {
         Self { lines, by_cell, left: (0..lines.len()).collect() }
     }
 
-    /// Takes the first unused line that begins or ends at a point. The returned points lead away from there.
+    /// Takes the first unused line that begins or ends at a point, with its points in the order that leads away from
+    /// there.
     fn take_at(&mut self, place: &V2) -> Option<Vec<V2>> {
         let touches = |index: &usize| self.lines[*index].ends().iter().any(|end| (end - place).norm() < JOIN_M);
         let near = around(cell(place)).filter_map(|key| self.by_cell.get(&key)).flatten().copied();
@@ -156,7 +157,7 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
             let Some(next) = ends.take_at(&chain.ends()[1]) else { break };
             chain.points.extend(next.into_iter().skip(1));
         }
-        // An open chain may extend before its first line too.
+        // An open chain may also continue before its first line.
         while !chain.closes() {
             let Some(next) = ends.take_at(&chain.ends()[0]) else { break };
             let before = next.into_iter().skip(1).rev();
@@ -170,7 +171,7 @@ pub fn chains(lines: &[Line]) -> Vec<Line> {
 /// Joins lines into one closed polygon, the first vertex not repeated.
 ///
 /// # Errors
-/// A sentence for messages if there is none, it is open, or there are several.
+/// A message if there is no closed polygon, or more than one.
 pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
     let mut chains = chains(lines).into_iter();
     let Some(first) = chains.next() else {
@@ -186,7 +187,7 @@ pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
 /// Polygon of a chain, the first vertex not repeated.
 ///
 /// # Errors
-/// A sentence for messages if it is open, or has fewer than 3 or more than [`MOST_VERTICES`] vertices.
+/// A message if the chain is open, or has fewer than 3 or more than [`MOST_VERTICES`] vertices.
 pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
     let [start, end] = chain.ends();
     let gap = chain.gap();
@@ -212,7 +213,7 @@ pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
 /// Refuses an outline that crosses itself.
 ///
 /// # Errors
-/// A sentence for messages with the place.
+/// A message with the place.
 pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     match self_crossing(outline) {
         Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),
@@ -220,11 +221,11 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     }
 }
 
-/// Removes the loops of a line that crosses itself, and returns the place of each. A cut line at a constant distance
-/// from the sew line has loops at inner corners and pocket mouths.
+/// Removes the loops of a line that crosses itself, and returns their places. A cut line at a constant distance from
+/// the sew line has loops at inner corners and pocket mouths.
 ///
 /// # Errors
-/// A sentence with the place of a crossing if the loops enclose more than `trifle_m2`.
+/// A message with the place of a crossing, if the loops enclose more than `trifle_m2`.
 pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Vec<V2>, String> {
     let (mut places, mut cut) = (Vec::new(), 0.0);
     while let Some(([first, second], at)) = crossing_sides(outline) {
@@ -244,8 +245,7 @@ pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Ve
     Ok(places)
 }
 
-/// Removes the spikes of an outline, where it runs out and back along the same line and encloses no area. Returns the
-/// tip of each.
+/// Removes the spikes of an outline, where it runs out and back along one line and encloses no area. Returns the tips.
 pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
     let (mut tips, mut at, mut passed) = (Vec::new(), 0, 0);
     while outline.len() > 3 && passed < outline.len() {
@@ -255,7 +255,7 @@ pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
             (at, passed) = ((at + 1) % n, passed + 1);
             continue;
         }
-        // The rest of the spike is tested next. It belongs to the same spike.
+        // After a removal, the same vertex index is what remains of the same spike.
         if passed > 0 || tips.is_empty() {
             tips.push(tip);
         }
@@ -269,7 +269,7 @@ pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
     tips
 }
 
-/// True if the nearer neighbour of a vertex lies on the segment to the other one.
+/// True if the nearer neighbour of a vertex lies on the segment to the farther one.
 fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     let [mut short, mut long] = [before - tip, after - tip];
     if short.norm() > long.norm() {
@@ -279,8 +279,8 @@ fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     short.dot(&long) > 0.0 && apart_m < SPIKE_M.min(SPIKE_SLOPE * short.norm())
 }
 
-/// Separates an outline where its corners touch each other. They are moved inwards a little, and the place of each is
-/// returned. The legs of a dart that run on together to the hem touch so.
+/// Moves touching corners of an outline inwards a little, and returns where they were. The two edges of a dart that run
+/// on together to the hem touch like this.
 pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     if self_crossing(outline).is_none() {
         return Vec::new();
@@ -310,7 +310,7 @@ pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     touching.into_iter().map(|v| drawn[v]).collect()
 }
 
-/// Reverses a clockwise polygon, its first vertex kept. Returns true if it did.
+/// Reverses a clockwise polygon, keeping its first vertex. Returns true if the polygon was reversed.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
     if is_clockwise {

@@ -1,19 +1,20 @@
-//! Reading of the sew line, which is drawn inside the outline and may end on it.
+//! Reading of the sew line, which is drawn inside the outline or ends on it.
 
 use super::outline::{JOIN_M, Line, chains, check_simple, closed, counter_clockwise, joined, without_copies};
 use geom::V2;
 use geom::polyline::{contains, signed_area};
 
-/// Least area of a closed line on layer 8 that is a sew line of old Valentina files, as a share of the outline.
+/// Least area of a closed line on layer 8 that is a sew line, as a share of the outline. Old Valentina files draw it
+/// there.
 const SEW_LINE_SHARE: f64 = 0.5;
-/// Distance within which a sew line ends on the outline, m.
+/// Distance below which a sew line ends on the outline, m.
 const ON_OUTLINE_M: f64 = 0.1e-3;
 
 /// Sew line of a piece: on layer 14, or in files of old Valentina a closed line on layer 8 that encloses most of the
 /// piece.
 ///
 /// # Errors
-/// A sentence for messages if layer 14 does not hold one closed line.
+/// A message if layer 14 does not hold one closed line.
 pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
     let mut line = if on_14.is_empty() {
         let is_sew_line = |line: &Line| {
@@ -31,8 +32,8 @@ pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> R
     Ok(Some(line))
 }
 
-/// Closes chains that may end on the outline. From one to the next they follow it. So programs draw the sew line of a
-/// half piece, which ends at the fold, and one with a gap where there is no allowance.
+/// Closes chains that end on the outline, by following the outline from one chain to the next. Sew lines are drawn like
+/// this for a half piece (up to the fold) and for a piece with an edge without allowance.
 ///
 /// # Errors
 /// As of [`joined`], if an end is not on the outline.
@@ -45,7 +46,7 @@ fn closed_on(lines: &[Line], outline: &[V2], what: &str) -> Result<Vec<V2>, Stri
         match ends {
             [Some(from), Some(to)] if !chain.closes() => {
                 let back: Vec<V2> = chain.points.iter().rev().copied().collect();
-                // The direction that leaves more of the piece is taken, because a sew line cuts off a strip.
+                // A sew line cuts off a strip, so the direction that leaves more of the piece is the right one.
                 let area = |points: &[V2], from: f64, to: f64| {
                     signed_area(&[points.to_vec(), along.between(to, from)].concat())
                 };
@@ -89,7 +90,7 @@ impl<'a> Along<'a> {
         Self { outline, arcs }
     }
 
-    /// Arc length of a point on the outline, m. `None` if it is not on it.
+    /// Arc length of a point on the outline, m. `None` for a point off the outline.
     fn arc_of(&self, point: &V2) -> Option<f64> {
         let n = self.outline.len();
         let side = |i: usize| {
@@ -102,7 +103,7 @@ impl<'a> Along<'a> {
         nearest.filter(|(distance_m, _)| *distance_m < ON_OUTLINE_M).map(|(_, arc)| arc)
     }
 
-    /// Vertices between two arc lengths, forwards.
+    /// Vertices between two arc lengths, in the direction of the outline.
     fn between(&self, from: f64, to: f64) -> Vec<V2> {
         let total = self.arcs[self.outline.len()];
         let ahead = |arc: f64| (arc - from).rem_euclid(total);

@@ -4,7 +4,7 @@ use super::DxfError;
 
 /// Greatest size of a file, bytes. A nest of 15 sizes has some megabytes.
 pub const MOST_BYTES: usize = 64 << 20;
-/// Greatest number of tags of a file. Each costs some 100 bytes of memory on the way.
+/// Greatest number of tags of a file. Each takes some 100 bytes of memory.
 const MOST_TAGS: usize = 5_000_000;
 
 /// A tag: a pair of lines.
@@ -19,7 +19,7 @@ pub struct Tag<'a> {
 }
 
 impl Tag<'_> {
-    /// Value as text for comparison with keywords, trimmed. It is not decoded beyond ASCII.
+    /// Value as text to compare with keywords, trimmed. Only ASCII is decoded.
     pub fn keyword(&self) -> &str {
         std::str::from_utf8(self.value.trim_ascii()).unwrap_or("")
     }
@@ -39,7 +39,7 @@ pub enum ValueType {
     Integer(i64, i64),
     /// Text, handles, binary chunks.
     Text,
-    /// A code that DXF does not define.
+    /// Code that DXF does not define.
     Undefined,
 }
 
@@ -119,7 +119,7 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     )
 }
 
-/// Kind of a file that is no text.
+/// Kind of a file that is not text. `None` for text.
 fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 8] = [
         (b"AutoCAD Binary DXF", "a binary DXF file"),

@@ -53,7 +53,7 @@ pub enum UnitSource {
     Given,
     /// A `Units:` text, `$INSUNITS` or `$MEASUREMENT`.
     File,
-    /// No source: millimetres are assumed.
+    /// No source: millimetres by default.
     Assumed,
 }
 
@@ -68,7 +68,7 @@ pub struct Claim {
     pub line: usize,
 }
 
-/// Units that a file names, of which the first counts. A `Units:` text [AAMA-292] precedes `$INSUNITS`, which precedes
+/// Units that a file names, the one that counts first. A `Units:` text [AAMA-292] precedes `$INSUNITS`, which precedes
 /// `$MEASUREMENT`.
 ///
 /// # Errors
@@ -112,7 +112,7 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
         };
         match units.iter().find(|(value, _)| *value == entry.value) {
             Some(&(_, unit)) => claims.push(Claim { unit, by, line: entry.line }),
-            // A text of the pattern itself counts more than a variable that drawing programs write into every header.
+            // Drawing programs write this variable into every header, so a text of the pattern counts more.
             None if !claims.is_empty() => {}
             None => {
                 return Err(DxfError::new(file, Some(entry.line), format!("{by} {}", clipped(entry.value)), accepted));
@@ -122,7 +122,7 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
     Ok(claims)
 }
 
-/// Warnings if later claims contradict the first.
+/// Warnings for later claims that contradict the first.
 pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     let Some(first) = claims.first() else { return Vec::new() };
     let warning = |claim: &Claim| {
@@ -140,18 +140,18 @@ pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
-/// Warning if the file contradicts the unit that the user gives.
+/// Warning if the file names another unit than the user.
 pub fn overruled(claims: &[Claim], given: Unit) -> Option<String> {
     let claim = claims.first().filter(|claim| claim.unit != given)?;
     let Claim { unit, by, line } = claim;
     Some(format!("{by} (line {line}) says {}: --unit {} is taken instead", unit.as_str(), given.as_str()))
 }
 
-/// Encoding of the texts. It is UTF-8 from AutoCAD 2007 on, and if all texts are valid UTF-8, whatever the header says.
-/// Otherwise it is `$DWGCODEPAGE`, or Windows-1252 without that.
+/// Encoding of the texts: UTF-8 from AutoCAD 2007 on, or if all texts are valid UTF-8, whatever the header says.
+/// Otherwise `$DWGCODEPAGE`, or Windows-1252 if the file has none.
 ///
 /// # Errors
-/// [`DxfError`] for an unknown code page, if a text has other characters than ASCII.
+/// [`DxfError`] for an unknown code page, if a text is not ASCII.
 pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<CodePage, DxfError> {
     let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);
     let is_ascii = inventory.words().all(<[u8]>::is_ascii);

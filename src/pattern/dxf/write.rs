@@ -1,4 +1,4 @@
-//! Writing of AAMA and ASTM DXF (R12): one block of unique name per piece, in millimetres, with one closed polyline on
+//! Writing of AAMA and ASTM DXF (R12), in millimetres: one block of unique name per piece, with one closed polyline on
 //! layer 1.
 
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
 /// Standard of a written file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Standard {
-    /// ANSI/AAMA-292: grade rules are on the layer of their point.
+    /// ANSI/AAMA-292: grade rules are on the layer of the point that they move.
     #[default]
     Aama,
     /// ASTM D6673: grade rules are on layer 1, and quantities count left and right separately.
@@ -28,8 +28,8 @@ pub enum Standard {
 
 /// Writes pieces as DXF in millimetres by a standard. The texts of the style stand outside the blocks.
 ///
-/// A file with ASCII texts is plain R12. Otherwise it names the first code page that has all its letters. If none has
-/// them, it is UTF-8 in the version of AutoCAD 2007.
+/// A file with ASCII texts is plain R12. Otherwise it names the first code page that has all letters of the texts. If
+/// none has, it is UTF-8 in the version of AutoCAD 2007.
 #[must_use]
 pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Vec<u8> {
     let body = body(pieces, style, standard);
@@ -55,7 +55,7 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Stan
     [head.text.into_bytes(), bytes].concat()
 }
 
-/// Writes blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files that have them.
+/// Writes blocks and entities. There are no tables: R12 needs none, and AccuMark refuses files with tables.
 fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> String {
     let mut out = Out { text: String::new(), standard };
     let names = block_names(pieces);
@@ -82,7 +82,7 @@ fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Str
 /// Text by which a file declares ASTM D6673.
 pub(crate) const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
 
-/// Distance within which a grade point is a turn point, m.
+/// Distance below which a grade point counts as on a turn point, m.
 const ON_POINT_M: f64 = 0.1e-3;
 
 struct Out {
@@ -92,7 +92,7 @@ struct Out {
 
 impl Out {
     fn tag(&mut self, code: i32, value: &str) {
-        // A line break would end the value. Writing to a string cannot fail.
+        // A line break would end the value.
         let value = value.replace(|c: char| c.is_control(), " ");
         let _ = write!(self.text, "{code:3}\r\n{value}\r\n");
     }
@@ -110,11 +110,11 @@ impl Out {
     }
 
     fn number(&mut self, code: i32, value: f64) {
-        // Adding zero turns -0 into 0.
+        // `-0.0` becomes `0.0`.
         self.tag(code, &format!("{:.4}", value + 0.0).replace("-0.0000", "0.0000"));
     }
 
-    /// Writes coordinates in millimetres. `code` is that of x.
+    /// Writes coordinates in millimetres. `code` is the group code of x.
     fn point(&mut self, code: i32, point: &V2) {
         self.number(code, mm(point.x));
         self.number(code + 10, mm(point.y));
@@ -130,7 +130,7 @@ impl Out {
         }
     }
 
-    /// A quantity in the form of the standard: AAMA counts all pieces, ASTM left and right separately.
+    /// Quantity in the form of the standard: AAMA counts all pieces, ASTM left and right separately.
     fn quantity(&self, written: &str) -> String {
         let parts: Option<Vec<u32>> = written.split(',').map(|part| part.trim().parse().ok()).collect();
         match (self.standard, parts.as_deref()) {

@@ -1,5 +1,5 @@
-//! Features of pattern pieces as JSON, written and read [Lei, 3.3.2]. They are the outline with corners and edges in
-//! drawing order, grain, reference points, notches, reference lines and piece information.
+//! Features of pattern pieces as JSON [Lei, 3.3.2]: outline with corners and edges in drawing order, grain, reference
+//! points, notches, reference lines and piece information.
 //!
 //! Lengths are in millimetres, angles in degrees counter-clockwise from `+x`, points are `[x, y]`. Derived values
 //! (`corners`, `edges`) are written for the reader and ignored when read.
@@ -17,7 +17,7 @@ use geom::units::{from_mm, mm};
 const FORMAT: &str = "toile pattern features";
 /// Version of the format that is written and read.
 const VERSION: u32 = 1;
-/// Steps per millimetre to which written lengths are rounded: a nanometre each.
+/// Steps per millimetre to which written lengths are rounded: 1 nm each.
 const PER_MM: f64 = 1e6;
 /// Greatest coordinate, mm.
 const GREATEST_MM: f64 = 100_000.0;
@@ -26,9 +26,9 @@ const GREATEST_MM: f64 = 100_000.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct FeaturesError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
-    /// Piece, or place in the text.
+    /// Piece, or place in the JSON.
     pub place: String,
     /// Description of what was found.
     pub found: String,
@@ -66,7 +66,7 @@ struct PieceFeatures {
     drawn_clockwise: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     sew_line: Option<Vec<Place>>,
-    /// Corners: indices of vertices of the sewn line, in the order of the numbers in the seam file.
+    /// Corners as vertices of the sewn line, numbered as in the seam file.
     #[serde(default)]
     corners: Vec<usize>,
     #[serde(default)]
@@ -112,10 +112,10 @@ struct ReferencePoints {
     curve_points: Vec<Place>,
     #[serde(default)]
     drill_holes: Vec<Place>,
-    /// Points of the outline with the number of their grade rule.
+    /// Points of the outline, each with its grade rule.
     #[serde(default)]
     grade_points: Vec<(Place, u32)>,
-    /// Points of internal lines, cut-outs and drill holes with the number of their grade rule.
+    /// Points of internal lines, cut-outs and drill holes, each with its grade rule.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     inner_grade_points: Vec<(Place, u32)>,
 }
@@ -144,7 +144,7 @@ struct ReferenceLines {
 }
 
 impl Features {
-    /// Features of the pieces of a pattern. The source and the texts of the style are recorded.
+    /// Features of the pieces of a pattern, with its source and the texts of its style.
     #[must_use]
     pub fn of(pieces: &[Piece], source: &str, style: &[(String, String)]) -> Self {
         Self {
@@ -163,7 +163,7 @@ fn pairs(texts: &[(String, String)]) -> Vec<[String; 2]> {
 }
 
 fn rounded(length_m: f64) -> f64 {
-    // Adding zero turns -0 into 0.
+    // `-0.0` becomes `0.0`.
     (mm(length_m) * PER_MM).round() / PER_MM + 0.0
 }
 
@@ -272,7 +272,7 @@ impl PieceFeatures {
     }
 }
 
-/// Grade points on the outline, or inside, with their rules.
+/// Grade points with their rules, on the outline or inside the piece.
 fn graded_places(piece: &Piece, is_inner: bool) -> Vec<(Place, u32)> {
     let graded = piece.grade_points.iter().filter(|graded| graded.is_inner == is_inner);
     graded.map(|graded| (place(&graded.at), graded.rule)).collect()

@@ -1,8 +1,8 @@
 //! Writing of a style as GarmentCode. Every seam becomes stitches of whole edges, and every edge is straight or a cubic
 //! curve.
 //!
-//! The format sews one edge to one edge. Both sides of a seam are therefore split at the joints of either, at equal
-//! shares of their lengths. They are bisected further until a cubic fits each part. Panels are laid out in a row,
+//! The format sews one edge to one edge. Both sides of a seam are therefore divided where an edge of either ends, at
+//! equal shares of their lengths, and bisected further until a cubic fits each part. Panels are laid out in a row,
 //! because a style has no placement about a body.
 
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ use geom::polyline::Polyline;
 
 /// Greatest distance of a drawn curve from the cubic written for it, m.
 const TOLERANCE_M: f64 = 0.05e-3;
-/// Length below which parts are written straight, m.
+/// Length below which a part is written straight, m.
 const SHORTEST_M: f64 = 0.5e-3;
 /// Number of points of a part that are compared with its cubic.
 const SAMPLES: usize = 33;
@@ -25,17 +25,17 @@ const GAP_M: f64 = 0.05;
 /// Centimetres in a metre: the unit written.
 const UNITS_IN_METER: f64 = 100.0;
 
-/// Part of an edge, between two arc lengths.
+/// Part of an edge between two arc lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     edge: EdgeRef,
     arcs: [f64; 2],
 }
 
-/// Document of a style. [`super::read`] reads it back to the same pieces and seams.
+/// GarmentCode document of a style. [`super::read`] reads the same pieces and seams from it.
 ///
-/// Piece identifiers become panel names. The format cannot hold names of edges, corners, notches, grain and
-/// measurements.
+/// Piece identifiers become panel names. Names of edges, corners, notches, grain and measurements are lost: the format
+/// cannot hold them.
 #[must_use]
 pub fn document(style: &Style) -> Document {
     let mut parts: Vec<Part> = Vec::new();
@@ -89,12 +89,12 @@ fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
     style.pieces.iter().enumerate().flat_map(edges_of)
 }
 
-/// Pairs of parts of both sides that are sewn to each other, in order along the seam.
+/// Pairs of parts that are sewn to each other, in order along the seam.
 fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
     let (a, b) = (Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards));
     let mut shares: Vec<f64> = a.shares.iter().chain(&b.shares).copied().collect();
     shares.sort_by(f64::total_cmp);
-    // A joint of both sides is a single one, though rounding may tell them apart.
+    // Where both sides have a joint at the same share up to rounding, one is kept.
     let shortest = SHORTEST_M / a.length.max(b.length);
     let mut distinct: Vec<f64> = Vec::new();
     for share in shares {
@@ -118,7 +118,7 @@ struct Side<'a> {
     chain: &'a [EdgeRef],
     is_forwards: bool,
     length: f64,
-    /// Shares of the length at which the edges begin, and 1.
+    /// Shares of the length at which each edge begins, then 1.
     shares: Vec<f64>,
 }
 
@@ -132,7 +132,7 @@ impl<'a> Side<'a> {
         Self { style, chain, is_forwards, length, shares: ends.into_iter().map(|end| end / length).collect() }
     }
 
-    /// The part between two shares of the length. It lies in one edge.
+    /// Part between two shares of the length, which must lie in one edge.
     fn part(&self, from: f64, to: f64) -> Part {
         let middle = 0.5 * (from + to);
         let k = self.shares.partition_point(|&share| share <= middle).clamp(1, self.chain.len()) - 1;
@@ -141,7 +141,7 @@ impl<'a> Side<'a> {
         let arc = |share: f64| {
             let along = ((share - self.shares[k]) * self.length).clamp(0.0, length);
             let along = if self.is_forwards { along } else { length - along };
-            // A point next to an end of the edge is snapped to it.
+            // A point near an end of the edge is moved to that end.
             if along < SHORTEST_M {
                 0.0
             } else if along > length - SHORTEST_M {
@@ -156,7 +156,7 @@ impl<'a> Side<'a> {
 }
 
 /// Bisects parts that are sewn together until each is straight, short or a cubic. `is_opposed` is true if the second
-/// runs against the first.
+/// part runs against the first.
 fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
     let is_fine = |part: &Part| {
         let points = samples(style, *part);
@@ -165,7 +165,7 @@ fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> 
     if together.iter().all(is_fine) {
         return vec![together.to_vec()];
     }
-    // The order of the halves does not matter: parts are sorted along their edges later.
+    // The order of the halves does not matter: the parts are sorted along their edges later.
     let half = |k: usize| -> Vec<Part> {
         let half_of = |(side, part): (usize, &Part)| {
             let middle = 0.5 * (part.arcs[0] + part.arcs[1]);
@@ -220,7 +220,7 @@ fn cubic(points: &[V2]) -> CubicFit {
     CubicFit { inner, error_m: points.iter().enumerate().map(off).fold(0.0, f64::max) }
 }
 
-/// Panel of the parts of a piece, in the order of the outline. `left` is the end of the row so far, m.
+/// Panel of the parts of a piece, in the order of the outline. `left` is the present end of the row, m.
 fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
     let starts: Vec<V2> = parts.iter().map(|part| style.edge(part.edge).line.at(part.arcs[0])).collect();
     let low = starts.iter().fold(f64::MAX, |low, p| low.min(p.x));

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 pub struct Document {
     /// Panels and stitches.
     pub pattern: Pattern,
-    /// Parameters of the program that made the file. They are not used here.
+    /// Parameters of the program that made the file. Ignored.
     #[serde(default)]
     pub parameters: Map<String, Value>,
     /// Names of the parameters in the order of that program.
@@ -25,7 +25,7 @@ pub struct Document {
 pub struct Pattern {
     /// Panels by name.
     pub panels: BTreeMap<String, Panel>,
-    /// Stitches: two sides, and `right_wrong` if both run in the same direction.
+    /// Stitches: two sides, and the flag `right_wrong` if both run in the same direction.
     pub stitches: Vec<Vec<StitchItem>>,
     /// Order in which panels are drawn.
     #[serde(default)]
@@ -43,7 +43,7 @@ pub struct Panel {
     pub vertices: Vec<[f64; 2]>,
     /// Edges in the order of the loop.
     pub edges: Vec<PanelEdge>,
-    /// Part of the body that the panel covers, if the file gives it. It is not used here.
+    /// Part of the body that the panel covers, if the file gives it. Ignored.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub label: String,
 }
@@ -53,10 +53,10 @@ pub struct Panel {
 pub struct PanelEdge {
     /// Indices of start and end among the vertices of the panel.
     pub endpoints: [usize; 2],
-    /// Curve of the edge. Without one it is straight.
+    /// Curve of the edge. `None` for a straight edge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curvature: Option<Curvature>,
-    /// Name that the program gives the edge. It is not used here.
+    /// Name that the program gives the edge. Ignored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
 }
@@ -71,8 +71,7 @@ pub enum Curvature {
     Typed(Curve),
 }
 
-/// A curve with control points relative to the edge. Their coordinates are along the edge and to its left, in lengths
-/// of the edge.
+/// Curve with control points relative to the edge: coordinates along the edge and to its left, divided by its length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", content = "params", rename_all = "lowercase")]
 pub enum Curve {
@@ -80,7 +79,7 @@ pub enum Curve {
     Quadratic([[f64; 2]; 1]),
     /// Cubic Bezier curve.
     Cubic([[f64; 2]; 2]),
-    /// Circular arc: radius in file units, 1 for the longer of both arcs, 1 for a left turn.
+    /// Circular arc: radius in file units, 1 for the longer of the two arcs (else 0), 1 for a left turn (else 0).
     Circle(f64, u8, u8),
 }
 
@@ -102,11 +101,11 @@ pub enum StitchItem {
 /// Units and conventions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Properties {
-    /// Coordinates of control points. Only `relative` is accepted.
+    /// Kind of coordinates of control points. Only `relative` is accepted.
     pub curvature_coords: String,
     /// File units in a metre.
     pub units_in_meter: f64,
-    /// True if the translations are those of normalised panels. It is not used here.
+    /// True if the translations are those of normalised panels. Ignored.
     #[serde(default)]
     pub normalize_panel_translation: bool,
     /// True if the edges are in loop order.

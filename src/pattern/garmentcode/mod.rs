@@ -1,11 +1,11 @@
 //! GarmentCode JSON, read and written: panels with curved edges and stitches, converted to and from a [`Style`].
 //!
 //! A panel whose loop runs clockwise is drawn as seen from inside the garment, because `pygarment` orients loops by the
-//! normal that points away from the body. Such a panel is mirrored here, so that all pieces are seen from outside. The
-//! edges keep the order of the file, and edge `k` is named `e<k>`.
+//! normal that points away from the body. Such a panel is mirrored here, so that all pieces are seen from outside.
+//! Edges keep the order of the file, and edge `k` is named `e<k>`.
 //!
-//! The format has no sizes, notches and grain lines: the grain is the `y` axis of the panel. The [`Role`]s are read
-//! from the panel names, with the words that proposals know. Several panels may have one role.
+//! The format has no sizes, notches and grain lines. The grain is the `y` axis of the panel. The [`Role`]s come from
+//! the panel names, by the words that seam proposals know. Several panels may have the same role.
 
 mod export;
 pub mod format;
@@ -33,7 +33,7 @@ const RIGHT_WRONG: &str = "right_wrong";
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}: {place}: found {found}; accepted: {accepted}")]
 pub struct GarmentCodeError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Panel, edge or stitch.
     pub place: String,
@@ -50,8 +50,8 @@ pub struct Specification {
     pub file: String,
     /// Millimetres in one unit of the file.
     pub mm_per_unit: f64,
-    /// Panels as pieces seen from outside, by name. [`Piece::is_clockwise_in_file`] is true for those that were
-    /// mirrored.
+    /// Panels as pieces seen from outside, in the order of their names. [`Piece::is_clockwise_in_file`] is true for
+    /// mirrored ones.
     pub pieces: Vec<Piece>,
     /// Edges of each piece, in the order of the file.
     pub edges: Vec<Vec<Polyline>>,
@@ -59,7 +59,7 @@ pub struct Specification {
     pub stitches: Vec<Stitch>,
 }
 
-/// Two edges that are sewn together. Two edges of one panel are a dart.
+/// Two edges that are sewn together: a dart if they belong to one panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
     /// Both edges, in the order of the file.
@@ -71,8 +71,8 @@ pub struct Stitch {
 /// Reads a specification. `file` is its name for messages.
 ///
 /// # Errors
-/// [`GarmentCodeError`] if the bytes are not such JSON, an edge or stitch refers to something missing, a loop is open,
-/// a curve is impossible, an outline crosses itself, or an edge is sewn twice.
+/// [`GarmentCodeError`] if the bytes are no such JSON, an edge or stitch refers to something missing, a loop is open, a
+/// curve is impossible, an outline crosses itself, or an edge is sewn twice.
 pub fn read(bytes: &[u8], file: &str) -> Result<Specification, GarmentCodeError> {
     let reader = Reader { file };
     let document: Document = serde_json::from_slice(bytes).map_err(|error| {
@@ -133,7 +133,7 @@ impl Reader<'_> {
         Ok(all)
     }
 
-    /// A panel as a piece seen from outside, and its edges.
+    /// Panel as a piece seen from outside, and its edges.
     fn panel(&self, name: &str, panel: &Panel, unit_m: f64) -> Result<(Piece, Vec<Polyline>), GarmentCodeError> {
         let place = format!("panel `{name}`");
         let vertices: Vec<V2> = panel.vertices.iter().map(|&[x, y]| V2::new(x, y) * unit_m).collect();
@@ -184,7 +184,7 @@ impl Reader<'_> {
         let chord = end - start;
         let left = V2::new(-chord.y, chord.x);
         let relative = |[u, v]: [f64; 2]| start + chord * u + left * v;
-        // A quadratic Bezier curve is the cubic one with these control points.
+        // The cubic Bezier curve with these control points is the quadratic one.
         let quadratic = |control: [f64; 2]| {
             let control = relative(control);
             bezier([start, start.lerp(&control, 2.0 / 3.0), end.lerp(&control, 2.0 / 3.0), end])
@@ -256,7 +256,7 @@ fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     points
 }
 
-/// Mirrors an edge and keeps its order, so that a clockwise loop becomes counter-clockwise.
+/// Mirrors an edge, keeping its direction, so that a clockwise loop becomes counter-clockwise.
 fn mirrored(edge: &Polyline) -> Polyline {
     let points = edge.points().iter().map(|p| V2::new(-p.x, p.y)).collect();
     Polyline::new(points).expect("as many points as before")
@@ -277,7 +277,7 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
 }
 
 impl Specification {
-    /// Style of the panels, sewn by the stitches. It has no measurements, because the format holds none.
+    /// Style of the panels, sewn by the stitches, without measurements.
     #[must_use]
     pub fn style(&self) -> Style {
         let edge = |(k, line): (usize, &Polyline)| Edge {

@@ -17,14 +17,14 @@ use geom::V2;
 use geom::polyline::{segment_distance, self_crossing, signed_area};
 use geom::units::mm;
 
-/// Distance within which a grade point lies on the outline, m.
+/// Distance below which a grade point counts as on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-3;
 /// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
 
 /// Grades the pieces into all sizes of a table. Those of the sample size stay as drawn.
 ///
-/// A piece that cannot be graded is refused in the returned file, with its reason.
+/// A piece that cannot be graded is listed in [`PatternFile::refused`].
 ///
 /// # Errors
 /// [`GradeError`] if the file holds pieces of another size than the sample size, or no piece has a grade point.
@@ -108,11 +108,11 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
 /// A grade point inside a piece.
 struct InnerPoint {
     at: V2,
-    /// Displacement by its rule.
+    /// Displacement by the grade rule of the point, m.
     step: V2,
 }
 
-/// Displacement field of a piece: of each vertex of the outline, and of each point with a rule of its own.
+/// Displacement field of a piece: of the vertices of its outline, and of the inner points that have a grade rule.
 struct Field<'a> {
     outline: &'a [V2],
     steps: Vec<V2>,
@@ -122,7 +122,7 @@ struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// # Errors
-    /// A sentence for messages if a rule is missing, two rules meet in one point, or fewer than two points are graded.
+    /// A message if a rule is missing, two rules meet in one point, or fewer than two points are graded.
     fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
         let outline = &piece.outline;
         let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
@@ -154,7 +154,7 @@ impl<'a> Field<'a> {
         Ok(Self { outline, steps: between(outline, &known), own })
     }
 
-    /// Displacement of a point inside: by its own rule, otherwise that of the nearest point of the outline.
+    /// Displacement of an inner point: by its grade rule, otherwise that of the nearest point of the outline.
     fn at_inner(&self, point: &V2) -> V2 {
         let near = self.own.iter().filter(|own| (own.at - point).norm() < ON_OUTLINE_M);
         let own = near.min_by(|a, b| (a.at - point).norm().total_cmp(&(b.at - point).norm()));
@@ -173,7 +173,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Displacements of all vertices of a closed outline, interpolated linearly in arc length between those that are known.
+/// Displacements of all vertices of a closed outline, interpolated linearly in arc length between the known ones.
 fn between(outline: &[V2], known: &[(usize, V2)]) -> Vec<V2> {
     let n = outline.len();
     let mut steps = vec![V2::zeros(); n];

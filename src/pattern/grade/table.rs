@@ -1,4 +1,4 @@
-//! Grade rule tables (`.rul`) [AAMA-292, ASTM D6673]: the displacement of each numbered point in each size.
+//! Grade rule tables (`.rul`) [AAMA-292, ASTM D6673]: displacement of each numbered point in each size.
 //!
 //! ```text
 //! UNITS: METRIC
@@ -11,8 +11,8 @@
 //! END
 //! ```
 //!
-//! A rule has one pair of x and y for each size of the list, relative to the sample size. It may span any number of
-//! lines. The pair of the sample size is zero.
+//! A rule has one pair of x and y for each size, relative to the sample size, whose pair is zero. It may span several
+//! lines.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -21,23 +21,23 @@ use crate::dxf::{D6673, Standard, Unit};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Greatest size of a table, bytes. A large one has some hundred thousand.
+/// Greatest size of a table, bytes. A large table has some hundred thousand.
 const MOST_BYTES: usize = 8 << 20;
 /// Greatest displacement by a rule, m.
 const GREATEST_M: f64 = 2.0;
-/// Greatest displacement of the sample size that counts as rounding, m.
+/// Greatest displacement of the sample size that counts as zero, m.
 const ZERO_M: f64 = 1e-6;
 
-/// Number of pairs of x and y in a written line.
+/// Number of pairs of x and y per written line.
 const PAIRS_A_LINE: usize = 4;
 
 /// Error of reading or applying a grade rule table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct GradeError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
-    /// Line number, if one can be named.
+    /// Line number. `None` if the error has no line.
     pub line: Option<usize>,
     /// Description of what was found.
     pub found: String,
@@ -62,9 +62,8 @@ pub struct GradeTable {
 
 /// Reads a grade rule table. `file` is its name for messages.
 ///
-/// # Errors
-/// [`GradeError`] if it is no such table, names no unit, or its sizes do not agree. It is also an error if a rule
-/// occurs twice, has not one pair for each size, or moves the sample size.
+/// [`GradeError`] if the bytes are no such table or name no unit, the sizes do not agree, or a rule occurs twice, lacks
+/// a pair for a size, or moves the sample size.
 pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
     let reader = Reader { file };
     if bytes.len() > MOST_BYTES {
@@ -120,7 +119,7 @@ pub fn is_name_of_table(key: &str) -> bool {
     key.eq_ignore_ascii_case("grade rule table")
 }
 
-/// Writes a table in millimetres by a standard. `name` is its name in the pattern file.
+/// Writes a table in millimetres by a standard. `name` is the name by which the pattern file refers to the table.
 #[must_use]
 pub fn write(table: &GradeTable, name: &str, standard: Standard) -> String {
     let head = match standard {

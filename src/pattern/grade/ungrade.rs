@@ -1,9 +1,8 @@
-//! The inverse of grading: derives the sample size with grade points, and the grade rule table, from a nest of all
-//! sizes.
+//! Inverse of grading: derives the sample size with grade points, and the grade rule table, from a nest of all sizes.
 //!
 //! Corners correspond between sizes as those of a seam file do. Between two corners, the outlines of all sizes are
-//! split at equal shares of their length, wherever one of them has a vertex. Each size keeps its own vertices, and
-//! every vertex has a rule.
+//! divided at equal shares of their length, wherever an outline of some size has a vertex. Each size keeps its
+//! vertices, and every vertex has a rule.
 
 use std::collections::BTreeMap;
 
@@ -15,9 +14,9 @@ use crate::style::nest_corners::in_sizes;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance along a line within which vertices of two sizes correspond, m.
+/// Distance along a line below which vertices of two sizes correspond, m.
 const SAME_PLACE_M: f64 = 0.2e-3;
-/// Difference below which displacements share one rule, m: the last digit of a table.
+/// Difference below which displacements share one rule, m: the last digit of a written table.
 const SAME_STEP_M: f64 = 1e-7;
 
 /// A nest converted into its sample size and grade rules.
@@ -27,7 +26,7 @@ pub struct Ungraded {
     pub pieces: Vec<Piece>,
     /// Rules of all sizes.
     pub table: GradeTable,
-    /// Notes on features that have no rules of their own because not every size has them. They move with the outline.
+    /// Notes on features that get no rules because some size lacks them. They move with the outline.
     pub notes: Vec<String>,
 }
 
@@ -148,7 +147,7 @@ fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<Stri
     Ok(piece)
 }
 
-/// True if all sizes have equally many of something. Otherwise a note is added.
+/// True if all sizes have equally many of a feature. Otherwise adds a note.
 fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>) -> bool {
     let is_same = all.iter().all(|sized| sized.len() == all[0].len());
     if !is_same {
@@ -157,8 +156,8 @@ fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>
     is_same
 }
 
-/// A closed line of each size, with equally many vertices, among them the corners of the sample size. `line_of` gives
-/// the line of a piece.
+/// Closed line of each size, all with the same number of vertices, among them the corners of the sample size. `line_of`
+/// returns the line of a piece.
 fn ring(all: &[&Piece], sample: usize, line_of: impl Fn(&Piece) -> Vec<V2>) -> Result<Vec<Vec<V2>>, String> {
     let pieces: Vec<Piece> =
         all.iter().map(|piece| Piece { outline: line_of(piece), sew_line: None, ..(*piece).clone() }).collect();
@@ -183,7 +182,7 @@ fn ring(all: &[&Piece], sample: usize, line_of: impl Fn(&Piece) -> Vec<V2>) -> R
     Ok(rings)
 }
 
-/// Open lines of all sizes, each with a vertex at every share of its length at which one of them has one.
+/// Open lines of all sizes, divided wherever a line of some size has a vertex, at the same share of the length.
 fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
     if lines.iter().all(|line| line.len() == lines[0].len()) {
         return lines.to_vec();
@@ -208,8 +207,7 @@ fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
         }
     }
     let cut = |(size, curve): (usize, &Polyline)| {
-        // The vertices of other sizes are interpolated between its own at the corresponding shares. They never coincide
-        // with its own.
+        // Vertices of other sizes are interpolated between those of this size, and never coincide with them.
         let own = |group: &Vec<(f64, usize)>| Some([group[0].0, group.iter().find(|(_, owner)| *owner == size)?.0]);
         let known: Vec<[f64; 2]> =
             [[0.0; 2]].into_iter().chain(groups.iter().filter_map(own)).chain([[1.0; 2]]).collect();

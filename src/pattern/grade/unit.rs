@@ -1,23 +1,23 @@
-//! Unit of a grade rule table beside its pattern. Tables know only METRIC and ENGLISH. Programs that draw in
-//! centimetres write their numbers under METRIC as well.
+//! Unit of a grade rule table. Tables know only METRIC and ENGLISH, and programs that draw in centimetres write
+//! centimetres under METRIC as well.
 
 use super::super::dxf::Unit;
 use super::table::{GradeError, GradeTable, check_steps};
 use geom::units::{from_mm, mm};
 
-/// Least grade step between neighbouring sizes, m, that some point of a garment makes. Sizes differ by at least an inch
-/// of girth. A quarter of it, 6 mm, moves each side seam.
+/// Least grade step between neighbouring sizes that some point of a garment makes, m. Sizes differ by an inch of girth
+/// or more, a quarter of which, 6 mm, moves each side seam.
 const LEAST_STEP_M: f64 = 0.004;
 
-/// Greatest grade step between neighbouring sizes, m. Letter sizes differ by up to 0.1 m of girth, and by less of
+/// Greatest grade step between neighbouring sizes, m. Letter sizes differ by up to 0.1 m of girth, and by less in
 /// length.
 const MOST_STEP_M: f64 = 0.1;
 
-/// Converts the table into the given unit, or without one into that of its head. The unit of the pattern is taken if
-/// that of the head would make no plausible grade. Returns a note for the user too.
+/// Converts the table into the unit `given`. Without it, the unit is that of the table, or that of the pattern
+/// (`drawn`) if the unit of the table would make no plausible grade. Also returns a note for the user.
 ///
 /// # Errors
-/// [`GradeError`] if displacements are too long in that unit.
+/// [`GradeError`] if displacements are too long in the resulting unit.
 pub fn in_unit_of(
     table: GradeTable,
     drawn: Unit,
@@ -66,7 +66,7 @@ pub fn in_unit_of(
     Ok((scaled(table, unit)?, note))
 }
 
-/// Longest grade step of a rule between neighbouring sizes, m.
+/// Longest step of a rule between neighbouring sizes, m.
 fn longest_step_m(table: &GradeTable) -> f64 {
     let steps = table.rules.values().flat_map(|steps| steps.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
     steps.fold(0.0, f64::max)

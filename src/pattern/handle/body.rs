@@ -1,4 +1,4 @@
-//! Parts of a garment that handles move: side seams with their levels, armholes, sleeves, legs, darts.
+//! Parts of a garment that handles move: side seams with their levels, armholes, sleeve caps, legs and darts.
 
 use super::Handle;
 use super::plan::{Span, along, end, start};
@@ -12,23 +12,23 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance within which two levels of a seam coincide, and within which a point is a corner, m.
+/// Distance below which two levels of a seam count as one, and a point counts as a corner, m.
 pub const NEAR_M: f64 = 3e-3;
 
-/// Least distance of a waist from the ends of its side seam, m. Nearer, the girth is narrowest at the end of the seam,
-/// and there is no waist.
+/// Least distance of a waist from both ends of its side seam, m. A narrowest girth nearer to an end is the taper of
+/// that end, and no waist.
 const WAIST_FROM_ENDS_M: f64 = 85e-3;
 
-/// Least length of an underarm seam below the bicep for it to bend there, m. In a shorter seam, 10 mm more width would
-/// make a corner.
+/// Least length of the underarm seam below the bicep for the seam to bend there, m. In a shorter one, 10 mm of added
+/// width would make a corner.
 const LEAST_BELOW_BICEP_M: f64 = 60e-3;
 
 /// Part of the garment that a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
-    /// Trunk or bodice.
+    /// Trunk: top, or bodice of a dress.
     Trunk,
-    /// Skirt of a skirt or a dress.
+    /// Skirt, alone or of a dress.
     Skirt,
     /// Outseam of a leg.
     Outer(Hand),
@@ -36,42 +36,42 @@ pub enum Limb {
     Inner(Hand),
 }
 
-/// A level of a side seam.
+/// Level on a side seam at which a girth handle acts.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// Distance from the beginning of the seam, m.
+    /// Arc length from the upper end of the side, m.
     pub at_m: f64,
-    /// Handle that moves it.
+    /// Handle that moves the seam at this level.
     pub handle: Handle,
 }
 
 /// One side of a side seam, outseam or inseam, directed downwards.
 pub struct Side {
-    /// Part that it belongs to.
+    /// Part of the garment.
     pub limb: Limb,
-    /// Edges, directed downwards.
+    /// Edges from top to bottom.
     pub chain: Chain,
-    /// Levels along it, from the top.
+    /// Levels from top to bottom.
     pub levels: Vec<Level>,
-    /// Unit vector out of the piece, horizontal.
+    /// Horizontal unit vector that points out of the piece.
     pub out: V2,
 }
 
-/// The part of an armhole on one face.
+/// Front or back part of an armhole.
 pub struct Armhole {
-    /// Edges from the shoulder point to the underarm.
+    /// Edges between shoulder point and underarm.
     pub edges: Vec<EdgeRef>,
-    /// Upper end: the shoulder point. `None` without a shoulder.
+    /// Shoulder point. `None` if the garment has no shoulder seam there.
     pub tip: Option<EdgeEnd>,
-    /// Lower end.
+    /// Underarm point.
     pub underarm: EdgeEnd,
-    /// Edges of the side seam from there downwards.
+    /// Edges of the side seam from the underarm downwards.
     pub side: Chain,
-    /// Half of the sleeve cap that is sewn to it. `None` if nothing or something else is.
+    /// Half of the sleeve cap that is sewn here. `None` without a sleeve, or if the half cap is not one piece.
     pub cap: Option<HalfCap>,
 }
 
-/// Half of a sleeve cap, from the underarm up to the shoulder point, and the underarm seam on its side.
+/// Half of a sleeve cap from the underarm to the shoulder point, and the underarm seam below it.
 pub struct HalfCap {
     /// Index of the sleeve piece.
     pub piece: usize,
@@ -79,27 +79,27 @@ pub struct HalfCap {
     pub underarm: EdgeEnd,
     /// Parts of edges from the underarm to the top.
     pub spans: Vec<Span>,
-    /// Point that is sewn to the shoulder point.
+    /// Point of the cap that is sewn to the shoulder point.
     pub top: EdgePoint,
     /// Underarm seam, directed downwards.
     pub seam: Chain,
     /// Unit vector down the arm.
     pub down: V2,
-    /// Unit vector across the arm, out of the piece at the underarm.
+    /// Unit vector across the arm that points out of the piece at the underarm.
     pub out: V2,
 }
 
 /// The parts of a garment that handles move.
 pub struct Body<'a> {
-    /// Identification of its seams.
+    /// Seams and parts of the style.
     pub anatomy: &'a Anatomy<'a>,
-    /// Trunk. `None` without side seams between a front and a back.
+    /// Trunk. `None` for a garment without side seams between a front and a back.
     pub trunk: Option<Trunk<'a>>,
-    /// Legs, the right one first. Empty if it has none.
+    /// Legs, the right one first. Empty without trousers.
     pub legs: Vec<Legs<'a>>,
-    /// Side seams.
+    /// Both sides of all side seams, outseams and inseams.
     pub sides: Vec<Side>,
-    /// Armholes, one for each face.
+    /// Armholes: front and back of one, then of the other.
     pub armholes: Vec<Armhole>,
 }
 
@@ -113,8 +113,8 @@ impl<'a> Body<'a> {
         Self { anatomy, trunk, legs, sides, armholes }
     }
 
-    /// Darts as pairs of legs: two neighbouring edges of one piece that are sewn to each other. Their common corner is
-    /// the tip.
+    /// Darts, each as its two edges: neighbours in one piece that are sewn to each other. The first ends, and the
+    /// second begins, at the tip.
     pub fn darts(&self) -> Vec<[EdgeRef; 2]> {
         let style = self.anatomy.style();
         let dart = |[a, b]: [EdgeRef; 2]| {
@@ -130,7 +130,7 @@ impl<'a> Body<'a> {
         seams.collect()
     }
 
-    /// Half caps of all sleeves.
+    /// All half caps.
     pub fn caps(&self) -> impl Iterator<Item = &HalfCap> {
         self.armholes.iter().filter_map(|armhole| armhole.cap.as_ref())
     }
@@ -141,7 +141,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Distance along a chain, m, of the end of a path that lies on it.
+/// Arc length along a chain, m, at which a line of a path ends on it. `None` if no line ends there.
 pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
     let mut before_m = 0.0;
     for &EdgeEnd { edge, is_last: is_forwards } in chain {
@@ -158,7 +158,7 @@ pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f6
     None
 }
 
-/// Horizontal unit vector out of the piece of a chain.
+/// Horizontal unit vector that points out of the piece on the side of a chain.
 fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     let outline = anatomy.style().pieces[chain[0].edge.piece].outline();
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
@@ -217,7 +217,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
 /// Both sides of each side seam of a skirt, front and back, directed downwards from its upper edge.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let all = skirt::side_seams(anatomy);
-    // A side seam may be sewn in several parts.
+    // A side seam sewn in parts begins at its uppermost part.
     let begins = |[front, _]: &&[Chain; 2]| {
         let before = anatomy.style().over_corner(start(front));
         !all.iter().any(|[other, _]| end(other) == before)
@@ -253,10 +253,11 @@ fn armholes(anatomy: &Anatomy<'_>, trunk: &Trunk<'_>) -> Vec<Armhole> {
     found
 }
 
-/// Half of the sleeve cap that is sewn to one face of an armhole. `None` if it is not in one piece.
+/// Half of the sleeve cap that is sewn to one part of an armhole. `None` without a sleeve, or if the half cap is not
+/// one piece.
 fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: EdgeEnd) -> Option<HalfCap> {
     let style = anatomy.style();
-    // The partner is looked up a little inside the armhole, because another piece may be sewn on beyond its ends.
+    // The partner is looked up a little inside the armhole: beyond its ends, another piece may be sewn on.
     let inside = |corner: EdgeEnd, in_m: f64| {
         let EdgeEnd { edge, is_last } = style.over_corner(corner);
         let arc_m = if is_last { anatomy.length_m(&[edge]) - in_m } else { in_m };
@@ -273,7 +274,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
         ends.into_iter().find(|end| (anatomy.point(*end).arc_m - at.arc_m).abs() < NEAR_M)
     };
     let corner = corner_near(low)?;
-    // The shoulder point of a sleeve in two panels lies at the end of the cap of the panel.
+    // The panels of a two-piece sleeve meet at the shoulder point, which is then the end of the cap of each panel.
     let high = inside(tip, BESIDE_M).filter(|high| high.edge.piece == piece);
     let top = match high {
         Some(high) => match corner_near(high) {
@@ -290,7 +291,7 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     Some(HalfCap { piece, underarm: corner, spans, top, seam, down, out: across * -inwards.signum() })
 }
 
-/// End of the cap of a sleeve piece, opposite its underarm corner: where the armhole of the trunk ends.
+/// Upper end of the cap that begins at an underarm corner: the end of the last edge sewn to the trunk.
 fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     let is_cap = |edge: EdgeRef| {
         anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
@@ -306,7 +307,7 @@ fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
     None
 }
 
-/// Parts of the outline from an end of an edge to a point.
+/// Parts of the outline from an end of an edge to a point. `None` if the point is not on the piece.
 fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span>> {
     let mut found = Vec::new();
     let EdgeEnd { mut edge, mut is_last } = from;
@@ -322,7 +323,7 @@ fn spans(anatomy: &Anatomy<'_>, from: EdgeEnd, to: EdgePoint) -> Option<Vec<Span
     None
 }
 
-/// Chain of edges from an end of an edge that are sewn within the same sleeve.
+/// Chain of edges from an end of an edge onwards that are sewn within their own sleeve. `None` if the first is not.
 fn own_seam(anatomy: &Anatomy<'_>, from: EdgeEnd) -> Option<Chain> {
     let part = anatomy.parts[from.edge.piece];
     let is_own = |edge: EdgeRef| {
@@ -344,14 +345,15 @@ impl HalfCap {
         self.seam.iter().map(|step| anatomy.length_m(&[step.edge])).sum()
     }
 
-    /// Point of the underarm seam at the bicep level. `None` for a short sleeve, whose seam stays straight.
+    /// Point of the underarm seam at the bicep level. `None` for a short sleeve, whose underarm seam stays straight.
     pub fn bicep(&self, anatomy: &Anatomy<'_>) -> Option<EdgePoint> {
         let is_long = self.seam_m(anatomy) > BELOW_ARMHOLE_M + LEAST_BELOW_BICEP_M;
         is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
     }
 
-    /// Displacement of the underarm point per unit of sleeve width at the bicep level. `None` for a sleeve that ends
-    /// above it.
+    /// Ratio of the displacement of the underarm point to that of the bicep: 1 where the underarm seam bends, otherwise
+    /// L / (L - b) for a seam of length L with the bicep at b from the top. `None` for a sleeve that ends above the
+    /// bicep.
     pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
         let seam_m = self.seam_m(anatomy);
         match self.bicep(anatomy) {
@@ -360,7 +362,7 @@ impl HalfCap {
         }
     }
 
-    /// Unit vector down its underarm seam.
+    /// Unit vector down the underarm seam.
     pub fn along(&self, anatomy: &Anatomy<'_>) -> V2 {
         along(anatomy, &self.seam)
     }

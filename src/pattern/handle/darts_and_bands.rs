@@ -10,10 +10,11 @@ use crate::style::EdgeRef;
 use crate::style::openings::EdgeEnd;
 use geom::V2;
 
-/// Extent of the end of a shaped band along it, m.
+/// Distance along a band below which two of its corners count as the same end, m.
 const END_M: f64 = 20e-3;
 
-/// Moves the tips of darts by the mean of their mouths, and lets them give way until both legs are equally long.
+/// Drives the tips of darts by the mean displacement of their mouths, and lets them give way so that both edges stay
+/// equally long.
 pub fn darts(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
     let touched = touched(plan);
@@ -39,7 +40,7 @@ fn touched(plan: &Plan) -> BTreeSet<usize> {
     plan.moves.iter().chain(plan.gives.iter().flatten()).map(|m| m.at.edge.piece).collect()
 }
 
-/// Lets pieces without a role of their own (waistbands, cuffs, collars, yokes) stretch along the edge that is sewn to a
+/// Lets pieces without a recognised role (waistbands, cuffs, collars, yokes) stretch along the edge that is sewn to a
 /// moving piece.
 pub fn bands(body: &Body<'_>, plan: &mut Plan) {
     let anatomy = body.anatomy;
@@ -66,8 +67,8 @@ pub fn bands(body: &Body<'_>, plan: &mut Plan) {
     plan.gives.extend(bands.into_iter().flat_map(|(piece, edge)| stretches(body, piece, edge)));
 }
 
-/// Stretching of a piece along the chord of one of its edges. Each interval between its corners changes by an amount of
-/// its own, half to either side of the middle.
+/// Ways in which a piece can stretch along the chord of one of its edges: one for each interval between successive
+/// corners, with the middle of the piece at rest.
 fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let anatomy = body.anatomy;
     let chord = anatomy.place(EdgeEnd::new(edge, true)) - anatomy.place(EdgeEnd::new(edge, false));
@@ -77,7 +78,7 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let mut levels: Vec<f64> = corners.iter().map(place).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|later, earlier| *later - *earlier < END_M);
-    // Corners at one end move by the same.
+    // Corners at the same end of a shaped band move by the same.
     let reach = |corner: &EdgeEnd| {
         let at_m = place(corner);
         levels
@@ -96,7 +97,7 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     levels.windows(2).map(stretch).collect()
 }
 
-/// Position along an interval, clamped to 0..=1.
+/// Position of `m` in an interval, clamped to 0..=1.
 fn share_of(ends: &[f64], m: f64) -> f64 {
     ((m - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0)
 }

@@ -1,4 +1,5 @@
-//! Handles applied to pieces as drawn, so that a changed style can be written and its seam file stays valid.
+//! Handles applied to pieces as drawn in the file, so that a changed style can be written and its seam file stays
+//! valid.
 
 use std::collections::BTreeMap;
 
@@ -15,29 +16,29 @@ use geom::V2;
 use geom::units::mm;
 use toml_edit::{Array, DocumentMut, Value, value};
 
-/// Greatest deviation of a displaced line from the displaced positions of all its points, m: a hundredth of the
+/// Greatest deviation of a displaced segment from the displaced positions of its inner points, m: a hundredth of the
 /// tolerance of a seam.
 const CARRIED_M: f64 = 5e-6;
-/// Length up to which segments are not subdivided for it, m.
+/// Length below which such a segment is not divided further, m.
 const SHORT_M: f64 = 1e-3;
-/// Greatest difference of the changes that two uses of one drawn piece ask for, m.
+/// Greatest difference between the changes of a block that is worn twice, m.
 const ALIKE_M: f64 = 0.05e-3;
 
-/// Changed pieces, and the seam file that makes the changed style of them.
+/// Changed pieces, and a seam file that makes the changed style of these pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redrawn {
     /// Pieces as drawn, with changed outlines, in the order of the file.
     pub pieces: Vec<Piece>,
-    /// Bytes of the seam file. Only the positions of corners on their pieces change.
+    /// Bytes of the seam file. Only `corners_at`, the positions of corners on their pieces, change.
     pub seams: Vec<u8>,
 }
 
-/// Applies handles with their amounts, m, to pieces as drawn. The handles are those of the style that the pieces make
-/// with a seam file. `file` is its name for messages.
+/// Applies handles with their amounts, m, to pieces as drawn. The pieces and the seam file make the style that has the
+/// handles. `file` is the name of the seam file for messages.
 ///
 /// # Errors
-/// [`HandleError`] if they make no style, a handle cannot be applied, or a block is worn twice and would have to change
-/// in two ways.
+/// [`HandleError`] if pieces and seam file make no style, a handle cannot be applied, or a block that is worn twice
+/// would have to change in two ways.
 pub fn redrawn(
     pieces: &[Piece],
     seam_bytes: &[u8],
@@ -130,7 +131,7 @@ impl Pose {
     }
 }
 
-/// Displaces the drawing of a piece by the fields of all handles, one after the other.
+/// Displacement of a drawn piece by the fields of all handles in turn.
 struct Carrier<'a> {
     pose: Pose,
     fields: Vec<&'a Field>,
@@ -144,7 +145,7 @@ impl Carrier<'_> {
         self.pose.drawn(self.fields.iter().fold(self.pose.worn(p), |p, field| field.carried(p)))
     }
 
-    /// Displaces a line, with enough vertices to follow the field.
+    /// Displaces a line, dividing its segments where the field bends them.
     fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
         let Some(&first) = points.first() else { return Vec::new() };
         let mut carried = vec![self.carried(first)];
@@ -158,7 +159,7 @@ impl Carrier<'_> {
         carried
     }
 
-    /// Appends a displaced segment without its first point.
+    /// Appends the displaced points of a segment after its start.
     fn segment(&self, [from, to]: [V2; 2], carried: &mut Vec<V2>) {
         let middle = from.lerp(&to, 0.5);
         let bend = self.carried(middle) - self.carried(from).lerp(&self.carried(to), 0.5);
@@ -188,7 +189,7 @@ impl Carrier<'_> {
             piece.curve_points = piece.outline.iter().filter(is_curve).copied().collect();
         }
         piece.mirror_line = drawn.mirror_line.map(|line| line.map(|p| self.carried(p)));
-        // Grain line and grade reference line are translated, and keep their directions.
+        // Grain line and grade reference line are translated only, so they keep their directions.
         for line in [&mut piece.grain, &mut piece.grade_reference].into_iter().flatten() {
             let middle = line[0].lerp(&line[1], 0.5);
             let by = self.carried(middle) - middle;

@@ -1,19 +1,20 @@
-//! Displacement field of a piece: that of its outline, interpolated over the plane by mean value coordinates.
+//! Displacement field of a piece: the displacement of its outline, extended over the plane by mean value coordinates
+//! [Floater 2003].
 
 use geom::V2;
 use geom::polyline::segment_distance;
 
-/// Distance from the outline within which a point is on it, m.
+/// Distance below which a point counts as on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-6;
 
-/// Displacement field given by the vertices of an outline.
+/// Displacement field of an outline whose vertices have moved.
 pub struct Field {
     outline: Vec<V2>,
     by: Vec<V2>,
 }
 
 impl Field {
-    /// Makes the field of an outline and the new positions of its vertices.
+    /// Field that takes the vertices of an outline to `moved`.
     pub fn new(outline: Vec<V2>, moved: &[V2]) -> Self {
         let by = outline.iter().zip(moved).map(|(from, to)| to - from).collect();
         Self { outline, by }
@@ -24,8 +25,9 @@ impl Field {
         place + self.by_at(place)
     }
 
-    /// Displacement at a point. On the outline it is that of its segment, elsewhere the mean of those of all vertices,
-    /// weighted by mean value coordinates.
+    /// Displacement at a point: on the outline, linear along its segment. Elsewhere the mean over all vertices with
+    /// weights (tan(a/2) + tan(b/2)) / r, for the angles a and b that the adjacent segments subtend, and the distance
+    /// r.
     pub fn by_at(&self, place: V2) -> V2 {
         let n = self.outline.len();
         let next = |k: usize| (k + 1) % n;

@@ -1,4 +1,4 @@
-//! Handles of girths: side seams, outseams and inseams are moved outwards at a level.
+//! Handles of girths: they move side seams, outseams and inseams outwards at a level.
 
 use super::Handle;
 use super::body::{Body, Level, Limb, NEAR_M, Side};
@@ -7,13 +7,13 @@ use super::{rig, upper};
 use crate::style::EdgePoint;
 use geom::smooth_step;
 
-/// Distance within which a corner of a side lies at one of its levels, m.
+/// Distance below which a corner of a side counts as at a level, m.
 const AT_LEVEL_M: f64 = 1e-6;
 
-/// Plan of a girth handle. `None` if no seam has its level.
+/// Plan of a girth handle. `None` if no side has its level.
 ///
-/// All sides with the level move by the same distance, so that half of the girth changes by the amount. Every side
-/// keeps its length, and its lower end gives way.
+/// All sides with the level are driven by the same distance, so that half of the girth changes by the amount. Every
+/// edge of a side keeps its length, because its lower end gives way.
 pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
     let is_moved = |side: &&Side| moves(side, handle);
     if !body.sides.iter().any(|side| moves(side, handle)) {
@@ -22,7 +22,7 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
     let mut plan = Plan::default();
     for side in body.sides.iter().filter(is_moved) {
         let in_girth = |other: &&Side| shares_girth(side.limb, other.limb, handle) && moves(other, handle);
-        // Half of the girth changes by half of the sum over all sides.
+        // Half of the girth changes by half of the sum of the displacements.
         let by = 2.0 / body.sides.iter().filter(in_girth).count() as f64;
         drive(body, &mut plan, side, handle, by);
         keep(body, &mut plan, side);
@@ -40,7 +40,7 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
 
 /// True if a handle moves a side.
 fn moves(side: &Side, handle: Handle) -> bool {
-    // The handle `thigh` moves only the outseam. The inseam near the fork is moved by the handle `fork`.
+    // The handle `thigh` moves the outseam only. Near the fork, the inseam belongs to the handle `fork`.
     let is_meant = !(handle == Handle::Thigh && matches!(side.limb, Limb::Inner(_)));
     is_meant && side.levels.iter().any(|level| level.handle == handle)
 }
@@ -55,7 +55,8 @@ fn shares_girth(limb: Limb, other: Limb, handle: Handle) -> bool {
     }
 }
 
-/// Moves a side outwards at a level, holds its other levels, and interpolates smoothly between.
+/// Drives a side outwards at the level of a handle, holds its other levels, and interpolates between by
+/// [`smooth_step`].
 pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: f64) {
     let value = |level: Handle| if level == handle { by } else { 0.0 };
     let mut levels = Vec::new();
@@ -73,7 +74,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
             continue;
         };
         let corners = ends_between(body.anatomy, pair);
-        // A smooth joint moves with the edges on both sides of it.
+        // A corner needs a displacement. A smooth joint follows from the interpolation of `rig`.
         if corners.len() > 1 || rig::is_sharp(body.anatomy.style(), pair[0]) {
             let t = (before_m - from.at_m) / (to.at_m - from.at_m);
             let by = side.out * (value(from.handle) + (value(to.handle) - value(from.handle)) * smooth_step(t));
@@ -84,7 +85,7 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
     }
 }
 
-/// Point of a side at a distance from its beginning. At its ends it is their corner.
+/// Point of a side at an arc length from its upper end. Near an end it is the corner there.
 fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
     let length_m: f64 = side.chain.iter().map(|step| body.anatomy.length_m(&[step.edge])).sum();
     if at_m <= 0.0 {
@@ -96,7 +97,7 @@ fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
     }
 }
 
-/// Keeps the length of every edge of a side: its lower end gives way along it.
+/// Keeps the length of every edge of a side: the lower end of the edge gives way along the edge.
 pub fn keep(body: &Body<'_>, plan: &mut Plan, side: &Side) {
     plan.conditions.extend(side.chain.iter().map(|edge| Condition::chain(&vec![*edge], 0.0)));
     plan.yield_ends(body.anatomy, &side.chain);

@@ -1,10 +1,10 @@
 //! Handles: parametric changes of a pattern as a fit technologist makes them, such as moving a side seam at the waist
 //! or the depth of the neck.
 //!
-//! No seam file has to name them: `body` finds the movable parts by the roles of the pieces. Each handle is a `Plan`
-//! (`girths`, `lengths`, `upper`, `sleeve`, `seat`): points that move with the amount, points that give way, and
-//! lengths that are kept. `rig` interpolates along the outlines, and `solve` finds the displacement of the points that
-//! give way. `darts_and_bands` moves darts and bands along, and `field` the inside of the pieces.
+//! No seam file names the handles of a style: `body` finds the movable parts by the roles of the pieces. Each handle
+//! makes a `Plan` (in `girths`, `lengths`, `upper`, `sleeve` or `seat`): points that move with the amount, points that
+//! give way, and conditions on lengths. `rig` interpolates the displacement along the outlines, and `solve` finds how
+//! far each point gives way. `darts_and_bands` makes darts and bands follow, and `field` the inside of the pieces.
 
 mod body;
 mod darts_and_bands;
@@ -38,22 +38,22 @@ use crate::seams::StyleError;
 use crate::style::Style;
 use geom::units::mm;
 
-/// Greatest amount of a handle either way, m. More would be another garment.
+/// Greatest amount of a handle in either direction, m. A larger change would make another garment.
 const MOST_M: f64 = 0.3;
-/// Greatest change of the length difference of seam partners, and of a length that is kept, m.
+/// Greatest change of the length difference of the sides of a seam, and residual of a condition on lengths, m.
 const PAIRED_M: f64 = 0.1e-3;
 
-/// Tolerance on the change of the point of measure that a handle aims at, m, and greatest number of iterations.
+/// Tolerance on the change of the point of measure of `Handle::aim`, m, and greatest number of iterations.
 const AIMED_M: f64 = 1e-6;
 const MOST_AIMS: usize = 8;
-/// Range of the ratio of an amount to the resulting change within which a handle is corrected. Beyond it, the point of
-/// measure lies elsewhere after the change.
+/// Range of `amount / change` of that point of measure within which the displacement is rescaled. Beyond it, the point
+/// of measure has jumped to another place.
 const AIM_RATIOS: Range<f64> = 0.5..2.0;
 
-/// Greatest number of bisections of a change whose seam partners come apart.
+/// Greatest number of halvings of an amount at which the sides of a seam do not stay equally long.
 const HALVINGS: u32 = 2;
 
-/// Displacement fields of the changed pieces.
+/// Displacement fields of the changed pieces, by the index of the piece.
 type Fields = BTreeMap<usize, Field>;
 /// A style changed by a handle.
 struct Change {
@@ -61,14 +61,14 @@ struct Change {
     fields: Fields,
 }
 
-/// A style changed by a handle in steps.
+/// A style changed by a handle in several steps.
 struct Course {
     style: Style,
     /// Displacement fields of each step.
     steps: Vec<Fields>,
 }
 
-/// Name of a handle.
+/// A handle. Its amount is the change of the length that the variant names, m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Handle {
     /// Half of the girth at the chest.
@@ -124,7 +124,7 @@ pub enum Handle {
 }
 
 impl Handle {
-    /// All handles, in the order of a list.
+    /// All handles, in the order in which they are listed.
     pub const ALL: [Self; 25] = [
         Self::Chest,
         Self::Waist,
@@ -244,7 +244,7 @@ impl Handle {
         self.words().1
     }
 
-    /// True if the amount is that of half of a girth, which changes by twice as much.
+    /// True if the amount is the change of half a girth, so that the girth changes by twice the amount.
     #[must_use]
     pub const fn is_half_girth(self) -> bool {
         use Handle::*;
@@ -257,8 +257,8 @@ impl Handle {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }
 
-    /// Point of measure that is corrected to change by exactly the amount, because the moved points alone do not
-    /// determine it.
+    /// Point of measure that must change by exactly the amount, found by iteration because it depends on more than the
+    /// moved points. `None` if moving the points suffices.
     fn aim(self, body: &Body<'_>) -> Option<Point> {
         match self {
             // The waist of a top is at its narrowest girth, whose level shifts.
@@ -275,7 +275,7 @@ impl Handle {
         }
     }
 
-    /// Point of measure that changes by exactly the amount, if there is one.
+    /// Point of measure that changes by exactly the amount. `None` if none does.
     #[must_use]
     pub const fn changes(self) -> Option<Point> {
         Some(match self {
@@ -341,17 +341,17 @@ pub enum HandleError {
         /// Greatest accepted amount either way, mm.
         most_mm: f64,
     },
-    /// The style does not have the handle.
+    /// The style has no such handle.
     #[error("style `{style}`: there is no handle `{handle}`; there is: {accepted}", handle = .handle.as_str())]
     Absent {
         /// Name of the style.
         style: String,
         /// Requested handle.
         handle: Handle,
-        /// Handles of the style.
+        /// Names of the style's handles.
         accepted: String,
     },
-    /// A seam partner cannot follow, or a length cannot be kept.
+    /// The sides of a seam do not stay equally long, or a length cannot be kept.
     #[error(
         "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
     )]
@@ -360,9 +360,9 @@ pub enum HandleError {
         handle: Handle,
         /// Requested amount, mm.
         amount_mm: f64,
-        /// Seam with its edges, or edges.
+        /// Seam with its edges, or the edges of the condition.
         place: String,
-        /// Description of the deviation.
+        /// Deviation as text.
         found: String,
         /// Accepted deviation, mm.
         within_mm: f64,
@@ -384,23 +384,23 @@ pub enum HandleError {
         /// Second coordinate of the crossing in the plane of the piece, mm.
         v_mm: f64,
     },
-    /// A piece is drawn once and worn twice, and would have to change in two ways.
+    /// A block serves for several pieces of the style, which would change it differently.
     #[error(
         "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
     )]
     Drawn {
         /// Name of the block in the pattern file.
         block: String,
-        /// Distance between both changes, mm.
+        /// Greatest distance between the two displaced outlines, mm.
         apart_mm: f64,
     },
-    /// Pieces and seam file make no style.
+    /// Pieces and seam file do not make a style.
     #[error(transparent)]
     Style(#[from] StyleError),
 }
 
 impl HandleError {
-    /// Handle that cannot be applied, if the error is about one.
+    /// Handle that cannot be applied. `None` for an error about the block or the style.
     #[must_use]
     pub const fn handle(&self) -> Option<Handle> {
         match self {
@@ -414,8 +414,8 @@ impl HandleError {
 }
 
 impl Style {
-    /// Handles of the style, in the order of [`Handle::ALL`]. Those that the roles of its pieces do not show are left
-    /// out.
+    /// Handles that can be applied to the style, as far as the roles of its pieces show, in the order of
+    /// [`Handle::ALL`].
     #[must_use]
     pub fn handles(&self) -> Vec<Handle> {
         let anatomy = Anatomy::of(self);
@@ -426,8 +426,8 @@ impl Style {
     /// Applies handles with their amounts, m, one after the other.
     ///
     /// # Errors
-    /// [`HandleError`] if the style does not have a handle, the other side of a seam cannot follow, or an outline would
-    /// cross itself.
+    /// [`HandleError`] if an amount is out of range, the style has no such handle, the sides of a seam do not stay
+    /// equally long, or an outline would cross itself.
     ///
     /// # Examples
     /// ```
@@ -448,8 +448,8 @@ impl Style {
         Ok(style)
     }
 
-    /// Applies one handle, in several steps if necessary. If the sides of a seam come apart over the whole amount, they
-    /// may not over two halves of it.
+    /// Applies one handle. If the two sides of a seam do not stay equally long, halves the amount up to `halvings`
+    /// times.
     fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<Course, HandleError> {
         let halves = || -> Result<Course, HandleError> {
             let Course { style, mut steps } = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
@@ -503,7 +503,7 @@ impl Style {
         Ok(change)
     }
 
-    /// Applies a plan with the displacement `driven_m` for the amount of a handle, m.
+    /// Applies a plan with a displacement of `driven_m`, chosen so that the measure changes by `amount_m`.
     fn driven(
         &self,
         fine: &Self,
@@ -540,7 +540,7 @@ impl Style {
         Ok(Change { style, fields })
     }
 
-    /// Text of a seam with its edges, for messages.
+    /// Name of a seam with its edges, for messages.
     fn seam_words(&self, number: usize) -> String {
         let seam = &self.seams[number];
         let side = |edges: &[crate::style::EdgeRef]| {

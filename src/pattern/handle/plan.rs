@@ -1,32 +1,33 @@
-//! Plan of a handle: the points that it moves, the points that give way, and the lengths that are kept.
+//! Plan of a handle. A point is *driven* (moves with the amount), *held* (driven by zero), or *gives* way along a
+//! direction by a factor that `solve` finds so that the conditions on lengths hold.
 
 use crate::pom::anatomy::{Anatomy, Chain};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Displacement of a point of an outline, per metre of the amount.
+/// Displacement of a point of an outline per unit of amount.
 #[derive(Clone, Copy, Debug)]
 pub struct Move {
     /// Point that moves.
     pub at: EdgePoint,
-    /// Displacement in the plane of the piece, m per metre of amount.
+    /// Displacement in the plane of the piece, m/m. For a point that gives way, its direction.
     pub by: V2,
 }
 
 impl Move {
-    /// Makes a displacement of a point.
+    /// Displacement of the point `at` by `by`.
     pub fn new(at: EdgePoint, by: V2) -> Self {
         Self { at, by }
     }
 }
 
-/// Part of an edge between two arc lengths, before the change.
+/// Part of an edge between two arc lengths of the unchanged edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     /// Edge of the outline.
     pub edge: EdgeRef,
-    /// Arc lengths of its ends, m. They are clamped to the edge.
+    /// Arc lengths of both ends, m, clamped to the edge.
     pub arcs_m: [f64; 2],
 }
 
@@ -37,7 +38,7 @@ impl Span {
     }
 }
 
-/// A length in a sum.
+/// A weighted length in a sum.
 #[derive(Clone, Copy, Debug)]
 pub struct Term {
     /// Part of an edge whose length counts.
@@ -53,22 +54,22 @@ impl Term {
     }
 }
 
-/// A condition on the change of a weighted sum of lengths.
+/// Condition on the change of a weighted sum of lengths: sum(factor * change of length) = `change` * amount.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// Terms of the sum.
     pub terms: Vec<Term>,
-    /// Change of the sum per metre of the amount.
+    /// Change of the sum, m/m of amount.
     pub change: f64,
 }
 
 impl Condition {
-    /// Condition that the length of a chain changes by `change` per metre of amount.
+    /// Condition that the length of a chain changes by `change` m/m of amount.
     pub fn chain(chain: &Chain, change: f64) -> Self {
         Self::edges(&chain.iter().map(|step| step.edge).collect::<Vec<_>>(), change)
     }
 
-    /// Condition that the total length of some edges changes by `change` per metre of amount.
+    /// Condition that the total length of some edges changes by `change` m/m of amount.
     pub fn edges(edges: &[EdgeRef], change: f64) -> Self {
         Self { terms: edges.iter().map(|edge| Term::whole(*edge, 1.0)).collect(), change }
     }
@@ -77,21 +78,22 @@ impl Condition {
 /// Plan of the change of a style by a handle.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// Points that move with the amount.
+    /// Driven and held points.
     pub moves: Vec<Move>,
-    /// Groups of points that give way, each by one unknown factor: as little as the conditions require.
+    /// Groups of points that give way. The points of a group share one unknown factor, as small as the conditions
+    /// permit.
     pub gives: Vec<Vec<Move>>,
-    /// Conditions on lengths, besides those of the seams, whose sides all stay paired.
+    /// Conditions on lengths. `solve` adds one for each seam, whose two sides keep their length difference.
     pub conditions: Vec<Condition>,
 }
 
 impl Plan {
-    /// Moves a point with the amount, by `by` per metre.
+    /// Drives a point by `by` m/m of amount.
     pub fn drive(&mut self, at: EdgePoint, by: V2) {
         self.moves.push(Move::new(at, by));
     }
 
-    /// Lets a point give way in a direction.
+    /// Lets a point give way along `by`.
     pub fn give(&mut self, at: EdgePoint, by: V2) {
         self.gives.push(vec![Move::new(at, by)]);
     }
@@ -102,7 +104,7 @@ impl Plan {
         self.moves.extend(corners.map(|at| Move::new(at, V2::zeros())));
     }
 
-    /// Lets the lower end of every edge of a chain give way along the edge.
+    /// Lets the lower end of every edge of a chain give way along its edge.
     pub fn yield_ends(&mut self, anatomy: &Anatomy<'_>, chain: &Chain) {
         for (k, edge) in chain.iter().enumerate() {
             let down = along(anatomy, &vec![*edge]);
@@ -129,7 +131,7 @@ pub fn along(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     way.try_normalize(0.0).unwrap_or_else(V2::zeros)
 }
 
-/// Corner between two edges of a chain. If a dart lies between, it has two ends.
+/// Points of the corner between two successive edges of a chain: one, or two where a dart lies between the edges.
 pub fn ends_between(anatomy: &Anatomy<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
     let below = pair[1].other();
     let is_one = anatomy.style().over_corner(pair[0]) == below;

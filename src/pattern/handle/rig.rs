@@ -1,9 +1,9 @@
-//! Displacement of outlines by knots: points whose displacement is given. Every sharp corner is a knot, which stays
-//! unless it is moved.
+//! Displacement of outlines by *knots*: points with a given displacement. Every sharp corner is a knot, of displacement
+//! zero unless it is moved.
 //!
-//! Between two knots the displacement is interpolated: linearly along the edge, and by the smooth cubic step across it.
-//! An edge so keeps its direction at every knot, and with it its right angles and smooth joints. Only a straight edge
-//! from corner to corner stays straight.
+//! Between two knots the displacement is a cubic Hermite curve: linear along the edge, a smooth step across it. An edge
+//! thus keeps its direction at every knot, and the outline its right angles and smooth joints. Only an edge that is
+//! straight between two corners stays straight.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -14,23 +14,23 @@ use crate::style::{Edge, EdgeRef, Style};
 use geom::V2;
 use geom::polyline::{Polyline, segment_distance};
 
-/// Distance within which two knots of an edge coincide, m.
+/// Distance below which two knots of an edge coincide, m.
 const SAME_M: f64 = 1e-6;
 /// Greatest distance of a straight edge from its chord, m. A flattened curve departs further.
 const STRAIGHT_M: f64 = 0.2e-3;
-/// Turning angle of an outline up to which two edges join smoothly, radians: 10 degrees.
+/// Turning angle of an outline below which two edges join smoothly, radians: 10 degrees.
 const SMOOTH_RAD: f64 = 0.175;
-/// Share of a section over which its direction at an end is taken.
+/// Share of a section, at either end, whose chord gives the direction of the outline there.
 const END_SHARE: f64 = 0.01;
-/// Least ratio of the chord of a section to its length for points on it to be parametrised by the chord.
+/// Least ratio of chord to length of a section whose points are parametrised by the chord.
 const ALONG_CHORD: f64 = 0.5;
 /// Greatest length of a segment of an edge that bends, m. A seam of 100 mm that is moved by 10 mm turns by less than 2
 /// degrees from one segment to the next.
 const SEGMENT_M: f64 = 5e-3;
-/// Distance from a vertex within which a knot needs no vertex of its own, m.
+/// Distance from a vertex below which a knot takes that vertex, m.
 const BESIDE_M: f64 = 0.5e-3;
 
-/// Displacements of the vertices of each edge of the affected pieces.
+/// Displacements of the vertices of each edge of the affected pieces, by the index of the piece.
 pub type Displacement = BTreeMap<usize, Vec<Vec<V2>>>;
 
 /// Outlines of the affected pieces with their knots.
@@ -43,7 +43,7 @@ pub struct Rig<'a> {
 struct Outline {
     /// Vertices, the first one repeated at the end, and their arc lengths.
     line: Polyline,
-    /// Index of the first vertex of each edge, and of the last vertex of the last.
+    /// Index of the first vertex of each edge, then of the last vertex of the last edge.
     firsts: Vec<usize>,
     /// Arc lengths of the knots in increasing order.
     knots: Vec<f64>,
@@ -56,7 +56,7 @@ pub fn is_sharp(style: &Style, EdgeEnd { edge: EdgeRef { piece, edge }, is_last 
 }
 
 impl<'a> Rig<'a> {
-    /// Makes knots at the points of some moves.
+    /// Makes outlines with knots at the points of some moves.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
         let mut outlines: BTreeMap<usize, Outline> = BTreeMap::new();
         for moved in moves {
@@ -73,7 +73,7 @@ impl<'a> Rig<'a> {
         Self { style, outlines }
     }
 
-    /// The style with enough vertices on the edges that some moves bend.
+    /// The style with vertices at the knots and short segments, on the edges that some moves bend.
     pub fn refined(&self, moves: &[Move]) -> Style {
         let mut style = self.style.clone();
         for (piece, outline) in &self.outlines {
@@ -90,7 +90,7 @@ impl<'a> Rig<'a> {
         style
     }
 
-    /// Displacement of every vertex by some moves, per metre of amount.
+    /// Displacement of every vertex by some moves, m/m of amount.
     pub fn displacement(&self, moves: &[Move]) -> Displacement {
         let edges = |(piece, outline): (&usize, &Outline)| {
             let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
@@ -133,13 +133,13 @@ impl Outline {
         (at - points[(vertex + n - 1) % n]).angle(&(points[vertex % n + 1] - at)) > SMOOTH_RAD
     }
 
-    /// Arc length of a point that moves. The end of the outline counts as its beginning.
+    /// Arc length of a point that moves, m. The end of the outline counts as its beginning.
     fn arc_m(&self, moved: &Move) -> f64 {
         let arc_m = self.line.arcs()[self.firsts[moved.at.edge.edge]] + moved.at.arc_m;
         if arc_m > self.length_m() - SAME_M { 0.0 } else { arc_m }
     }
 
-    /// Index of the knot at an arc length, or the one at which it would be inserted.
+    /// Index of the knot at an arc length, or the index at which it would be inserted.
     fn knot(&self, arc_m: f64) -> usize {
         self.knots.partition_point(|knot| *knot < arc_m - SAME_M)
     }
@@ -151,7 +151,7 @@ impl Outline {
         }
     }
 
-    /// Displacement of each knot: the sum of some moves.
+    /// Displacement of each knot: the sum of the moves at the knot.
     fn told(&self, moves: &[Move]) -> Vec<V2> {
         let mut told = vec![V2::zeros(); self.knots.len()];
         for moved in moves {
@@ -160,7 +160,7 @@ impl Outline {
         told
     }
 
-    /// Sections between neighbouring knots, with the indices of these. The last section passes the first vertex.
+    /// Sections between neighbouring knots, with the indices of both knots. The last section passes the first vertex.
     fn sections(&self) -> impl Iterator<Item = (Section, [usize; 2])> + '_ {
         let n = self.knots.len();
         (0..n).map(move |k| {
@@ -170,7 +170,7 @@ impl Outline {
         })
     }
 
-    /// Intervals of arc length in which moves bend the outline.
+    /// Intervals of arc length in which some moves bend the outline, m.
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
@@ -182,7 +182,7 @@ impl Outline {
         arcs.collect()
     }
 
-    /// Displacement of each vertex, the first one once.
+    /// Displacement of each vertex. The first vertex occurs once.
     fn moved(&self, moves: &[Move]) -> Vec<V2> {
         let told = self.told(moves);
         let n = self.line.points().len() - 1;
@@ -202,7 +202,7 @@ impl Outline {
     }
 }
 
-/// Refines a line: it gets vertices at some arc lengths, and no long segment.
+/// Adds vertices to a line at the arc lengths of knots, and divides long segments.
 fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     let mut ends = line.arcs().to_vec();
     for knot in knots.iter().filter(|knot| (0.0..line.length()).contains(*knot)) {
@@ -221,15 +221,16 @@ fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
 
 /// Section of an outline between two knots.
 struct Section {
-    /// Arc lengths of its ends. The second exceeds the length of the outline if the section passes the first vertex.
+    /// Arc lengths of both ends, m. The second exceeds the length of the outline if the section passes the first
+    /// vertex.
     arcs_m: [f64; 2],
     ends: [V2; 2],
     /// Unit vectors along the outline at both ends.
     along: [V2; 2],
-    /// True if points on it are parametrised by its chord. Otherwise, where it turns back, they are parametrised by arc
-    /// length.
+    /// True if points are parametrised by their projection onto the chord. Where the section turns back, they are
+    /// parametrised by arc length.
     by_chord: bool,
-    /// True if it is straight from corner to corner, and stays so.
+    /// True if the section is straight from corner to corner. It then stays so.
     is_stiff: bool,
 }
 
@@ -275,7 +276,8 @@ impl Section {
         }
     }
 
-    /// Displacement at a position along the section.
+    /// Displacement at a position along the section, by cubic Hermite interpolation with the component of the change
+    /// along the outline as slope at each end.
     fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
         let change = to - from;
         if self.is_stiff {

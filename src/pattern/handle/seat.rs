@@ -9,7 +9,7 @@ use crate::propose::Face;
 use crate::style::EdgeRef;
 use geom::V2;
 
-/// Raises the upper edge at the seat seam of a face. It stays at the outseam and keeps its length.
+/// Raises the upper edge at the front or back seat seam. At the outseam the edge stays, and it keeps its length.
 pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for leg in &body.legs {
@@ -28,7 +28,7 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
 }
 
 /// Moves the forks of front and back outwards, and the inseams at the thigh with them. The inseams keep their lengths,
-/// and the seat its hip.
+/// and the seat seams stay at the hip.
 pub fn fork(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {

@@ -1,5 +1,5 @@
-//! Solver for the displacements of points that give way, so that the conditions on lengths hold: Newton's method with
-//! the least-norm step.
+//! Solver for the factors of the points that give way ([`Plan::gives`]), so that the conditions on lengths hold:
+//! Newton's method with the step of least norm.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,22 +10,22 @@ use geom::polyline::Polyline;
 
 /// Step of the finite differences of lengths, m.
 const DIFFERENCE_M: f64 = 1e-6;
-/// Residual at which the conditions hold, m: a thousandth of the accepted change of a seam or length.
+/// Residual below which a condition holds, m: a thousandth of the accepted change of a seam or length.
 const HOLDS_M: f64 = 1e-7;
 /// Greatest number of Newton steps. Two or three are usual.
 const MOST_STEPS: usize = 12;
-/// Regularisation of the normal matrix, for conditions that are linearly dependent.
+/// Regularisation of the normal matrix J J^T, for linearly dependent conditions.
 const REGULAR: f64 = 1e-9;
 
 /// Residual of a seam.
 pub struct SeamResidual {
     /// Index of the seam.
     pub seam: usize,
-    /// Change of the difference of the lengths of its sides, m.
+    /// Change of the difference between the lengths of its two sides, m.
     pub off_m: f64,
 }
 
-/// Solution: displaced outlines, and the residuals.
+/// Displaced outlines, and residuals.
 pub struct Solved {
     /// Lines of all edges of the affected pieces.
     pub lines: BTreeMap<usize, Vec<Polyline>>,
@@ -45,9 +45,9 @@ fn all_moves(plan: &Plan) -> impl Iterator<Item = &Move> {
     plan.moves.iter().chain(plan.gives.iter().flatten())
 }
 
-/// Moves the points of a plan by an amount, m, and those that give way as far as the conditions require.
+/// Drives the points of a plan by an amount, m, and lets the others give way as far as the conditions require.
 pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
-    // Points that give way have knots of their own, which do not hold the points that move.
+    // The displacement of a give is zero at the driven points, but not at the points of other gives.
     let displacement = |moves: &[Move]| Rig::new(style, plan.moves.iter().chain(moves)).displacement(moves);
     let touched: Vec<usize> = all_moves(plan).map(|moved| moved.at.edge.piece).collect();
     let seams = seam_conditions(style, &touched);
@@ -82,7 +82,7 @@ pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
     }
 }
 
-/// Conditions that the length difference of both sides of a seam stays, for every seam with an affected piece.
+/// Conditions that the two sides of a seam keep their length difference, for every seam with an affected piece.
 fn seam_conditions(style: &Style, touched: &[usize]) -> Vec<(usize, Condition)> {
     let is_touched = |edge: &EdgeRef| touched.contains(&edge.piece);
     let seams = style.seams.iter().enumerate().filter(|(_, seam)| seam.a.iter().chain(&seam.b).any(is_touched));
@@ -159,7 +159,7 @@ impl System<'_> {
     }
 }
 
-/// Arc length, m, on a displaced line, of the point that had the arc length `arc_m` before.
+/// Arc length on a displaced line, m, of the point that had the arc length `arc_m` on the line before.
 pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
     let arcs = before.arcs();
     let next = arcs.partition_point(|arc| *arc <= arc_m).clamp(1, arcs.len() - 1);
@@ -168,11 +168,12 @@ pub fn carried(before: &Polyline, after: &Polyline, arc_m: f64) -> f64 {
     after.arcs()[next - 1] + share * (after.arcs()[next] - after.arcs()[next - 1])
 }
 
-/// Least-norm change of the gives that removes the residuals, in the sense of regularised least squares.
+/// Least-norm change of the factors that removes the residuals r to first order: J^T (J J^T + e I)^-1 r, with the
+/// Jacobian J in `rows`.
 fn least_step(rows: &[Vec<f64>], missed: &[f64]) -> Vec<f64> {
     let n = missed.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    // Cholesky factor of the matrix of products of the rows, lower triangular.
+    // Lower Cholesky factor of J J^T + e I.
     let mut factor = vec![vec![0.0; n]; n];
     for i in 0..n {
         for j in 0..=i {

@@ -1,4 +1,5 @@
-//! Handles of shoulder, neck and armhole, and of the sleeve that is sewn to it.
+//! Handles of shoulder, neck and armhole, and of the sleeve that is sewn to it. Their plans drive points by the amount,
+//! hold points in place, and let points give way so that lengths are kept ([`Plan`]).
 
 use super::body::{Armhole, Body, HalfCap, NEAR_M};
 use super::plan::{Condition, Move, Plan, Term, along, end, start};
@@ -9,8 +10,7 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
-/// Lowers the shoulder points, front and back. The shoulder keeps its length, and the armhole its own, so that it sinks
-/// too.
+/// Lowers the shoulder points, front and back. Shoulder and armhole keep their lengths, so the armhole sinks as well.
 pub fn shoulder_slope(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -37,7 +37,8 @@ pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Moves the high points of the shoulder outwards along it, each by half of the amount. The centres of the neck stay.
+/// Widens the neck: the high points of the shoulder (at the neck) move outwards along the shoulder, each by half of the
+/// amount. The centres of the neckline stay.
 pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for Shoulder { seam, outwards } in shoulders(body)? {
@@ -51,7 +52,7 @@ pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
-/// Lowers the neckline at the centre of a face.
+/// Lowers the neckline at the centre of the front or back.
 pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for at in neck_centres(body, face)? {
@@ -60,7 +61,7 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     Some(plan)
 }
 
-/// Points of the neckline at the centre of a face. Halves have one each.
+/// Points of the neckline at its centre, front or back: one, or one on each half.
 fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
@@ -73,8 +74,8 @@ fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     Some(centres.collect())
 }
 
-/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and across it until
-/// the cap fits.
+/// Lowers the underarm points along the side seam. Those of the sleeve move as far down the arm, and give way across
+/// the arm so that the cap fits the armhole.
 pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     if body.armholes.is_empty() {
         return None;
@@ -89,7 +90,8 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
         }
     }
     for faces in body.armholes.chunks(Face::BOTH.len()) {
-        // Both sides of the side seam may differ in direction, so their underarm points may move apart.
+        // The side seam may slant differently in front and back. One factor of opposite signs keeps both sides equally
+        // long.
         let apart = faces.iter().zip([0.5, -0.5]);
         plan.gives.push(apart.map(|(face, by)| Move::new(body.point(face.underarm), face.down(body) * by)).collect());
     }
@@ -100,13 +102,13 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
 
 /// One side of a shoulder seam.
 struct Shoulder {
-    /// Its edges, directed outwards from the neck.
+    /// Edges, directed outwards from the neck.
     seam: Chain,
-    /// Unit vector from its beginning to its end.
+    /// Unit vector from the neck to the shoulder point.
     outwards: V2,
 }
 
-/// Sides of the shoulder seams, directed outwards. `None` for a garment without any.
+/// Both sides of all shoulder seams. `None` for a garment without any, or with a vertical one.
 fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
     let trunk = body.trunk.as_ref().filter(|trunk| !trunk.shoulders.is_empty())?;
     let sides = trunk.shoulders.iter().flatten();
@@ -115,8 +117,8 @@ fn shoulders(body: &Body<'_>) -> Option<Vec<Shoulder>> {
     found.iter().all(|shoulder| shoulder.outwards.x != 0.0).then_some(found)
 }
 
-/// Keeps the length of every armhole: its underarm points give way along the side seam, front and back alike. A free
-/// lower end gives way for the small difference of both sides.
+/// Keeps the length of every armhole: its two underarm points give way down the side seam, by one factor for front and
+/// back. A free lower end of the side seam gives way for the small difference between both sides.
 fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     for faces in body.armholes.chunks(Face::BOTH.len()) {
         let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
@@ -135,7 +137,7 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     sleeves_follow(body, plan);
 }
 
-/// Lets joints within an armhole slide along it.
+/// Lets the joints between the edges of an armhole give way along it.
 fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
     for edge in &face.edges {
         let corner = body.anatomy.style().over_corner(EdgeEnd::new(*edge, true));
@@ -146,27 +148,27 @@ fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
 }
 
 impl Armhole {
-    /// Unit vector down the side seam at the underarm.
+    /// Unit vector down the first edge of the side seam, at the underarm.
     fn down(&self, body: &Body<'_>) -> V2 {
         along(body.anatomy, &vec![self.side[0]])
     }
 }
 
-/// Holds the armholes half-way up, where the widths across front and back are measured.
+/// Holds the armholes at half their height, where the widths across front and back are measured.
 pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
     plan.moves.extend(
         body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())),
     );
 }
 
-/// Point of an armhole half-way up.
+/// Point of an armhole at half its height. `None` for one without a shoulder point.
 fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
     let (tip, low) = (body.anatomy.place(armhole.tip?).y, body.anatomy.place(armhole.underarm).y);
     body.anatomy.meeting(&armhole.edges, |p| p.y - 0.5 * (tip + low))
 }
 
-/// Lengthens half caps by as much as the armholes that they are sewn to: the underarm points of the sleeve give way
-/// across the arm.
+/// Keeps each half cap as long as the part of the armhole that is sewn to it: the underarm point of the sleeve gives
+/// way across the arm.
 pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     for armhole in &body.armholes {
         let Some(cap) = &armhole.cap else { continue };
@@ -183,18 +185,18 @@ pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     }
 }
 
-/// Length of a half cap as terms of a condition.
+/// Length of a half cap, as the terms of a [`Condition`].
 pub fn cap_terms(cap: &HalfCap) -> Vec<Term> {
     cap.spans.iter().map(|span| Term { span: *span, factor: 1.0 }).collect()
 }
 
-/// Holds the sleeve at the top of its cap and at the bicep.
+/// Holds the sleeve at the top of its cap, and at the bicep level of the underarm seam.
 pub fn hold_sleeve(body: &Body<'_>, plan: &mut Plan, cap: &HalfCap) {
     plan.drive(cap.top, V2::zeros());
     plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
 }
 
-/// Moves the underarm point of a sleeve, and the point below it where the bicep is measured.
+/// Adds moves by `by` of the underarm point of a sleeve, and of the point at the bicep level below.
 pub fn move_underarm(body: &Body<'_>, moves: &mut Vec<Move>, cap: &HalfCap, by: V2) {
     moves.push(Move::new(body.point(cap.underarm), by));
     moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, by)));

@@ -2,8 +2,8 @@
 //! columns of a tech pack.
 //!
 //! The first row names the columns. `piece` (or `name`, `piece name`, `block`) names the piece of a row, and `size`, if
-//! there is such a column, its size. `quantity` replaces that of the piece. `grain_deg` gives a grain line to a piece
-//! without one. Every other column becomes a text of the piece. An empty cell changes nothing.
+//! there is such a column, its size. `quantity` replaces the quantity of the piece. `grain_deg` gives a grain line to a
+//! piece without one. Every other column becomes a text of the piece. An empty cell changes nothing.
 
 mod xlsx;
 
@@ -26,11 +26,11 @@ const GRAIN_SHARE: f64 = 0.5;
     row.map(|row| format!(", row {row}")).unwrap_or_default(),
     column.as_ref().map(|column| format!(", column `{column}`")).unwrap_or_default())]
 pub struct InfoError {
-    /// Name of the file, for the message.
+    /// Name of the file.
     pub file: String,
     /// Row number. The row of column names is 1.
     pub row: Option<usize>,
-    /// Heading of the column, if one can be named.
+    /// Heading of the column. `None` if the error is in no column.
     pub column: Option<String>,
     /// Description of what was found.
     pub found: String,
@@ -53,7 +53,7 @@ pub struct PieceTable {
 /// for messages.
 ///
 /// # Errors
-/// [`InfoError`] if it is no such table, or has no column for the piece.
+/// [`InfoError`] if the bytes are no such table, or the table has no column for the piece.
 pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     let fail = |row: Option<usize>, found: String, accepted: &str| InfoError {
         file: file.to_owned(),
@@ -89,7 +89,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
     Ok(table)
 }
 
-/// Rows of CSV with their numbers. The error is the number of a malformed row and its description.
+/// Rows of CSV with their numbers. The error is the number of a malformed row and what is wrong with it.
 fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (usize, String)> {
     let text = table::text(bytes).map_err(|line| (line, "a byte that is no UTF-8".to_owned()))?;
     let rows = table::rows(text);
@@ -115,8 +115,8 @@ impl PieceTable {
         }
     }
 
-    /// Adds the information of the table to the pieces of a pattern. It overrides that of the pattern, except for a
-    /// grain line.
+    /// Adds the information of the table to the pieces of a pattern. It overrides that of the pattern, except for grain
+    /// lines.
     ///
     /// # Errors
     /// [`InfoError`] for a row without a matching piece, two rows for one piece, or an invalid cell.
@@ -139,7 +139,7 @@ impl PieceTable {
         Ok(())
     }
 
-    /// Indices of the pieces of a row, of one size if the row names one.
+    /// Indices of the pieces of a row: of its size, or of all sizes if it names none.
     fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
         let is_of =
             |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));

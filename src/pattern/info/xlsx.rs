@@ -1,7 +1,7 @@
 //! Cells of the first sheet of an XLSX workbook [ECMA-376], which is a ZIP archive of XML.
 //!
-//! Numbers and texts are read: shared, inline, and results of formulas. Styles are ignored, so a date is its number.
-//! ZIP64, encryption and compression other than deflate are refused.
+//! Numbers and texts are read: shared, inline, and results of formulas. Styles are ignored, so a date is read as its
+//! serial number. ZIP64, encryption and compression other than deflate are refused.
 
 use std::io::Read;
 
@@ -22,7 +22,7 @@ const END: [u8; 4] = *b"PK\x05\x06";
 /// Rows with their numbers in the sheet.
 ///
 /// # Errors
-/// A sentence for messages on the fault of the workbook.
+/// A message on the fault of the workbook.
 pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     let archive = Archive::open(bytes)?;
     let shared = match archive.find("xl/sharedStrings.xml") {
@@ -48,7 +48,7 @@ pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// Comparison of element names without their namespace.
+/// Comparison of element names, ignoring namespaces.
 trait Named {
     fn has_tag_name_in(&self, name: &str) -> bool;
 }
@@ -168,7 +168,7 @@ impl<'a> Archive<'a> {
         if header != Some(&LOCAL[..]) {
             return Err(broken("is not where the archive says"));
         }
-        // The local header has its own lengths of name and extra field.
+        // The local header repeats name and extra field, in lengths that may differ.
         let field = |offset: usize| number(self.bytes, entry.offset + offset, 2).unwrap_or_default();
         let start = entry.offset + 30 + field(26) + field(28);
         let packed = self.bytes.get(start..start.saturating_add(entry.packed)).ok_or_else(|| broken("is cut off"))?;

@@ -1,4 +1,5 @@
-//! Meshing of a style into a garment: near-uniform triangles, seam partners matched vertex by vertex.
+//! Meshing of a style into a garment: nearly equilateral triangles, and corresponding vertices on both sides of each
+//! seam.
 
 mod paths;
 mod sampling;
@@ -18,7 +19,8 @@ use geom::units::mm;
 /// Range of accepted edge lengths, m.
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
 
-/// Greatest number of triangles of a mesh. A coat at 5 mm has a quarter of them, and no drape of so many ends in a day.
+/// Greatest number of triangles of a mesh. A coat at 5 mm has a quarter of it, and a drape of so many would take more
+/// than a day.
 const MOST_TRIANGLES: f64 = 400_000.0;
 
 /// Error of meshing a style.
@@ -49,7 +51,7 @@ pub enum MeshError {
         /// Length of the longest piece, m.
         longest_m: f64,
     },
-    /// The outline, sampled at the edge length, is no simple polygon or cannot be triangulated.
+    /// The outline, sampled at the edge length, crosses itself or cannot be triangulated.
     #[error(
         "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
     )]
@@ -58,7 +60,7 @@ pub enum MeshError {
         piece: String,
         /// Requested edge length, mm.
         edge_length_mm: f64,
-        /// Reason.
+        /// Reason as text.
         reason: String,
     },
     /// A straight measurement leaves its piece.
@@ -86,7 +88,7 @@ pub struct MeshQuality {
     pub min_edge_m: f64,
     /// Greatest edge length, m.
     pub max_edge_m: f64,
-    /// Mean edge length, m. An edge counts once for each of its triangles.
+    /// Mean over all edges of all triangles, m: an inner edge counts twice.
     pub mean_edge_m: f64,
 }
 
@@ -115,7 +117,7 @@ impl Style {
     fn check_bounds(&self, edge_length_m: f64) -> Result<(), MeshError> {
         let outlines: Vec<Vec<V2>> = self.pieces.iter().map(StylePiece::outline).collect();
         let area_m2: f64 = outlines.iter().map(|outline| signed_area(outline).abs()).sum();
-        // Number of equilateral triangles with that edge length.
+        // An equilateral triangle of edge h has the area sqrt(3)/4 h^2.
         let triangles = area_m2 / (0.25 * 3.0_f64.sqrt() * edge_length_m * edge_length_m);
         if triangles <= MOST_TRIANGLES {
             return Ok(());
@@ -182,7 +184,7 @@ impl Style {
         let fit_level = |(level, path): &(String, Vec<PathPart>)| FitLevel {
             level: level.clone(),
             girth_m: self.path_length_m(path),
-            // A line that leaves its piece still has a length.
+            // A fit level whose line leaves the piece keeps its girth but has no lines.
             runs: layer.runs(level, path).unwrap_or_default(),
         };
         let fit_levels = self.fit_levels.iter().map(fit_level).collect();
@@ -201,7 +203,7 @@ impl Style {
         Ok(garment)
     }
 
-    /// Traces paths across the pieces on a mesh of the style. `None` for a path that leaves the cloth.
+    /// Traces paths on a mesh of the style. `None` for a path that leaves the cloth.
     #[must_use]
     pub fn laid(&self, garment: &Garment, paths: &[&[PathPart]]) -> Vec<Option<Vec<MaterialLine>>> {
         let samples = sample(self, garment.edge_length_m);
@@ -249,8 +251,8 @@ impl Style {
     }
 }
 
-/// Garment vertices of every edge of a piece with this first vertex. Boundary vertices come first, and the last of an
-/// edge is the first of the next.
+/// Garment vertices of every edge of a piece whose vertices begin at `first_vertex`. Boundary vertices come first. The
+/// last vertex of an edge is the first of the next.
 fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
     let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
     let mut start = 0;
@@ -268,7 +270,7 @@ struct Assembly {
     pieces: Vec<PieceMesh>,
     rest: Vec<V2>,
     triangles: Vec<[usize; 3]>,
-    /// Garment vertices of every edge of every piece.
+    /// Garment vertices of each edge, by piece and edge.
     boundary: Vec<Vec<Vec<usize>>>,
 }
 

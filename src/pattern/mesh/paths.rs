@@ -9,7 +9,7 @@ use geom::polyline::segment_meeting;
 
 /// Distance below which points of a straight path coincide, as a share of its length.
 const SAME_SHARE: f64 = 1e-6;
-/// Greatest distance of a drawn curve from the mesh boundary along it, m, at points without a vertex.
+/// Greatest distance between a drawn curve and the mesh boundary, which consists of chords, m.
 const OFF_CURVE_M: f64 = 3e-3;
 
 /// Intersection of a segment with the side of a triangle.
@@ -25,12 +25,12 @@ pub struct Layer<'a> {
     samples: &'a [Vec<EdgeSamples>],
     boundary: &'a [Vec<Vec<usize>>],
     garment: &'a Garment,
-    /// One triangle of each vertex.
+    /// One triangle at each vertex.
     triangle_of: Vec<usize>,
 }
 
 impl<'a> Layer<'a> {
-    /// Makes a tracer. `samples` and `boundary` hold the arc lengths and garment vertices of every edge of every piece.
+    /// Makes a tracer. `samples` and `boundary` are the arc lengths and garment vertices of every edge of every piece.
     pub fn new(
         style: &'a Style,
         samples: &'a [Vec<EdgeSamples>],
@@ -46,7 +46,7 @@ impl<'a> Layer<'a> {
         Self { style, samples, boundary, garment, triangle_of }
     }
 
-    /// Lines of a path on the mesh. `place` names it in messages.
+    /// Lines of a path on the mesh. `place` is the name of the path for messages.
     ///
     /// # Errors
     /// [`MeshError::LineLeavesPiece`] if a straight part leaves its piece.
@@ -74,8 +74,9 @@ impl<'a> Layer<'a> {
         MaterialPoint { vertices, weights: vertices.map(|v| if v == vertex { 1.0 } else { 0.0 }) }
     }
 
-    /// Lines of a path without vertices at its ends, which therefore lie a little off the mesh. The lines end at the
-    /// boundary of the mesh and have the lengths of the pattern. `None` if a line leaves the cloth between its ends.
+    /// Lines of a path whose ends need not be vertices, so that they lie a little off the mesh. The lines end at the
+    /// boundary of the mesh and are scaled to the lengths on the pattern. `None` if a line leaves the cloth between its
+    /// ends.
     pub fn near_runs(&self, path: &[PathPart]) -> Option<Vec<MaterialLine>> {
         let run = |part: &PathPart| match *part {
             PathPart::Edge(edge) => Some(self.edge_run(edge)),
@@ -103,7 +104,7 @@ impl<'a> Layer<'a> {
         })
     }
 
-    /// Intersections of a segment with the sides of some triangles, in their order along it.
+    /// Intersections of a segment with the sides of some triangles, in order along the segment.
     fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<Crossing> {
         let mut crossings: Vec<Crossing> = Vec::new();
         for &triangle in &self.garment.triangles[triangles] {
@@ -122,12 +123,12 @@ impl<'a> Layer<'a> {
         crossings
     }
 
-    /// Line straight across a piece, from mesh edge to mesh edge.
+    /// Straight line across a piece, divided where it crosses mesh edges.
     fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
         let piece = &self.garment.pieces[ends[0].edge.piece];
         let [from, to] = ends.map(|end| self.style.place(end));
         let length = (to - from).norm();
-        // The segment is extended a little, so that its own end points are found in spite of rounding.
+        // Extends the segment a little, so that rounding does not lose its ends.
         let reach = (to - from) * (0.5 * SAME_SHARE);
         let crossings = self.crossings(piece.triangles.clone(), (from - reach, to + reach));
         let places: Vec<V2> = crossings.iter().map(|crossing| crossing.point.at_rest(&self.garment.rest)).collect();

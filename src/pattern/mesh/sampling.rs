@@ -1,13 +1,13 @@
 //! Sampling of the outlines: both sides of a seam get equally many vertices, at equal shares of their lengths.
 //!
-//! An edge must have a vertex at each of its corners and at each end of a straight measurement (its *marks*). The marks
-//! of one side of a seam are transferred to the other. Each interval between marks is divided evenly [T 5.1].
+//! An edge must have a vertex at each of its corners and at each end of a straight measurement: its *marks*. The marks
+//! of one side of a seam are carried over to the other. Each interval between marks is divided evenly [T 5.1].
 
 use crate::style::{EdgePoint, EdgeRef, PathPart, Seam, Style};
 
-/// Distance, as a share of the edge length, below which marks of different sides of a seam become one vertex pair.
+/// Distance, in target edge lengths, below which marks of different sides of a seam become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
-/// Difference below which arc lengths are equal, m.
+/// Difference below which arc lengths count as equal, m.
 const SAME_M: f64 = 1e-9;
 
 /// Vertices along one edge.
@@ -22,20 +22,20 @@ pub struct EdgeSamples {
 pub struct Samples {
     /// Vertices by piece and edge.
     pub edges: Vec<Vec<EdgeSamples>>,
-    /// Vertex pairs by seam, in order along the seam.
+    /// Vertex pairs of each seam, in order along the seam.
     pub seams: Vec<Vec<[EdgeSample; 2]>>,
 }
 
 /// One vertex along an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeSample {
-    /// Edge that it lies on.
+    /// Edge.
     pub edge: EdgeRef,
     /// Index into [`EdgeSamples::arcs`].
     pub index: usize,
 }
 
-/// Divides all edges of a style into segments of about `h` metres.
+/// Divides all edges of a style into segments of about `h`, m.
 pub fn sample(style: &Style, h: f64) -> Samples {
     let marks = marks(style);
     let mut edges: Vec<Vec<EdgeSamples>> =
@@ -94,7 +94,7 @@ fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
     marks
 }
 
-/// Even division of the intervals between marks.
+/// Divides the intervals between marks evenly.
 fn divide(marks: &[f64], h: f64) -> Vec<f64> {
     let mut arcs = vec![marks[0]];
     for ends in marks.windows(2) {
@@ -113,7 +113,7 @@ struct Side<'a> {
     style: &'a Style,
     chain: &'a [EdgeRef],
     is_forwards: bool,
-    /// Distance along the side at which each edge begins, and its end.
+    /// Distance along the side of the start of each edge, then the length of the side, m.
     joints: Vec<f64>,
 }
 
@@ -132,7 +132,7 @@ impl<'a> Side<'a> {
         self.joints[self.joints.len() - 1]
     }
 
-    /// Distances along the side at which there must be vertices.
+    /// Distances of the marks along the side, m.
     fn marks(&self, marks: &[Vec<Vec<f64>>]) -> Vec<f64> {
         let on_edge = |(k, edge): (usize, &EdgeRef)| {
             let length = self.style.edge(*edge).line.length();
@@ -145,7 +145,7 @@ impl<'a> Side<'a> {
         all
     }
 
-    /// Points at some distances along the side, on the edge that holds the distance `middle`.
+    /// Points of one edge at some distances along the side: the edge at the distance `middle`.
     fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<EdgePoint> {
         let k = self.joints.partition_point(|&joint| joint <= middle).clamp(1, self.chain.len()) - 1;
         let edge = self.chain[k];
@@ -158,8 +158,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// A position at which both sides of a seam have a vertex: the distances along them, and whether it is a mark of
-/// either.
+/// Position at which both sides of a seam must have a vertex: the distance along each, and true for a side of which it
+/// is a mark.
 #[derive(Clone, Copy)]
 struct Mark {
     on: [f64; 2],
@@ -180,7 +180,7 @@ fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Ve
             sides[side].on_edge(distance_at(0.5), &distances)
         });
         for (&a, &b) in placed[0].iter().zip(&placed[1]) {
-            // The end of one interval is the start of the next, unless an edge ends there too.
+            // The last pair of one interval is the first of the next, unless an edge ends there.
             if pairs.last().is_none_or(|&[last_a, last_b]| !(is_same(last_a, a) && is_same(last_b, b))) {
                 pairs.push([a, b]);
             }
@@ -193,7 +193,7 @@ fn is_same(p: EdgePoint, q: EdgePoint) -> bool {
     p.edge == q.edge && (p.arc_m - q.arc_m).abs() < SAME_M
 }
 
-/// Marks of both sides, in order. Marks of different sides that nearly coincide are merged.
+/// Marks of both sides, in order. Marks of different sides that nearly coincide become one.
 fn common_marks(sides: &[Side<'_>; 2], marks: &[Vec<Vec<f64>>], h: f64) -> Vec<Mark> {
     let ratio = sides[1].length() / sides[0].length();
     let of_a = sides[0].marks(marks).into_iter().map(|s| Mark { on: [s, s * ratio], is_of: [true, false] });

@@ -1,8 +1,8 @@
 //! Triangulation of an outline into near-equilateral triangles.
 //!
-//! The points of a hexagonal grid inside the outline, and the vertices on it, are triangulated by constrained Delaunay
-//! triangulation (spade). Then the inner points move to the area-weighted mean of the centroids of their triangles, and
-//! all are triangulated again. This is repeated a few times. No vertex is ever added on the outline, so that seam
+//! The points of a hexagonal grid inside the outline and the vertices on the outline are triangulated by constrained
+//! Delaunay triangulation (spade). Then each inner point moves to the area-weighted mean of the centroids of its
+//! triangles, and all points are triangulated again, for a few rounds. The outline never gets a new vertex, so seam
 //! partners stay matched.
 
 use spade::handles::FixedFaceHandle;
@@ -12,13 +12,13 @@ use geom::V2;
 use geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
 use geom::triangle::sorted;
 
-/// Number of smoothing rounds.
+/// Number of rounds of smoothing.
 const SMOOTHING_ROUNDS: usize = 12;
 /// Least distance of the grid points from the outline, in edge lengths.
 const SEED_CLEARANCE: f64 = 0.62;
-/// Least distance of moved points from the outline, in edge lengths.
+/// Least distance of smoothed points from the outline, in edge lengths.
 const MOVED_CLEARANCE: f64 = 0.4;
-/// Relative difference allowed between the areas of triangles and outline.
+/// Greatest relative difference between the area of the triangles and that of the outline.
 const AREA_TOLERANCE: f64 = 1e-9;
 
 /// A triangulated polygon.
@@ -33,7 +33,7 @@ pub struct Triangulation {
 /// Triangulates a counter-clockwise polygon with edges of length about `h`.
 ///
 /// # Errors
-/// A sentence for messages on the fault of the polygon.
+/// A message on the fault of the polygon.
 pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if let Some(place) = self_crossing(outline) {
         return Err(format!("its sampled outline crosses itself at ({:.1}, {:.1}) mm", place.x * 1e3, place.y * 1e3));
@@ -51,8 +51,8 @@ pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if (covered - area).abs() > AREA_TOLERANCE * area {
         return Err(format!("its triangles cover {covered:.6} m2 of {area:.6} m2"));
     }
-    // Triangles are sorted by their greatest vertex, because vertices follow each other row by row. Loops over
-    // triangles then read memory in order.
+    // Vertices are numbered row by row. Triangles in the order of their greatest vertex are read in the order of
+    // memory.
     triangles.sort_unstable_by_key(|triangle| {
         let [first, second, last] = sorted(*triangle);
         [last, second, first]
@@ -116,7 +116,7 @@ fn delaunay(points: &[V2], outline_len: usize) -> Result<Vec<[usize; 3]>, String
     if conflicts > 0 || cdt.num_vertices() != points.len() {
         return Err("two of its sampled sides cross or two vertices coincide".to_owned());
     }
-    // Flood fill of the faces from the left of each side, without crossing a side, finds those inside.
+    // A flood fill of faces from the left of each side of the outline, without crossing a side, finds the faces inside.
     let handles: Vec<_> = cdt.fixed_vertices().collect();
     let mut is_inside = vec![false; cdt.num_all_faces()];
     let mut front: Vec<FixedFaceHandle<spade::handles::PossiblyOuterTag>> = Vec::new();

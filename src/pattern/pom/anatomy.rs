@@ -11,7 +11,7 @@ use geom::V2;
 /// Distance below the armhole at which chest and bicep are measured, m.
 pub const BELOW_ARMHOLE_M: f64 = 0.025;
 
-/// Distance from a corner, m, at which the adjoining piece is looked up. The pieces there may end at the corner itself.
+/// Distance from a corner at which the adjoining piece is looked up, m. At the corner itself, pieces may end.
 pub const BESIDE_M: f64 = 1e-3;
 
 /// Part of a garment that a piece belongs to.
@@ -21,7 +21,7 @@ pub enum Part {
     Trunk(Face),
     /// Sleeve of an arm.
     Sleeve(Hand),
-    /// Leg: its side, and its face unless it is in one piece.
+    /// Leg: side of the wearer, and front or back. `None` for a leg in one piece.
     Leg(Hand, Option<Face>),
     /// Front or back of a skirt.
     Skirt(Face),
@@ -54,7 +54,7 @@ pub type Chain = Vec<EdgeEnd>;
 
 /// A style with the parts that its pieces belong to.
 pub struct Anatomy<'a> {
-    /// Straight paths across its cloth.
+    /// Straight paths across the cloth of the style.
     pub ways: Ways<'a>,
     /// Part of each piece.
     pub parts: Vec<Part>,
@@ -71,13 +71,13 @@ impl<'a> Anatomy<'a> {
         anatomy
     }
 
-    /// Style whose parts these are.
+    /// Style that is identified.
     pub fn style(&self) -> &'a Style {
         self.ways.style
     }
 
-    /// Unit vector away from the neck in a piece. It points downwards; in a sleeve, which may be drawn along the arm,
-    /// away from the trunk.
+    /// Unit vector away from the neck in a piece: downwards, or in a sleeve, which may be drawn along the arm, away
+    /// from the trunk. `None` for a piece of unknown part.
     fn down(&self, piece: usize) -> Option<V2> {
         match self.parts[piece] {
             Part::Other => None,
@@ -122,8 +122,8 @@ impl<'a> Anatomy<'a> {
         edges.iter().map(|edge| self.style().edge(*edge).line.length()).sum()
     }
 
-    /// Both sides of a seam between two kinds of pieces, the side of the first kind first, in the direction of sewing.
-    /// `None` for any other seam.
+    /// Both sides of a seam between two kinds of pieces, in the direction of sewing, the side of the first kind first.
+    /// `None` for a seam between other kinds.
     pub fn between(
         &self,
         seam: usize,
@@ -157,7 +157,7 @@ impl<'a> Anatomy<'a> {
         if runs_down { sides } else { sides.map(|chain| chain.into_iter().rev().map(|step| step.other()).collect()) }
     }
 
-    /// Both sides of a seam that runs downwards, joined with those of `others` that continue it below darts.
+    /// Both sides of a seam that runs downwards, extended by those seams of `others` that continue it below a dart.
     pub fn over_darts(&self, sides: &[Chain; 2], others: &[[Chain; 2]]) -> [Chain; 2] {
         let [mut front, mut back] = sides.clone();
         while let Some(&last) = front.last() {
@@ -178,7 +178,7 @@ impl<'a> Anatomy<'a> {
         [front, back]
     }
 
-    /// Point of a chain at a distance from its beginning, m. `None` beyond its end.
+    /// Point of a chain at a distance from its beginning, m. `None` past its end.
     pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
         let mut rest_m = distance_m;
         for &EdgeEnd { edge, is_last: is_forwards } in chain {
@@ -197,9 +197,9 @@ impl<'a> Anatomy<'a> {
         openings.iter().position(|opening| opening.contains(&next))
     }
 
-    /// Free edges that an opening of some pieces has once everything is sewn on. They are the opening itself if nothing
-    /// is sewn to it, otherwise the single opening of the attached pieces (a cuff, a waistband, a skirt). `None` if
-    /// those have not exactly one.
+    /// Free edges at the end of everything that is sewn to an opening: the opening itself if nothing is, otherwise the
+    /// opening of the attached pieces (a cuff, a waistband, a skirt). `None` if the attached pieces have several
+    /// openings, or none. `is_there` is true for the pieces of the opening.
     pub fn beyond(&self, opening: &[EdgeRef], is_there: impl Fn(usize) -> bool) -> Option<Vec<EdgeRef>> {
         if opening.iter().all(|edge| self.ways.is_free(*edge)) {
             return Some(opening.to_vec());
@@ -221,12 +221,12 @@ impl<'a> Anatomy<'a> {
         ends.next().is_none().then_some(end)
     }
 
-    /// First intersection of a line with some edges of a piece, in their order. `value` is zero on the line.
+    /// First intersection of a line with some edges of a piece, in the order of the edges. `value` is zero on the line.
     pub fn meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
         self.meetings(edges, value).into_iter().next()
     }
 
-    /// Lowest intersection of a line with some edges of a piece.
+    /// Lowest intersection of a line with some edges of a piece. `value` is zero on the line.
     pub fn lowest_meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
         let height = |at: &EdgePoint| self.style().place(*at).y;
         self.meetings(edges, value).into_iter().min_by(|point, other| height(point).total_cmp(&height(other)))
@@ -256,9 +256,9 @@ impl<'a> Anatomy<'a> {
         self.along_path(point, edges.iter().copied().map(PathPart::Edge).collect(), share)
     }
 
-    /// Path down the centre of half a front or back, from the end of an edge that runs across the top. It follows the
-    /// outline while that runs vertically. It continues over the pieces sewn to its lower end, halves again or one
-    /// piece from side to side.
+    /// Path down the centre of half a front or back, from the end of an edge that runs across its top. It follows
+    /// vertical edges of the outline, and continues over the pieces sewn to their lower end: along the centre of
+    /// halves, or straight down a piece that spans both sides.
     pub fn down_centre(&self, end: EdgeEnd) -> Vec<PathPart> {
         let mut path = Vec::new();
         let mut at = end;
@@ -287,7 +287,7 @@ impl<'a> Anatomy<'a> {
         }
     }
 
-    /// True if an edge may be the centre of half a piece: it runs vertically, and is free or sewn to the other half.
+    /// True if an edge may be the centre of half a piece: vertical, and free or sewn to the other half.
     fn is_centre(&self, edge: EdgeRef) -> bool {
         let is_half = |other: &EdgeRef| other.piece != edge.piece && self.parts[other.piece] == self.parts[edge.piece];
         self.is_upright(&vec![EdgeEnd::new(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
@@ -310,7 +310,7 @@ pub fn path_along(chain: &Chain) -> Vec<PathPart> {
     chain.iter().map(|step| PathPart::Edge(step.edge)).collect()
 }
 
-/// Point of measure that is a distance across no cloth.
+/// Point of measure that is a distance through the air, without a path.
 pub fn distance(point: Point, length_m: f64) -> PointOfMeasure {
     PointOfMeasure { point, length_m, path: Vec::new(), share: 1.0 }
 }

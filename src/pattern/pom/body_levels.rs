@@ -1,4 +1,4 @@
-//! Girths of a garment at the levels of the body that is to wear it. Ease needs no more, before anything is draped.
+//! Girths of a garment at the levels of the body that is to wear it, from which ease follows before anything is draped.
 //!
 //! A top hangs from the side neck points, a skirt from the waist. The fork of trousers lies at the crotch.
 
@@ -8,7 +8,7 @@ use super::top::Trunk;
 use super::{Garb, Point, PointOfMeasure};
 use crate::style::{PathPart, Style};
 
-/// Heights of the levels of a standing body above the floor, and distances along its arm from the shoulder point, m.
+/// Heights of the levels of a standing body above the floor, m, and distances along its arm from the shoulder point, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
     /// Side neck points.
@@ -36,16 +36,16 @@ pub struct WornLength {
     pub level: &'static str,
     /// Girth of the cloth, or its width across the shoulders, m.
     pub length_m: f64,
-    /// Height above the floor at which the body is measured, m, if it differs from that of the level. This is so at the
-    /// upper edge of trousers.
+    /// Height above the floor of the girth on the body, m. `None` for the height of the level. The upper edge of
+    /// trousers may lie elsewhere than the waist.
     pub height_m: Option<f64>,
-    /// Path on the cloth. For a girth that is measured by its half, it is that half.
+    /// Path on the cloth. For a girth, it may be that of half the girth.
     pub path: Vec<PathPart>,
 }
 
-/// Greatest distance of a sleeve end above the wrist, m, at which it still counts for the wrist.
+/// Greatest distance of a sleeve end above the wrist for it to count as a cuff at the wrist, m.
 const SHORT_OF_WRIST_M: f64 = 0.040;
-/// Distance within which a waist seam lies at the waist, m.
+/// Greatest distance from the waist of a seam that counts as the garment's waist, m.
 const AT_WAIST_M: f64 = 0.060;
 
 impl Style {
@@ -55,7 +55,7 @@ impl Style {
         self.worn_lengths_on(std::slice::from_ref(stand)).pop().unwrap_or_default()
     }
 
-    /// The same for several bodies. The pieces are identified once.
+    /// As [`Style::worn_lengths`] for several bodies, identifying the pieces once.
     #[must_use]
     pub fn worn_lengths_on(&self, stands: &[Stand]) -> Vec<Vec<WornLength>> {
         let anatomy = Anatomy::of(self);
@@ -91,7 +91,7 @@ fn lengths_on(
     let doubled = |half: OnCloth| OnCloth { length_m: 2.0 * half.length_m, ..half };
     let measured = |path: Vec<PathPart>| OnCloth { length_m: style.path_length_m(&path), path };
     add("neck", flat(Point::Neck), None);
-    // The width of the shoulders of a garment without sleeves is a matter of design.
+    // Without sleeves, the width of the shoulders is free to the designer.
     add("across_shoulder", flat(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
     add("chest", flat(Point::HalfChest).map(doubled), None);
     let hangs = Hangs::of(anatomy, trunk.as_ref(), legs.as_ref(), stand);
@@ -122,11 +122,11 @@ fn lengths_on(
     found
 }
 
-/// Path down the front of a garment, with the height of its beginning.
+/// Path down the front of a garment, and the height at which it begins.
 struct Hangs {
     path: Vec<PathPart>,
     top_m: f64,
-    /// Height below which the cloth goes all round, m.
+    /// Height above the floor below which the cloth goes all round, m.
     round_m: f64,
 }
 
@@ -146,7 +146,7 @@ impl Hangs {
         Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
     }
 
-    /// Path round the cloth at a height above the floor, m. `None` if it does not go round there.
+    /// Path round the cloth at a height above the floor, m. `None` at a height where the cloth does not go all round.
     fn round(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<Vec<PathPart>> {
         let point = anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
         anatomy.ways.round_through(point)

@@ -1,4 +1,4 @@
-//! Lines of a garment that hang level or plumb if it is in balance.
+//! Lines of a garment that hang level or plumb when it is in balance.
 
 use super::anatomy::{Anatomy, path_along};
 use super::legs::Legs;
@@ -6,14 +6,14 @@ use super::{Garb, Point, skirt};
 use crate::propose::Hand;
 use crate::style::{PathPart, Style};
 
-/// Lines on the pieces by which balance is judged. Those that a garment lacks are empty.
+/// Lines on the pieces by which balance is judged. A line that the garment lacks is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HangLines {
-    /// Lower edge; of trousers that of one leg.
+    /// Lower edge. Of trousers, that of one leg.
     pub hem: Vec<PathPart>,
     /// Upper edge of trousers and skirts.
     pub waist: Vec<PathPart>,
-    /// Side seams and outseams of both sides, each from its top.
+    /// Side seams and outseams of both sides, each from its upper end.
     pub side_seams: Vec<Vec<PathPart>>,
 }
 

@@ -9,11 +9,11 @@ use crate::style::{EdgePoint, EdgeRef, PathPart};
 
 /// Distance below the fork at which the thigh is measured, m.
 const THIGH_BELOW_FORK_M: f64 = 0.025;
-/// Height above the fork at which the hip is measured, m: that of a person of 1.7 m.
+/// Height above the fork at which the hip is measured, m, as on a person of 1.7 m.
 const HIP_ABOVE_FORK_M: f64 = 0.080;
 /// Distance of the knee above the middle of the inseam, m.
 const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
-/// Inseam from which a leg has a knee, m.
+/// Length of the inseam from which a leg has a knee, m.
 const LONG_M: f64 = 0.500;
 
 /// One side of the outline of a leg piece, from the waist down to the hem.
@@ -28,31 +28,31 @@ pub struct Run {
 pub struct LegFront {
     /// Straight parts of the path.
     pub path: Vec<PathPart>,
-    /// Height of its beginning above the fork, m.
+    /// Height of the beginning of the path above the fork, m.
     pub above_fork_m: f64,
 }
 
-/// One of two legs that are sewn to each other.
+/// A leg that is sewn to another leg.
 pub struct Legs<'a> {
     anatomy: &'a Anatomy<'a>,
     /// Upper edges of both legs.
     pub waist: Vec<EdgeRef>,
     hem: Vec<EdgeRef>,
-    /// Inner sides, of the front and the back.
+    /// Inner sides, front and back.
     pub inner: [Run; 2],
-    /// Outer sides, of the front and the back. `None` for a leg in one piece.
+    /// Outer sides, front and back. `None` for a leg in one piece.
     pub outer: Option<[Chain; 2]>,
 }
 
 impl<'a> Legs<'a> {
-    /// Right leg of a style, or the left one if it has no other. `None` if the fork is not found.
+    /// Right leg of a style, or its left leg if it has no right one. `None` if no fork is found.
     pub fn of_either(anatomy: &'a Anatomy<'a>) -> Option<Self> {
         let is_there =
             |hand: &Hand| anatomy.parts.iter().any(|part| matches!(part, Part::Leg(side, _) if side == hand));
         Hand::BOTH.into_iter().find(is_there).and_then(|hand| Self::of(anatomy, hand))
     }
 
-    /// Leg of a side. `None` if the fork is not found.
+    /// Leg of a side. `None` if no fork is found.
     pub fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
         let openings = anatomy.style().openings(&is_leg);
@@ -66,7 +66,7 @@ impl<'a> Legs<'a> {
         let runs = |piece: usize| runs(anatomy, piece, &waist, &hem);
         let (inner, outer) = if let Some(whole) = pieces(None) {
             let [first, second] = runs(whole)?;
-            // Seen from outside, the front of a right leg is on the right, that of a left one on the left.
+            // Seen from outside, the front of a right leg lies on the right, that of a left leg on the left.
             let is_first_front = (mean_u(anatomy, &first) > mean_u(anatomy, &second)) == (hand == Hand::Right);
             let [front, back] = if is_first_front { [first, second] } else { [second, first] };
             ([split(anatomy, front), split(anatomy, back)], None)
@@ -114,7 +114,7 @@ impl<'a> Legs<'a> {
         found
     }
 
-    /// Outseam of the front from its upper end. `None` for a leg in one piece.
+    /// Outseam of the front, from its upper end. `None` for a leg in one piece.
     pub fn side_seam(&self) -> Option<Chain> {
         self.outer.clone().map(|[front, _]| front)
     }
@@ -125,7 +125,7 @@ impl<'a> Legs<'a> {
         PiecePoint { piece: fork.edge.piece, at: self.anatomy.place(fork) }
     }
 
-    /// Path down the front from its upper edge, half-way between fork and outseam.
+    /// Path down the front, half-way between fork and outseam.
     pub fn way_down(&self) -> Option<LegFront> {
         let anatomy = self.anatomy;
         let PiecePoint { piece, at: fork } = self.fork();
@@ -137,7 +137,7 @@ impl<'a> Legs<'a> {
         Some(LegFront { path: way.parts, above_fork_m: anatomy.style().place(top).y - fork.y })
     }
 
-    /// Height of the upper edge above the fork in front, m, including yoke and waistband.
+    /// Height of the upper edge above the fork in front, m, with yoke and waistband.
     pub fn top_above_fork_m(&self) -> f64 {
         let anatomy = self.anatomy;
         let crotch = &self.inner[0].crotch;
@@ -146,14 +146,15 @@ impl<'a> Legs<'a> {
         anatomy.place(crotch[0].other()).y - self.fork().at.y + above_m
     }
 
-    /// Path round a leg at a height above the fork, m, negative below it. `None` if the leg does not reach there.
+    /// Path round the leg at a height above the fork, m, negative below it. `None` if the leg does not reach that
+    /// height.
     pub fn round(&self, above_fork_m: f64) -> Option<Vec<PathPart>> {
         let down = self.way_down()?;
         let ways = &self.anatomy.ways;
         ways.round_through(ways.along(&down.path, down.above_fork_m - above_fork_m)?)
     }
 
-    /// Half of the hip girth: the share of one leg.
+    /// Half of the hip girth: the girth of one leg there.
     fn hip(&self) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let [front, back] = &self.inner;
@@ -165,7 +166,7 @@ impl<'a> Legs<'a> {
         is_back(way.end).then(|| anatomy.along_path(Point::HalfHip, way.parts, 1.0))
     }
 
-    /// Path along a chain that begins at the waist, extended above it over yoke and waistband.
+    /// Path along a chain that begins at the waist, extended upwards across yoke and waistband.
     fn up_to_edge(&self, chain: &Chain) -> Vec<PathPart> {
         let anatomy = self.anatomy;
         let mut path = path_along(chain);
@@ -181,7 +182,7 @@ impl<'a> Legs<'a> {
     }
 }
 
-/// True if an opening of legs lies in the upper halves of their pieces.
+/// True if an opening of legs lies in the upper half of its pieces.
 fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     let above = |edge: &EdgeRef| {
         let outline = anatomy.style().pieces[edge.piece].outline();
@@ -192,12 +193,12 @@ fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
     opening.iter().map(above).sum::<f64>() > 0.0
 }
 
-/// Both sides of the outline of a piece, each from the waist down to the hem. The one that precedes the waist in the
+/// Both sides of the outline of a piece, each from the waist to the hem. The side that precedes the waist in the
 /// outline comes first.
 fn runs(anatomy: &Anatomy<'_>, piece: usize, waist: &[EdgeRef], hem: &[EdgeRef]) -> Option<[Chain; 2]> {
     let n = anatomy.style().pieces[piece].edges.len();
     let edge = |k: usize| EdgeRef { piece, edge: k % n };
-    // A fly is part of the opening, but not of the waist edge.
+    // A fly belongs to the opening and not to the waist edge.
     let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![EdgeEnd::new(e, true)]);
     let first_hem = (0..n).find(|k| hem.contains(&edge(*k)) && !hem.contains(&edge(k + n - 1)))?;
     let all: Vec<EdgeRef> = (0..n).map(|k| edge(first_hem + k)).filter(|e| !hem.contains(e)).collect();
@@ -215,7 +216,7 @@ fn is_crotch(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
     anatomy.ways.partners(edge).iter().any(is_other)
 }
 
-/// Sorts two sides into the inner and the outer one. `None` if neither or both are sewn to the other leg.
+/// Inner and outer one of two sides. `None` if both or neither are sewn to the other leg.
 fn inner_first(anatomy: &Anatomy<'_>, [first, second]: [Chain; 2]) -> Option<[Chain; 2]> {
     let is_inner = |run: &Chain| run.iter().any(|step| is_crotch(anatomy, step.edge));
     match (is_inner(&first), is_inner(&second)) {
@@ -225,7 +226,7 @@ fn inner_first(anatomy: &Anatomy<'_>, [first, second]: [Chain; 2]) -> Option<[Ch
     }
 }
 
-/// Splits an inner side at the fork, which follows the last edge that is sewn to the other leg.
+/// Divides an inner side at the fork, after the last edge that is sewn to the other leg.
 fn split(anatomy: &Anatomy<'_>, run: Chain) -> Run {
     let fork = run.iter().rposition(|step| is_crotch(anatomy, step.edge)).map_or(0, |last| last + 1);
     let (crotch, seam) = run.split_at(fork);

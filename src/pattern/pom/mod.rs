@@ -1,8 +1,8 @@
-//! Points of measure (POM): the lengths by which a garment is specified and checked, located on the pieces.
+//! Points of measure (POM): the lengths by which a garment is specified and checked, located on its pieces.
 //!
-//! They are measured flat on the pieces as they are sewn [ISO 18890]. No seam file has to name them. `anatomy`
-//! identifies the seams and openings by the roles of the pieces. `top`, `sleeve`, `legs` and `skirt` trace each point
-//! along them. `ways` goes straight across pieces and through their seams.
+//! They are measured on the flat pieces [ISO 18890]. No seam file names them: `anatomy` identifies seams and openings
+//! by the roles of the pieces, and `top`, `sleeve`, `legs` and `skirt` find each point. `ways` makes straight paths
+//! across pieces and through their seams.
 
 pub(crate) mod anatomy;
 mod body_levels;
@@ -23,7 +23,7 @@ use self::sleeve::Sleeve;
 use self::top::Trunk;
 use super::style::{PathPart, Style};
 
-/// Name of a point of measure.
+/// A point of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Point {
     /// Half of the girth below the armhole.
@@ -182,30 +182,29 @@ impl Point {
         self.words().0
     }
 
-    /// Definition: the way of measuring.
+    /// Definition: how the length is measured.
     #[must_use]
     pub const fn definition(self) -> &'static str {
         self.words().1
     }
 }
 
-/// A point of measure of a garment.
+/// A point of measure, measured on a garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOfMeasure {
-    /// Name of the point of measure.
+    /// Point of measure.
     pub point: Point,
-    /// Length, m: `share` of the length of the path. A length from the high point of the shoulder also has the distance
-    /// from there to the path.
+    /// `share` of the length of the path, m. Plus the distance from the high point of the shoulder to the path, if the
+    /// length is measured from there.
     pub length_m: f64,
-    /// Path on the cloth. Empty for a distance across no cloth, such as the width of a neck.
+    /// Path on the cloth. Empty for a distance through the air, such as the width of a neck.
     pub path: Vec<PathPart>,
-    /// Share of the length of the path that counts: one half for a girth, which is measured flat.
+    /// Share of the length of the path that counts: one half for a girth, because it is measured flat.
     pub share: f64,
 }
 
 impl Style {
-    /// Points of measure of the style, in the order of [`Point::ALL`]. Those that the roles of its pieces do not show
-    /// are left out.
+    /// Points of measure that the roles of the pieces show, in the order of [`Point::ALL`].
     #[must_use]
     pub fn points_of_measure(&self) -> Vec<PointOfMeasure> {
         let anatomy = Anatomy::of(self);
@@ -228,14 +227,14 @@ impl<'a> Garb<'a> {
         Self { anatomy, trunk, sleeve, legs: Legs::of_either(anatomy) }
     }
 
-    /// All points of measure, in the order of [`Point::ALL`].
+    /// All points of measure, in the order of [`Point::ALL`], each once.
     fn points(&self) -> Vec<PointOfMeasure> {
         let mut found = self.trunk.as_ref().map_or_else(Vec::new, Trunk::points);
         found.extend(self.sleeve.iter().flat_map(Sleeve::points));
         found.extend(self.legs.iter().flat_map(Legs::points));
         found.extend(skirt::points(self.anatomy));
         found.sort_by_key(|measure| measure.point);
-        // The waist of a jumpsuit is that of its top.
+        // A jumpsuit has the waist of its top.
         found.dedup_by_key(|measure| measure.point);
         found
     }

@@ -1,4 +1,4 @@
-//! Points of measure of skirts, also of those sewn to a bodice.
+//! Points of measure of skirts, alone or sewn to a bodice.
 
 use super::anatomy::{Anatomy, Chain, Part};
 use super::ways::Heading;
@@ -7,13 +7,13 @@ use crate::propose::Face;
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgeRef, PathPart};
 
-/// Distance below the waist at which the hip is measured, m: that of a person of 1.7 m.
+/// Distance below the waist at which the hip is measured, m, as on a person of 1.7 m.
 const HIP_BELOW_WAIST_M: f64 = 0.200;
-/// Least ratio of the chord of a waist edge to its length. A rounder one is that of a circle skirt, whose hip is no
-/// straight line.
+/// Least ratio of chord to length of a waist edge that has a hip below it. A rounder edge is that of a circle skirt,
+/// whose hip is no straight line.
 const STRAIGHT: f64 = 0.9;
 
-/// Points of measure of the skirt of a style. There are none without a side seam.
+/// Points of measure of the skirt of a style. Empty without a side seam.
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
@@ -24,7 +24,7 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     };
     let waist = &openings[waist];
     let mut found = Vec::new();
-    // The waist and lengths of a dress are those of its bodice.
+    // A dress takes waist and lengths from its bodice.
     if !anatomy.parts.iter().any(|part| matches!(part, Part::Trunk(_))) {
         let edge = anatomy.beyond(waist, is_skirt);
         found.extend(edge.map(|edges| anatomy.along_edges(Point::HalfWaist, &edges, 0.5)));
@@ -42,7 +42,7 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     found
 }
 
-/// Both sides of each side seam of a skirt, front and back, from the top.
+/// Both sides of each side seam of a skirt, front and back, from the upper end.
 pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let is_of = |face: Face| move |part: Part| part == Part::Skirt(face);
     let seams = 0..anatomy.style().seams.len();
@@ -50,7 +50,7 @@ pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect()
 }
 
-/// Path down the front from its upper edge, half-way between its middle and its side.
+/// Path down the front, half-way between its middle and its side.
 pub fn way_down(anatomy: &Anatomy<'_>) -> Option<Vec<PathPart>> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let is_front = |edge: &EdgeRef| anatomy.parts[edge.piece] == Part::Skirt(Face::Front);
@@ -73,13 +73,13 @@ fn is_straight(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
     (to - from).norm() > STRAIGHT * anatomy.length_m(&[edge])
 }
 
-/// Length of a skirt along the centre of a face.
+/// Length of a skirt along its centre, front or back.
 fn centre(anatomy: &Anatomy<'_>, waist: &[EdgeRef], face: Face) -> Option<PointOfMeasure> {
     let point = if face == Face::Front { Point::CentreFrontLength } else { Point::CentreBackLength };
     let own: Vec<EdgeRef> =
         waist.iter().copied().filter(|edge| anatomy.parts[edge.piece] == Part::Skirt(face)).collect();
     let piece = own.first()?.piece;
-    // Half a skirt has a seam to the other half at one end of its waist.
+    // Half a skirt is sewn to the other half at one end of its waist.
     let ends = own.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]);
     let is_centre = |end: &EdgeEnd| {
         let next = anatomy.style().over_corner(*end).edge;

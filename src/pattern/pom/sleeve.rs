@@ -16,13 +16,13 @@ pub struct Sleeve<'a> {
 }
 
 impl<'a> Sleeve<'a> {
-    /// Sleeve of a style. `None` for a style without sleeves. `shoulder_points` lie on the seams of its armholes.
+    /// Sleeve of a style. `None` for a style without sleeves. `shoulder_points` lie on its armhole seams.
     pub fn of(anatomy: &'a Anatomy<'a>, shoulder_points: &[EdgePoint]) -> Option<Self> {
         let hand = Hand::BOTH.into_iter().find(|hand| anatomy.parts.contains(&Part::Sleeve(*hand)))?;
         let on_cap = shoulder_points.iter().find_map(|point| {
             anatomy.ways.across(*point).filter(|at| anatomy.parts[at.edge.piece] == Part::Sleeve(hand))
         });
-        // The upper seam of a sleeve in two panels may run straight down from there.
+        // In a sleeve of two panels, the upper seam may run straight down from the shoulder point.
         let beside = |at: EdgePoint| {
             let length_m = anatomy.length_m(&[at.edge]);
             [0.0, BESIDE_M, -BESIDE_M].map(|by_m| EdgePoint { arc_m: (at.arc_m + by_m).clamp(0.0, length_m), ..at })
@@ -58,12 +58,12 @@ impl<'a> Sleeve<'a> {
         found
     }
 
-    /// Path round the sleeve at a distance from the shoulder point along the arm, m. `None` beyond its end.
+    /// Path round the sleeve at a distance from the shoulder point along the arm, m. `None` past the end of the sleeve.
     pub fn round(&self, along_m: f64) -> Option<Vec<PathPart>> {
         self.anatomy.ways.round_through(self.anatomy.ways.along(self.way.as_ref()?, along_m)?)
     }
 
-    /// Underarm seam: the one that begins lowest on the cap, directed downwards.
+    /// Underarm seam, directed downwards: of the seams below the cap, the one that begins lowest.
     fn underarm(&self, cap: &[EdgeRef]) -> Option<Chain> {
         let anatomy = self.anatomy;
         let mut found: Vec<(f64, Chain)> = Vec::new();
@@ -76,7 +76,7 @@ impl<'a> Sleeve<'a> {
             for chain in [chain, back] {
                 let top = chain[0].other();
                 if cap.contains(&anatomy.style().over_corner(top).edge) {
-                    // The key is the distance of the beginning along the arm.
+                    // Key: distance of the beginning of the seam along the arm.
                     let down = anatomy.ways.down(top.edge.piece)?;
                     found.push((anatomy.place(top).dot(&down), chain));
                 }

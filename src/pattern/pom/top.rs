@@ -8,28 +8,29 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 use geom::V2;
 
-/// Distance of the waist below the armhole if the sides are straight, m: that from chest to waist of a person of 1.7 m.
+/// Distance of the waist below the armhole of a garment with straight sides, m: from chest to waist of a person of 1.7
+/// m.
 const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
-/// Least distance of the narrowest girth from armhole and hem, m, and the interval between candidates.
+/// Least distance of the narrowest girth from armhole and hem, and spacing of the candidates, m.
 const FROM_ENDS_M: f64 = 0.060;
 const STEP_M: f64 = 0.005;
-/// Least difference of the narrowest girth from those at both ends for it to be a waist, m.
+/// Least difference of the narrowest girth from those at both ends that makes a waist, m.
 const SHAPED_M: f64 = 0.008;
 /// Greatest slant of the front edge of an open garment from the vertical, as the tangent of the angle.
 const FRONT_EDGE_SLANT: f64 = 0.14;
-/// Greatest distance of such an edge from the side of its piece, as a share of its width.
+/// Greatest distance of such an edge from the side of its piece, as a share of the width of the piece.
 const FRONT_EDGE_INSET: f64 = 0.1;
 
 fn is_face(face: Face) -> impl Fn(Part) -> bool {
     move |part| part == Part::Trunk(face)
 }
 
-/// The trunk of a garment: its pieces sewn to each other, without any others.
+/// The trunk of a garment: front and back pieces, sewn to each other without any others.
 pub struct Trunk<'a> {
     anatomy: &'a Anatomy<'a>,
     /// Closed chains of free edges: neck, armholes, lower end.
     pub openings: Vec<Vec<EdgeRef>>,
-    /// Both sides of each side seam that ends at an armhole or the top edge: front and back, directed downwards.
+    /// Both sides of each side seam that ends at an armhole or at the top edge: front and back, directed downwards.
     pub sides: Vec<[Chain; 2]>,
     /// Both sides of each shoulder seam, front and back, directed outwards from the neck.
     pub shoulders: Vec<[Chain; 2]>,
@@ -58,7 +59,7 @@ impl<'a> Trunk<'a> {
             .map(|side| anatomy.over_darts(side, &all_sides))
             .collect();
         let tops: Vec<usize> = sides.iter().filter_map(|[front, _]| opening(start(front))).collect();
-        // An opening that two side seams end at is the top edge of a garment without shoulders.
+        // In a garment without shoulders, two side seams end at one opening: its top edge.
         let armholes: Vec<usize> =
             tops.iter().copied().filter(|top| tops.iter().filter(|other| *other == top).count() == 1).collect();
         let shoulder = |sides: [Chain; 2]| -> Option<[Chain; 2]> {
@@ -100,8 +101,8 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Separates the neck from the hem of a garment that is open in front, where both are one opening. The front edges
-    /// lie between them.
+    /// Separates neck and hem of a garment that is open in front. Both are parts of one opening, with the front edges
+    /// between them.
     fn part_neck_from_hem(&mut self) {
         let opening = std::mem::take(&mut self.neck);
         let Some(first) = opening.iter().position(|edge| self.is_front_edge(*edge)) else {
@@ -126,7 +127,7 @@ impl<'a> Trunk<'a> {
         self.bottom = bottom.unwrap_or_default();
     }
 
-    /// True for the vertical edge at the centre of half a front.
+    /// True for a vertical edge at the centre of half a front.
     fn is_front_edge(&self, edge: EdgeRef) -> bool {
         if self.anatomy.parts[edge.piece] != Part::Trunk(Face::Front) {
             return false;
@@ -163,12 +164,12 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// High points of the shoulder on a face.
+    /// High points of the shoulder, where it meets the neck, on front or back.
     pub fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
         self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|step| step.other()).collect()
     }
 
-    /// Lengths of a face: from the high point of the shoulder, and along the centre.
+    /// Lengths of front or back: from the high point of the shoulder, and along the centre.
     fn lengths(&self, face: Face) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let (from_shoulder, centre) = match face {
@@ -190,8 +191,8 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Length from a high point of the shoulder straight down. If the neckline runs below the shoulder there, the tape
-    /// first spans the neck. The path then begins at the neckline, and the distance above it is added.
+    /// Length from a high point of the shoulder straight down. Where the neckline dips below the shoulder, the path
+    /// begins at the neckline, and the distance above it is added, as a tape would span it.
     fn length_from_neck(&self, point: Point, high: EdgeEnd) -> Option<PointOfMeasure> {
         let down = self.down_from(high)?;
         let along = self.anatomy.along_path(point, down.path, 1.0);
@@ -203,8 +204,7 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
         let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.edge.piece).collect();
-        // The path begins a little outwards along the shoulder, because a square neckline falls straight down from the
-        // high point itself.
+        // The path begins a little outwards on the shoulder: a square neckline falls straight down from the high point.
         let outwards = (anatomy.place(high.other()).x - top.x).signum();
         let beside = |p: V2| p.x - top.x - outwards * BESIDE_M;
         let start = anatomy.meeting(&[high.edge], beside).unwrap_or_else(|| anatomy.point(high));
@@ -220,7 +220,7 @@ impl<'a> Trunk<'a> {
         self.down_from(*self.high_points(Face::Front).first()?)
     }
 
-    /// Height of the high point of the shoulder above the underarm, m, if one piece has both.
+    /// Height of the high point of the shoulder above the underarm, m. `None` if no piece has both.
     fn underarm_below_neck_m(&self) -> Option<f64> {
         let underarms = self.sides.iter().flatten().map(|chain| chain[0].other());
         let high = Face::BOTH.into_iter().flat_map(|face| self.high_points(face)).collect::<Vec<_>>();
@@ -230,13 +230,14 @@ impl<'a> Trunk<'a> {
         })
     }
 
-    /// Distance of the chest level below the high point of the shoulder, m.
+    /// Distance of the chest level below the high point of the shoulder, m. `None` if no piece has high point and
+    /// underarm.
     pub fn chest_below_neck_m(&self) -> Option<f64> {
         self.underarm_below_neck_m().map(|m| m + BELOW_ARMHOLE_M)
     }
 
     /// Distance of the waist seam at the side below the high point of the shoulder, m. `None` if nothing hangs from the
-    /// trunk.
+    /// trunk, or no piece has high point and underarm.
     pub fn waist_below_neck_m(&self) -> Option<f64> {
         let side_m: f64 = self.sides[0][0].iter().map(|step| self.anatomy.length_m(&[step.edge])).sum();
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
@@ -253,7 +254,7 @@ impl<'a> Trunk<'a> {
         outer.map(|end| self.anatomy.point(self.anatomy.style().over_corner(end))).collect()
     }
 
-    /// Intersection of the neckline with the centre of a face.
+    /// Intersection of the neckline with the centre of front or back.
     pub fn neck_centre(&self, face: Face) -> Option<Centre> {
         let anatomy = self.anatomy;
         let high = self.high_points(face);
@@ -266,7 +267,7 @@ impl<'a> Trunk<'a> {
         self.neck_end(*first).map(Centre::Corner)
     }
 
-    /// End of the neckline of half a face, opposite its high point.
+    /// End of the neckline of half a front or back, opposite its high point.
     pub fn neck_end(&self, high: EdgeEnd) -> Option<EdgeEnd> {
         let mut at = high;
         loop {
@@ -293,7 +294,7 @@ impl<'a> Trunk<'a> {
                 }
                 Centre::Corner(end) => (anatomy.place(end), (anatomy.place(high).x - anatomy.place(end).x).abs()),
             };
-            // The back determines the width, because fronts may overlap.
+            // The width is that of the back, because fronts may overlap.
             if found.is_empty() {
                 found.push(distance(Point::NeckWidth, 2.0 * half_m));
             }
@@ -333,7 +334,7 @@ impl<'a> Trunk<'a> {
         found
     }
 
-    /// Width of a face half-way up the armhole.
+    /// Width of front or back half-way up the armhole.
     fn across(&self, face: Face) -> Option<PointOfMeasure> {
         let anatomy = self.anatomy;
         let point = if face == Face::Front { Point::AcrossFront } else { Point::AcrossBack };
@@ -346,7 +347,7 @@ impl<'a> Trunk<'a> {
         }
         let place = |at: EdgePoint| anatomy.style().place(at);
         if !self.neck.contains(&ahead.end.edge) {
-            // The face is open there, so the other half is added.
+            // If the front is open there, its other half is added.
             let behind = anatomy.ways.walk(*starts.get(1)?, Heading::Level, |at| is_armhole(at.edge))?;
             return Some(anatomy.along_path(point, [ahead.parts, behind.parts].concat(), 1.0));
         }
@@ -362,8 +363,8 @@ impl<'a> Trunk<'a> {
         width_m.map(|m| distance(point, m))
     }
 
-    /// Point of an armhole on a face, half-way between underarm and shoulder. It is half-way in height if one piece has
-    /// both, otherwise along the armhole.
+    /// Point of an armhole, front or back, half-way between underarm and shoulder: in height if one piece has both,
+    /// otherwise along the armhole.
     fn half_way_up(&self, armhole: usize, face: Face) -> Option<EdgePoint> {
         let anatomy = self.anatomy;
         let on_face = |edge: &&EdgeRef| anatomy.parts[edge.piece] == Part::Trunk(face);
@@ -394,7 +395,7 @@ impl<'a> Trunk<'a> {
 pub struct PathFromNeck {
     /// Straight parts of the path.
     pub path: Vec<PathPart>,
-    /// Distance of its beginning below the high point, m.
+    /// Distance of the beginning of the path below the high point, m.
     pub below_neck_m: f64,
 }
 
@@ -402,11 +403,12 @@ pub struct PathFromNeck {
 pub enum Centre {
     /// A point on the neckline of a whole piece.
     Within(EdgePoint),
-    /// The end of the neckline of half a piece.
+    /// End of the neckline of half a piece.
     Corner(EdgeEnd),
 }
 
-/// Distance of the waist of a top below the armhole, m. `girths` are candidates as distance and girth, m.
+/// Distance of the waist of a top below the armhole, m: that of the narrowest girth, or for straight sides a usual one.
+/// `girths` are (distance below the armhole, girth), m.
 fn waist(girths: &[(f64, f64)]) -> f64 {
     let narrowest = girths.iter().min_by(|candidate, other| candidate.1.total_cmp(&other.1));
     match (girths, narrowest) {

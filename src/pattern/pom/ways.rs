@@ -1,8 +1,7 @@
-//! Straight paths across the cloth: over a piece from outline to outline, through the seam there, and over the next
-//! piece.
+//! Straight paths across the cloth: across a piece to its outline, through the seam there, and across the next piece.
 //!
-//! A tape on a flat garment runs so. A path that meets a dart continues from its other leg, so that the cloth in the
-//! dart is not measured.
+//! This is how a tape runs on a flat garment. A path that meets a dart continues from the other edge of the dart, so
+//! the cloth in the dart is not measured.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +11,11 @@ use geom::polyline::{contains, segment_meeting};
 
 /// Greatest length of a path in one piece, m.
 const REACH_M: f64 = 10.0;
-/// Least length of a path in one piece, m. A nearer intersection is the edge that it starts from.
+/// Least length of a path in one piece, m. A nearer intersection is with the edge at which the path starts.
 const LEAST_M: f64 = 1e-5;
-/// Greatest number of pieces that a path crosses.
+/// Greatest number of pieces on a path.
 const MOST_PIECES: usize = 64;
-/// Distance from its start, m, within which a path round the body is closed.
+/// Distance from its start at which a path round the body counts as closed, m.
 const BACK_M: f64 = 0.05;
 
 /// Direction of a path, as the garment is worn.
@@ -37,7 +36,7 @@ pub struct Way {
     pub end: EdgePoint,
 }
 
-/// A point within a piece.
+/// A point inside a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PiecePoint {
     /// Index of the piece.
@@ -51,17 +50,17 @@ pub struct PiecePoint {
 struct Sewn {
     seam: usize,
     is_b: bool,
-    /// Distance from the first point of the side to that of the edge, in the direction of sewing, m.
+    /// Distance along the side, in the direction of sewing, at which the edge begins, m.
     from_m: f64,
 }
 
-/// Index of the seams of a style, which paths cross.
+/// Seams of a style by their edges, for paths to cross.
 pub struct Ways<'a> {
     /// Style whose pieces are crossed.
     pub style: &'a Style,
     sewn: BTreeMap<EdgeRef, Sewn>,
-    /// Unit vector away from the neck in each piece. `None` for a piece that takes its direction from the seam that it
-    /// is sewn to.
+    /// Unit vector away from the neck in each piece. `None` for a piece in which a path keeps the direction in which it
+    /// came.
     down: Vec<Option<V2>>,
 }
 
@@ -81,7 +80,7 @@ impl<'a> Ways<'a> {
         Self { style, sewn, down }
     }
 
-    /// Unit vector away from the neck in a piece.
+    /// Unit vector away from the neck in a piece. `None` as of [`Ways::new`].
     pub fn down(&self, piece: usize) -> Option<V2> {
         self.down[piece]
     }
@@ -91,7 +90,7 @@ impl<'a> Ways<'a> {
         !self.sewn.contains_key(&edge)
     }
 
-    /// Edges of the other side of the seam of an edge.
+    /// Edges on the other side of the seam of an edge. Empty for a free edge.
     pub fn partners(&self, edge: EdgeRef) -> &'a [EdgeRef] {
         let side = |sewn: &Sewn| self.side(sewn.seam, !sewn.is_b);
         self.sewn.get(&edge).map_or(&[], side)
@@ -110,7 +109,7 @@ impl<'a> Ways<'a> {
         chain.iter().map(|edge| self.style.edge(*edge).line.length()).sum()
     }
 
-    /// Point that is sewn to a point of an edge: at the same share of the other side. `None` for a free edge.
+    /// Point that is sewn to a point of an edge, at the same share of the other side. `None` for a free edge.
     pub fn across(&self, point: EdgePoint) -> Option<EdgePoint> {
         let sewn = self.sewn.get(&point.edge)?;
         let along = |edge: EdgeRef, arc_m: f64, forwards: bool| {
@@ -130,7 +129,7 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Direction of sewing at a point of an edge. For a free edge it is that of the edge.
+    /// Direction of sewing at a point of an edge. For a free edge, the direction of the edge.
     fn sewn_along(&self, point: EdgePoint) -> V2 {
         let line = &self.style.edge(point.edge).line;
         let ahead = line.at(point.arc_m + LEAST_M) - line.at(point.arc_m - LEAST_M);
@@ -138,10 +137,11 @@ impl<'a> Ways<'a> {
         if forwards { ahead.normalize() } else { -ahead.normalize() }
     }
 
-    /// Candidate directions of a path from a point. `came` is the direction in which it entered the piece, if any.
+    /// Candidate directions of a path from a point. `came` is the direction in which the path entered the piece. `None`
+    /// at its start.
     fn directions(&self, at: EdgePoint, heading: Heading, came: Option<V2>) -> Vec<V2> {
         match (self.down[at.edge.piece], heading, came) {
-            // The direction through the seam is tried if the straight one leads off the piece, as beside a dart.
+            // Beside a dart the straight direction may lead off the piece. Then the path keeps its direction.
             (Some(down), Heading::Down, came) => [Some(down), came].into_iter().flatten().collect(),
             (Some(down), Heading::Level, came) => {
                 let level = V2::new(-down.y, down.x);
@@ -159,7 +159,7 @@ impl<'a> Ways<'a> {
         V2::new(-ahead.y, ahead.x)
     }
 
-    /// Point at which a straight path from a point leaves its piece. `None` if it does not enter it.
+    /// Point at which a straight path from a point leaves its piece. `None` if the path does not enter the piece.
     fn leaves(&self, piece: usize, start: V2, direction: V2) -> Option<EdgePoint> {
         let ray = (start, start + direction * REACH_M);
         let mut nearest: Option<(f64, EdgePoint)> = None;
@@ -178,8 +178,8 @@ impl<'a> Ways<'a> {
         contains(&self.style.pieces[piece].outline(), &middle).then_some(end)
     }
 
-    /// Path from a point of an edge to the first point of an outline that satisfies `is_end`, or to a free edge. `None`
-    /// if no cloth lies that way.
+    /// Path from a point of an edge to the first point of an outline for which `is_end` is true, or to a free edge.
+    /// `None` if no cloth lies in that direction.
     pub fn walk(&self, from: EdgePoint, heading: Heading, is_end: impl Fn(EdgePoint) -> bool) -> Option<Way> {
         let (mut at, mut came, mut parts) = (from, None, Vec::new());
         while parts.len() < MOST_PIECES {
@@ -201,7 +201,7 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Point at a distance along a path of straight parts, m. `None` beyond its ends.
+    /// Point at a distance along a path of straight parts, m. `None` past its ends.
     pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<PiecePoint> {
         let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
         for part in path {
@@ -216,8 +216,8 @@ impl<'a> Ways<'a> {
         None
     }
 
-    /// Path round the body or a limb from a point of a sewn edge. It ends when it comes back. In an open garment it
-    /// runs from one free edge to the other.
+    /// Path round the body or a limb from a point of a sewn edge back to that point, or in an open garment from one
+    /// free edge to the other. `None` if no cloth lies in that direction.
     pub fn round(&self, from: EdgePoint) -> Option<Vec<PathPart>> {
         let start = self.style.place(from);
         let is_back = |end: EdgePoint| {
@@ -231,7 +231,7 @@ impl<'a> Ways<'a> {
         self.open_round(ahead.parts, from)
     }
 
-    /// Path round the body or a limb through a point within a piece, as [`Ways::round`].
+    /// Path round the body or a limb through a point inside a piece, as of [`Ways::round`].
     pub fn round_through(&self, PiecePoint { piece, at }: PiecePoint) -> Option<Vec<PathPart>> {
         let down = self.down[piece]?;
         let level = V2::new(-down.y, down.x);
@@ -243,7 +243,7 @@ impl<'a> Ways<'a> {
             next.is_some_and(|next| (self.style.place(next) - start).norm() < BACK_M)
         };
         let mut path = vec![across];
-        // A piece that is sewn to itself closes the path by itself.
+        // A piece that is sewn to itself closes the path alone.
         if is_back(ahead) {
             return Some(path);
         }
@@ -254,7 +254,7 @@ impl<'a> Ways<'a> {
         if came_back { Some(path) } else { self.open_round(path, behind) }
     }
 
-    /// Extends a path that came to a free edge by the part in the other direction from its start.
+    /// Extends a path that ended at a free edge by the part that leads from its start in the other direction.
     fn open_round(&self, mut path: Vec<PathPart>, start: EdgePoint) -> Option<Vec<PathPart>> {
         if let Some(next) = self.across(start) {
             path.extend(self.walk(next, Heading::Level, |_| false)?.parts);

@@ -1,13 +1,13 @@
-//! Evidence of seam lengths. Outlines that differ, and yet are equally long along a seam to a part of a millimetre,
-//! were drafted for each other. So each is what it was taken for.
+//! Evidence of equal lengths: outlines that differ, and yet are equally long along a seam to a fraction of a
+//! millimetre, were drafted for each other. So each is what it was recognised as.
 
 use super::ProposedSeam;
 use super::worn_pieces::Worn;
 use geom::units::mm;
 
-/// Greatest difference of the lengths of sides that were drafted for each other, mm: the rounding of files.
+/// Greatest difference in length of sides that were drafted for each other, mm: the rounding of files.
 const EXACT_MM: f64 = 0.5;
-/// Share of the remaining doubt in a piece that a seam with equal sides removes.
+/// Share of the remaining doubt in a piece that one seam with equal sides removes.
 const GAIN: f64 = 0.3;
 
 /// Raises the confidence of pieces by the equal lengths along the `seams` proposed for them.
@@ -19,8 +19,7 @@ pub fn assured(mut worn: Vec<Worn>, seams: &[ProposedSeam]) -> Vec<Worn> {
     worn
 }
 
-/// Lengths, mm, along which a piece agrees with different pieces. A length that occurs twice, right and left, counts
-/// once.
+/// Lengths along which a piece agrees with others, mm. A length that occurs twice, right and left, counts once.
 fn agreed_mm(piece: &Worn, worn: &[Worn], seams: &[ProposedSeam]) -> Vec<f64> {
     let mut lengths: Vec<f64> = Vec::new();
     for seam in seams.iter().filter(|seam| (seam.a_mm - seam.b_mm).abs() < EXACT_MM) {
@@ -40,7 +39,7 @@ fn pieces<'w>(worn: &'w [Worn], edges: &[String]) -> Vec<&'w Worn> {
     ids.filter_map(|id| worn.iter().find(|piece| piece.id == id)).collect()
 }
 
-/// True if two pieces may be one outline twice, or its mirror image. Equal sides are then no evidence.
+/// True if two pieces may have the same outline, or mirror images of it. Equal sides are then no evidence.
 fn are_alike(worn: &Worn, other: &Worn) -> bool {
     let lengths = |worn: &Worn| {
         let mut lengths: Vec<f64> = worn.edges.iter().map(|edge| mm(edge.length)).collect();

@@ -1,4 +1,6 @@
-//! Alignment of a template with an outline: it labels the edges (hem, side, ...) and scores the fit.
+//! Alignment of a template with an outline: labels its edges (hem, side, ...) and scores the fit.
+//!
+//! The score is the mean of [`goodness`] over the parts of the template, less a penalty for turning the piece.
 
 use super::Label;
 use super::shape::{Section, Shape};
@@ -9,11 +11,11 @@ use geom::V2;
 const PLACE_WEIGHT: f64 = 1.5;
 /// Weight of the turning of a section at corners inside it, per right angle.
 const TURN_WEIGHT: f64 = 0.3;
-/// Weight of the natural logarithm of the ratio of a section's share of the length to the expected one.
+/// Weight of |ln(s / s0)| for a section with the share s of the length and the expected share s0.
 const SHARE_WEIGHT: f64 = 0.2;
-/// Bow at which a curve counts as fully hollow or bulging: a circular segment of about 60 degrees.
+/// Bow at which a curve counts as fully hollow or bulging: about a circular segment of 60 degrees.
 const FULL_BOW: f64 = 0.09;
-/// Weight of a bow in the wrong direction.
+/// Weight of a bow against that of the template.
 const BOW_WEIGHT: f64 = 0.4;
 /// Penalty on the score of a piece that is not upright.
 pub const TURNED: f64 = 0.12;
@@ -23,41 +25,42 @@ pub const TURNED: f64 = 0.12;
 pub struct Labelled {
     /// Kind of edge.
     pub label: Label,
-    /// Index of the corner at which it begins.
+    /// Index of the first corner.
     pub from: usize,
     /// Number of edges.
     pub span: usize,
-    /// True if it lies on the outer side or in the right half as drawn. It matters for a label that the template has
-    /// twice.
+    /// True if the section lies on the outer side, or in the right half as drawn: tells apart two sections with one
+    /// label.
     pub is_right: bool,
 }
 
 /// A template aligned with a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
-    /// Template that fits best.
+    /// Template.
     pub template: Template,
-    /// True if the template was mirrored: the wearer's outer side is on the left of the drawing.
+    /// True if the template was mirrored, so that the wearer's outer side is on the left of the drawing.
     pub is_mirrored: bool,
     /// Number of quarter turns, counter-clockwise, that set the piece upright.
     pub quarter_turns: usize,
     /// Sections of the outline, one for each part of the template, counter-clockwise.
     pub parts: Vec<Labelled>,
-    /// Score of the fit, at most 1.
+    /// Score, at most 1.
     pub score: f64,
 }
 
-/// Least score of an outline that has other evidence, such as its name or other pieces.
+/// Least score of an outline with other evidence, such as its name or the other pieces.
 pub const LEAST_FIT: f64 = 0.35;
 
-/// Best alignment of the selected templates with a shape, as pieces are mostly drawn: upright.
+/// Best alignment of the templates for which `is_one` is true. The piece may be turned, at a penalty: most are drawn
+/// upright.
 #[must_use]
 pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alignment> {
     let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
     align(shape, TEMPLATES.iter().filter(|template| is_one(template)), cost)
 }
 
-/// Best alignment of the templates with a shape. `cost` is the penalty for each number of quarter turns.
+/// Best alignment of some templates with a shape. `cost` is the penalty for a number of quarter turns.
 #[must_use]
 pub fn align<'t>(
     shape: &Shape,
@@ -95,13 +98,14 @@ pub fn align<'t>(
     best
 }
 
-/// Parts of a template, counter-clockwise, mirrored left to right if asked.
+/// Parts of a template, counter-clockwise, mirrored left to right if `is_mirrored`.
 pub fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
     let mut parts = template.parts.to_vec();
     if is_mirrored {
         parts.reverse();
         for part in &mut parts {
-            // A mirrored part is also walked in reverse: its u component changes sign twice, its v component once.
+            // Mirroring reverses u, and walking the mirror image counter-clockwise reverses both: so only v changes its
+            // sign.
             part.direction_deg = -part.direction_deg;
             part.at[0] = 1.0 - part.at[0];
         }
@@ -109,14 +113,14 @@ pub fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
     parts
 }
 
-/// All sections of a framed shape that do not begin or end inside a dart.
+/// All sections of a shape that neither begin nor end inside a dart.
 struct SectionTable {
     edges: usize,
-    /// Sections by first edge, then span minus one. `None` if a dart would be cut.
+    /// Sections by first edge, then span minus one. `None` for one that would cut a dart.
     table: Vec<Vec<Option<Section>>>,
     total: f64,
-    /// Mirror symmetry of the outline, left to right, if it has one: the sum, modulo the number of corners, of a corner
-    /// and its image.
+    /// Mirror symmetry of the outline, left to right: the sum of the indices of a corner and its image, modulo the
+    /// number of corners. `None` if the outline is not symmetric.
     mirror: Option<usize>,
 }
 
@@ -132,9 +136,9 @@ impl SectionTable {
         Self { edges: n, table: (0..n).map(row).collect(), total, mirror: shape.mirror() }
     }
 
-    /// Best partition of the outline into the parts, with its mean goodness. If outline and template are both
-    /// symmetric, the partition is as well. Otherwise half of a neckline that rises in the middle would be taken for a
-    /// shoulder.
+    /// Best partition of the outline into the parts, with its mean goodness. `None` if there are more parts than edges.
+    /// The partition is symmetric if outline and template are: otherwise half of a neckline that rises in the middle
+    /// would pass for a shoulder.
     fn best(&self, parts: &[Part], size: V2) -> Option<Cut> {
         let n = self.edges;
         if n < parts.len() {
@@ -153,9 +157,9 @@ impl SectionTable {
     }
 }
 
-/// A partition of an outline into parts.
+/// Partition of an outline into parts.
 struct Cut {
-    /// Sum or mean of the goodness of its parts.
+    /// Sum or mean of the goodness of the parts.
     goodness: f64,
     /// Edges of each part.
     runs: Vec<Run>,
@@ -170,19 +174,19 @@ struct Run {
     span: usize,
 }
 
-/// First of the best partitions.
+/// Best partition, the first of equals.
 fn greatest(cuts: impl Iterator<Item = Option<Cut>>) -> Option<Cut> {
     cuts.flatten().reduce(|best, cut| if cut.goodness > best.goodness { cut } else { best })
 }
 
-/// True if parts are their own mirror image: the first and the one half-way round lie on the axis, the others in pairs
-/// beside it.
+/// True if parts are their own mirror image: the first part and the one half-way round lie on the axis, the others are
+/// pairs.
 fn is_symmetric(parts: &[Part]) -> bool {
     let n = parts.len();
     n.is_multiple_of(2) && (1..n).all(|k| parts[k].label == parts[n - k].label && parts[k].at[1] == parts[n - k].at[1])
 }
 
-/// Best symmetric partition that begins at a corner. `mirror` is the sum of a corner and its image.
+/// Best symmetric partition that begins at a corner. `mirror` is the sum of the indices of a corner and its image.
 fn symmetric_from(start: usize, mirror: usize, values: &[Values]) -> Option<Cut> {
     let (n, half) = (values.first()?.len(), values.len() / 2);
     // Number of edges from a corner to its image.
@@ -205,18 +209,18 @@ fn symmetric_from(start: usize, mirror: usize, values: &[Values]) -> Option<Cut>
     greatest(ends)
 }
 
-/// Goodness of every section for one part, by first edge, then span minus one.
+/// Goodness of each section for one part, by first edge, then span minus one.
 type Values = Vec<Vec<Option<f64>>>;
 
-/// Dynamic programming over the number of edges used since a corner.
+/// State of the dynamic programming over the number of edges used since a corner.
 struct Reached {
     /// Index of the corner at which the first part begins.
     start: usize,
     /// Number of edges.
     edges: usize,
-    /// Best sum of all parts, by the number of edges used.
+    /// Best sum of all parts so far, by the number of edges used.
     sums: Vec<Option<f64>>,
-    /// Span of each part in the best sum up to it, by the number of edges used.
+    /// For each part, its span in the best sum, by the number of edges used.
     spans: Vec<Vec<usize>>,
 }
 
@@ -246,7 +250,7 @@ impl Reached {
         Self { start, edges: n, sums, spans }
     }
 
-    /// Best partition of the first `used` edges from the corner.
+    /// Best partition of the first `used` edges after the corner.
     fn cut(&self, mut used: usize) -> Option<Cut> {
         let sum = (*self.sums.get(used)?)?;
         let mut runs = Vec::new();
@@ -260,7 +264,8 @@ impl Reached {
     }
 }
 
-/// Goodness of a section for a part, at most 1.
+/// Goodness of a section for a part, at most 1: cosine of the angle between both directions, less weighted penalties
+/// for place, turning, length and bow.
 fn goodness(section: &Section, part: &Part, size: V2, total: f64) -> f64 {
     let direction = part.direction_deg.to_radians();
     let along = section.chord.try_normalize(1e-9).map_or(-1.0, |c| c.dot(&V2::new(direction.cos(), direction.sin())));

@@ -1,4 +1,4 @@
-//! Questions to the user: facts that could not be determined, possible answers, and the answers given.
+//! Questions to the user about what could not be determined, with their possible answers and the answers given.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,19 +6,19 @@ use std::fmt;
 /// A question that the user should decide.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Question {
-    /// Number by which it is answered.
+    /// Number by which the user refers to the question.
     pub number: usize,
     /// Text of the question.
     pub text: String,
-    /// Possible answers, the likeliest first. Empty if only an edit of the seam file helps.
+    /// Possible answers, the likeliest first. Empty if only an edit of the seam file can settle the question.
     pub choices: Vec<String>,
-    /// Choice in effect: the answer of the user, or the default without one.
+    /// Index of the choice in effect: the user's answer, or else the default. `None` without either.
     pub taken: Option<usize>,
     /// True if the user answered.
     pub is_answered: bool,
 }
 
-/// An answer to a question or choice that does not exist.
+/// Error: an answer to a question, or with a choice, that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("answer {number}={letter}: accepted: {accepted}")]
 pub struct UnknownAnswer {
@@ -30,7 +30,7 @@ pub struct UnknownAnswer {
     pub accepted: String,
 }
 
-/// Numbers questions in the order in which they were first asked. `known` are the texts of all earlier ones.
+/// Numbers questions in the order in which they were first asked. `known` are the texts of all questions so far.
 pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
     for question in questions.iter_mut() {
         let place = known.iter().position(|text| *text == question.text);
@@ -42,7 +42,7 @@ pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
     questions.sort_by_key(|question| question.number);
 }
 
-/// Answers by the text of their question, as the index of the choice.
+/// Answers: text of the question, index of the choice.
 pub type Answers = BTreeMap<String, usize>;
 
 impl Question {
@@ -51,7 +51,7 @@ impl Question {
         Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false }
     }
 
-    /// Parses the text form of a question.
+    /// Parses a question as `Display` writes it.
     #[must_use]
     pub fn parse(written: &str) -> Self {
         let mut question = Self::told(written.to_owned());
@@ -97,19 +97,19 @@ impl fmt::Display for Question {
     }
 }
 
-/// Asks questions: looks up given answers, and collects the questions.
+/// Asks questions: looks up the answers given, and collects the questions.
 pub(super) struct Asker<'a> {
     answers: &'a Answers,
     asked: Vec<Question>,
 }
 
 impl<'a> Asker<'a> {
-    /// Makes an asker with given answers.
+    /// Makes an asker with some answers.
     pub fn new(answers: &'a Answers) -> Self {
         Self { answers, asked: Vec::new() }
     }
 
-    /// Makes an asker with the same answers for a trial whose questions are discarded.
+    /// Makes an asker with the same answers, for a trial whose questions are discarded.
     pub fn aside(&self) -> Self {
         Self::new(self.answers)
     }
@@ -129,14 +129,14 @@ impl<'a> Asker<'a> {
         self.keep(Question::told(text));
     }
 
-    /// Collects a question. A question that concerns both sides of the wearer is asked once.
+    /// Collects a question, once if it is asked for the right and the left side.
     fn keep(&mut self, question: Question) {
         if !self.asked.iter().any(|asked| asked.text == question.text) {
             self.asked.push(question);
         }
     }
 
-    /// Returns the choice of the user, or the default `stands` without an answer.
+    /// Returns the choice of the user, or without an answer the default `stands`.
     pub fn ask<S: Into<String>>(
         &mut self,
         text: String,

@@ -1,14 +1,15 @@
-//! Detection of the side of a drawn sleeve by its cap. The front half is hollower, because the arm reaches forwards.
+//! Detection of the arm for which a sleeve is drawn, by its cap: the front half is hollower, because the arm reaches
+//! forwards.
 
 use super::recognise::Recognised;
 use super::{Class, Hand, Label};
 use geom::V2;
 
-/// Relative difference of the areas under both halves of a cap below which they count as equal.
+/// Relative difference of the areas under both halves of a cap below which the halves count as equal.
 const ALIKE: f64 = 0.02;
 
-/// Side of the arm for which a whole sleeve is drawn. If its halves are equal it may be either, and the right one is
-/// taken.
+/// Arm for which a whole sleeve is drawn. A sleeve with equal halves may serve either, and counts as right. `None`
+/// without a whole sleeve.
 pub fn drawn_sleeve(recognised: &[Recognised], notes: &mut Vec<String>) -> Option<Hand> {
     let is_whole = |candidate: &&Recognised| {
         candidate.class == Class::Sleeve && candidate.alignment.template.is_whole && candidate.hand.is_none()
@@ -25,7 +26,7 @@ pub fn drawn_sleeve(recognised: &[Recognised], notes: &mut Vec<String>) -> Optio
     Some(hand)
 }
 
-/// Areas between a cap and its chord, left and right of the midpoint of the chord, in the frame of the upright piece.
+/// Areas between a cap and its chord left and right of the midpoint of the chord, of the upright piece.
 fn halves(sleeve: &Recognised) -> Option<[f64; 2]> {
     let (shape, _) = sleeve.shape.framed(sleeve.alignment.quarter_turns);
     let cap = sleeve.alignment.parts.iter().find(|part| part.label == Label::Cap)?;
@@ -38,7 +39,7 @@ fn halves(sleeve: &Recognised) -> Option<[f64; 2]> {
         points.iter().map(|p| V2::new(along.dot(&(p - from)) - half, along.perp(&(p - from)))).collect();
     let mut areas = [0.0; 2];
     for ends in local.windows(2) {
-        // Counter-clockwise the cap runs from right to left, so it lies below its directed chord.
+        // Counter-clockwise, the cap runs from right to left, so it lies to the right of its directed chord.
         let (a, b) = (ends[0], ends[1]);
         for (k, side) in [1.0, -1.0].into_iter().enumerate() {
             let clipped = |p: V2| p.x * side > 0.0;

@@ -10,14 +10,14 @@ use crate::piece::Piece;
 
 /// Greatest number of combinations of pieces that are tried.
 const MOST_COMBINATIONS: usize = 256;
-/// Ratio of the length of a waistband to that of all edges it is sewn to, for a band all round. It may have an underlap
-/// or be eased.
+/// Ratio of the length of a waistband to that of all edges that it is sewn to, for a band all round. It may have an
+/// underlap or be eased.
 const ROUND: std::ops::RangeInclusive<f64> = 0.8..=1.35;
-/// The same ratio for half a waistband.
+/// As [`ROUND`], for half a waistband.
 const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 
-/// Selects the pieces of a garment, one for each place. Of several candidates it is the one that the user names, or the
-/// one whose edges fit its neighbours best.
+/// Selects the pieces of a garment, one for each place: of several candidates the user's choice, or else the one whose
+/// edges fit its neighbours best.
 pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Asker<'_>) -> Vec<Recognised> {
     leave_out_sleeves_in_two(pieces, &mut recognised, asker);
     leave_out_half_sleeves(pieces, &mut recognised, asker);
@@ -32,7 +32,7 @@ pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Ask
     let mut taken = best_of(pieces, &recognised, &contested, asker);
     for (k, (place, rivals)) in places.iter().enumerate() {
         let names: Vec<&str> = rivals.iter().map(|&rival| pieces[recognised[rival].piece].name.as_str()).collect();
-        // Identifiers have no word for the trunk.
+        // The identifier of a trunk piece does not say trunk.
         let place = if place.is_empty() { Class::Body.as_str().to_owned() } else { place.replace('_', " ") };
         let text = format!("which piece is the {place}?");
         taken[k] = asker.ask(text, names, Some(taken[k])).unwrap_or(taken[k]);
@@ -42,7 +42,7 @@ pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Ask
     left
 }
 
-/// Asks which waistband is worn if there are more than fit round the waist.
+/// Asks which waistband is worn, if there are more than fit round the waist.
 fn ask_band(pieces: &[Piece], all: &[Recognised], left: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let bands: Vec<&Recognised> = all.iter().filter(|candidate| is_round_band(candidate)).collect();
     let is_left = |band: &&Recognised| left.iter().any(|candidate| candidate.piece == band.piece);
@@ -56,7 +56,7 @@ fn ask_band(pieces: &[Piece], all: &[Recognised], left: &mut Vec<Recognised>, as
     }
 }
 
-/// Best candidate for each contested place: those whose edges fit their neighbours best, and of equals the first.
+/// Best candidate for each contested place: the one whose edges fit its neighbours best, or the first of equals.
 fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], asker: &Asker<'_>) -> Vec<usize> {
     let count = contested.iter().fold(1_usize, |count, rivals| count.saturating_mul(rivals.len()));
     let mut best = (f64::NEG_INFINITY, vec![0; contested.len()]);
@@ -80,7 +80,7 @@ fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], aske
     best.1
 }
 
-/// Pieces that remain if each contested place has one of its candidates. Waistbands are arranged.
+/// Pieces that remain if each contested place has one of its candidates, with waistbands arranged.
 fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<Recognised> {
     let chosen =
         |index: usize| contested.iter().zip(taken).all(|(rivals, &k)| !rivals.contains(&index) || rivals[k] == index);
@@ -90,8 +90,8 @@ fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<R
     left
 }
 
-/// Removes an upper and an under sleeve. No outline tells where their seams meet the armhole, and one of them alone is
-/// no sleeve.
+/// Leaves out upper and under sleeves. Outlines do not show where their seams meet the armhole, and either alone is no
+/// sleeve.
 fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_whole_sleeve = |candidate: &&Recognised| candidate.class == Class::Sleeve && candidate.face.is_none();
     let whole: Vec<&Recognised> = recognised.iter().filter(is_whole_sleeve).collect();
@@ -106,7 +106,7 @@ fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, 
     }
 }
 
-/// Removes half sleeves if there is a whole one: they are another way to cut it.
+/// Leaves out half sleeves if there is a whole one: files may hold both variants.
 fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_half = |candidate: &Recognised| candidate.class == Class::Sleeve && candidate.face.is_some();
     let has_whole = recognised.iter().any(|candidate| candidate.class == Class::Sleeve && !is_half(candidate));
@@ -123,13 +123,14 @@ fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, as
     }
 }
 
-/// True for a waistband whose name gives neither a side nor a face.
+/// True for a waistband whose name gives neither a side nor front or back.
 fn is_round_band(candidate: &Recognised) -> bool {
     candidate.class == Class::Waistband && candidate.face.is_none() && candidate.hand.is_none()
 }
 
-/// Arranges waistbands without a side or a face by the ratio of their length to that of the edges they are sewn to.
-/// There may be one all round, two for the right and left side, or one that is cut twice. Further bands are dropped.
+/// Arranges waistbands whose names give neither a side nor front or back: one all round, a right and a left one, or one
+/// that is cut twice. The ratio of their length to that of the edges that they are sewn to decides. Further bands are
+/// dropped.
 fn go_round(chosen: &mut Vec<Recognised>) {
     let bands: Vec<usize> = (0..chosen.len()).filter(|&i| is_round_band(&chosen[i])).collect();
     let waist = waist_m(chosen);
@@ -138,7 +139,8 @@ fn go_round(chosen: &mut Vec<Recognised>) {
     }
     let share = |i: usize| length_m(&chosen[i], Label::Lower) / waist;
     let halves: Vec<usize> = bands.iter().copied().filter(|&i| HALF.contains(&share(i))).collect();
-    // Candidate arrangements, each with its total ratio and its bands. Two different halves come before one cut twice.
+    // Candidate arrangements, each with its total ratio and its bands. Two different halves come before one that is cut
+    // twice.
     let two = halves.iter().enumerate().flat_map(|(k, &i)| halves[k + 1..].iter().map(move |&j| vec![i, j]));
     let two = two.map(|pair| (pair.iter().map(|&i| share(i)).sum::<f64>(), pair));
     let single = bands.iter().map(|&i| (share(i), vec![i]));
@@ -159,8 +161,8 @@ fn go_round(chosen: &mut Vec<Recognised>) {
     });
 }
 
-/// Total length of the edges that a waistband is sewn to, as worn, m. They are those of skirt or legs, or else the
-/// lower edge of a trunk.
+/// Total length of the edges that a waistband is sewn to, as worn, m: those of skirt or legs, or else the lower edge of
+/// the trunk.
 fn waist_m(chosen: &[Recognised]) -> f64 {
     let total_m = |class: Class, label: Label| -> f64 {
         let copies = |candidate: &Recognised| match candidate.gore {

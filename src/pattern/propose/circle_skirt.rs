@@ -6,7 +6,7 @@ use super::align::{Alignment, Labelled};
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 
-/// Least angle of a sector, degrees. A flared skirt has less.
+/// Least angle of a sector, degrees. A flared skirt has a smaller one.
 const LEAST_TURN_DEG: f64 = 60.0;
 /// Greatest relative difference of the two straight edges.
 const SIDE_DIFFERENCE: f64 = 0.02;
@@ -15,18 +15,18 @@ const STRAIGHT_BOW: f64 = 0.01;
 /// Confidence in a sector whose name says skirt.
 pub const CONFIDENCE: f64 = 0.9;
 
-/// Reads an outline as an annular sector. Its hem is the longer arc, its waist the shorter, hollow one, and its sides
-/// are straight.
+/// Reads an outline as an annular sector: the longer arc is its hem, the shorter, hollow arc its waist, and its sides
+/// are straight. `None` for another outline.
 #[must_use]
 pub fn read(shape: &Shape) -> Option<Alignment> {
     if shape.len() != 4 || !shape.darts().is_empty() {
         return None;
     }
-    // The hem bulges outwards; the other three edges follow counter-clockwise.
+    // The hem bulges outwards. The other three edges follow counter-clockwise.
     let hem = (0..4).max_by(|&i, &j| shape.length(i).total_cmp(&shape.length(j)))?;
     let [side, waist, other_side] = [1, 2, 3].map(|k| (hem + k) % 4);
     let turn = |edge: usize| {
-        // The angle of an arc follows from the ratio of its length to its chord.
+        // Angle of the arc, by the ratio of length to chord.
         let section = shape.section(edge, 1);
         let arc_over_chord = section.length / section.chord.norm().max(f64::MIN_POSITIVE);
         (section.bow, turn_of(arc_over_chord))
@@ -59,9 +59,9 @@ pub fn read(shape: &Shape) -> Option<Alignment> {
     })
 }
 
-/// Angle, radians, of a circular arc with a given ratio of arc to chord.
+/// Angle of a circular arc with a given ratio of arc to chord, radians.
 fn turn_of(arc_over_chord: f64) -> f64 {
-    // arc / chord = t / sin t, where t is half the angle. It increases with t.
+    // arc / chord = t / sin t for half the angle t, which increases with t.
     let (mut low, mut high) = (0.0, std::f64::consts::PI * 0.999);
     for _ in 0..60 {
         let t = 0.5 * (low + high);

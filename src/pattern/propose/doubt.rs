@@ -1,9 +1,9 @@
-//! Doubt about names that outlines and seams contradict. A name holds unless the garment is sewn better without it.
+//! Doubt about names that outlines and seams contradict.
 //!
 //! A name may contain a garment term by chance: a T-shirt called `ROCK` is no German skirt. If a piece looks like
-//! another kind than its name says, the garment is sewn both ways, and the one with more confidence is taken. The user
-//! is asked about the name of a single piece. Words that all names of the file share belong to the style, and are
-//! ignored without a question.
+//! another kind than its name says, the garment is sewn both ways, and the reading with more confidence counts. The
+//! user is asked if the name is that of a single piece. Words that all names of the file share belong to the style, and
+//! are set aside without a question.
 
 use super::align::upright;
 use super::ask::Asker;
@@ -15,33 +15,32 @@ use super::told::Told;
 use super::{Class, Face, Hand, ProposedSeam, Sewn, best_sewn};
 use crate::piece::Piece;
 
-/// Kinds with a characteristic shape, which can contradict a name. Bands and skirts are rectangles, like many other
-/// pieces.
+/// Kinds with a characteristic shape, which can contradict a name. Bands and skirts are rectangles, like much else.
 const SHAPED: [Class; 3] = [Class::Body, Class::Leg, Class::Sleeve];
-/// Least gain, in the sum of confidences less the number of missing seams, for which names are set aside: half a seam.
-/// Pieces without names are less certain anyway.
+/// Least gain in worth (the sum of confidences less the number of missing seams) for which names are set aside: half a
+/// seam. Pieces without names have less confidence anyway.
 const LEAST_GAIN: f64 = 0.5;
-/// Loss in the same sum up to which a claim that is set aside is restored.
+/// Loss in worth up to which a claim that was set aside is restored.
 const NO_LOSS: f64 = 0.05;
-/// Least advantage in the fit of another kind for doubting a word that all names share. It is lower than that for the
-/// own name of a piece.
+/// Least advantage in fit of another kind for a word that all names share to be doubted. Such a word is weaker evidence
+/// than the name of a single piece.
 const SHARED_MARGIN: f64 = 0.1;
-/// Least confidence of all seams of a piece for its name to be trusted.
+/// Least confidence of every seam of a piece for its name to be trusted.
 const WELL_SEWN: f64 = 0.5;
 
 /// Statement of a name that may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Says {
-    /// The kind of piece, though it looks like this other kind.
+    /// Kind of piece. The outline looks like the given other kind.
     Class(Class),
-    /// Front or back, though it looks like a sleeve, or no piece is called the other.
+    /// Front or back. The piece looks like a sleeve, or no piece is called the other.
     Face,
-    /// Side of the wearer, though no piece is called the other.
+    /// Side of the wearer. No piece is called the other.
     Hand,
 }
 
-/// A doubtful statement of the names of some pieces, which holds for all of them or none. It is about one piece by its
-/// own name, or about several by shared words.
+/// Doubtful statement of names, true for all of its pieces or none: of one piece by its name, or of several by shared
+/// words.
 #[derive(Clone, Debug, PartialEq)]
 struct Claim {
     pieces: Vec<usize>,
@@ -49,7 +48,7 @@ struct Claim {
     is_own: bool,
 }
 
-/// Names of pieces without the statements that do not hold, and the best reading.
+/// Statements of names without the claims that do not hold, and the best reading of the pieces.
 pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<Named>, Reading) {
     let all: Vec<Named> = told.iter().map(|told| told.all()).collect();
     let as_called = best_sewn(pieces, &all, asker);
@@ -74,7 +73,7 @@ struct ClaimQuestion {
     choices: [String; 2],
 }
 
-/// Question about a claim that is set aside: the statement of the name, and the alternative.
+/// Question about a claim that is set aside: what the name says, or the alternative.
 fn question(name: &str, named: Named, says: Says) -> ClaimQuestion {
     match says {
         Says::Class(looks) => {
@@ -115,9 +114,9 @@ fn without(all: &[Named], claims: &[Claim], aside: &[bool]) -> Vec<Named> {
     named
 }
 
-/// Finds the claims to set aside: those without which the seams have more confidence.
+/// True for each claim to set aside: without it the seams have more confidence.
 fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, asker: &Asker<'_>) -> Vec<bool> {
-    // Setting a claim aside has an effect only if its piece is then sewn to others, and differs from its name.
+    // Setting a claim aside must make its piece another kind, and sewn to other pieces. Otherwise it is of no use.
     let is_vain = |sewn: &Sewn, claim: &Claim| {
         let is_otherwise = |&piece: &usize| {
             let class = sewn.worn.iter().find(|worn| worn.piece == piece).map(|worn| worn.class);
@@ -141,7 +140,7 @@ fn aside(pieces: &[Piece], all: &[Named], claims: &[Claim], as_called: &Sewn, as
             (aside, best) = (trial, found);
         }
     }
-    // Each claim is then toggled alone: it is restored if setting it aside was needless, or set aside if that helps.
+    // Each claim is then changed alone: restored if setting it aside was needless, or set aside if that helps.
     for k in 0..claims.len() {
         aside[k] = !aside[k];
         let changed = worth_of(&aside);
@@ -160,7 +159,7 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
     let faces: Vec<Face> = worn.iter().filter_map(|named| named.face).collect();
     let is_one_face = faces.len() > 1 && faces.iter().all(|face| *face == faces[0]);
     let is_alone = |hand: Hand| worn.iter().all(|named| named.hand != Some(hand.other()));
-    // One of several pieces for one place is worn.
+    // Of several pieces for one place, one is worn.
     let is_spare = |k: usize| {
         let is_rival = |other: usize| (all[other].class, all[other].face) == (all[k].class, all[k].face);
         (0..all.len()).any(|other| well_sewn[other] && is_rival(other))
@@ -209,7 +208,7 @@ fn doubtful(pieces: &[Piece], told: &[Told], all: &[Named], well_sewn: &[bool]) 
     claims
 }
 
-/// True for each piece that is sewn to others with sufficient confidence.
+/// True for each piece whose seams all have sufficient confidence.
 fn well_sewn(pieces: &[Piece], sewn: &Sewn) -> Vec<bool> {
     let is_well_sewn = |piece: usize| {
         let own = seams_of(sewn, piece);
@@ -227,7 +226,7 @@ fn edges_of(seam: &ProposedSeam) -> impl Iterator<Item = &String> {
 /// A seam with the pieces that it joins.
 struct JoinedSeam<'s> {
     seam: &'s ProposedSeam,
-    /// Indices of the pieces, once for each edge.
+    /// Index of the piece of each edge.
     pieces: Vec<usize>,
 }
 
@@ -241,7 +240,7 @@ fn seams_of(sewn: &Sewn, piece: usize) -> Vec<JoinedSeam<'_>> {
     sewn.seams.iter().map(joined).filter(|joined| joined.pieces.contains(&piece)).collect()
 }
 
-/// Kind of piece whose templates fit best, and its score.
+/// Kind of piece whose templates fit best, with the score.
 fn best_of(shape: &Shape, classes: &[Class]) -> (Class, f64) {
     let fit = |class: Class| {
         let is_one = |template: &Template| template.class == class && !template.is_panel();

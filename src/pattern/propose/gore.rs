@@ -2,7 +2,7 @@
 //!
 //! A piece is a gore if its name says skirt or gore, neither front nor back, and three or more are cut in all. All
 //! other pieces must then be bands and details. Equal panels are gores as well. A pair cut for left and right
-//! alternates with its mirror image.
+//! alternates with its mirror image round the skirt.
 
 use super::names::Named;
 use super::{Class, PartName};
@@ -11,23 +11,23 @@ use geom::polyline::{perimeter, signed_area};
 
 /// Fewest gores of a skirt.
 const LEAST: u32 = 3;
-/// Greatest quantity that is believed.
+/// Greatest plausible quantity.
 const MOST: u32 = 40;
-/// Greatest relative difference of area and perimeter of equal panels.
+/// Greatest relative difference of area and of perimeter between equal panels.
 const ALIKE: f64 = 0.05;
 
 /// Number of copies of a piece: as drawn, and as its mirror image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cut {
-    /// Copies cut as drawn.
+    /// Number of copies as drawn.
     pub plain: u32,
-    /// Copies cut as its mirror image.
+    /// Number of mirrored copies.
     pub mirrored: u32,
 }
 
 impl Cut {
-    /// Parses a quantity of pattern files: one number, or those of left and right. Without one, or with zero, it is a
-    /// single copy.
+    /// Parses a quantity of pattern files: one number, or the numbers of left and right. A missing or zero quantity is
+    /// one.
     fn of(piece: &Piece) -> Self {
         let text = piece.quantity.as_deref().unwrap_or_default();
         let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
@@ -42,15 +42,15 @@ impl Cut {
         self.plain.saturating_add(self.mirrored)
     }
 
-    /// Copies in the order in which they are sewn: true for a mirror image.
+    /// Copies in the order of sewing: true for a mirrored one.
     pub fn copies(self) -> impl Iterator<Item = bool> {
-        // A pair alternates, so that equal sides meet.
+        // Pairs alternate, so that equal sides meet.
         let is_pair = self.plain == self.mirrored;
         (0..self.times()).map(move |k| if is_pair { k % 2 == 1 } else { k >= self.plain })
     }
 }
 
-/// Quantities of the pieces that are gores. `None` for other pieces.
+/// Quantities of the pieces that are gores. `None` for any other piece.
 pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
     let is_plain = |named: &Named| match named.class {
         Some(Class::Waistband | Class::Other) => true,
@@ -58,7 +58,7 @@ pub fn gores(pieces: &[Piece], named: &[Named]) -> Vec<Option<Cut>> {
         _ => false,
     };
     let are_plain = named.iter().all(is_plain);
-    // The word panel alone is weak evidence: panels must also be alike.
+    // The word panel alone is weak evidence: the panels must also be alike.
     let of_panels = pieces.iter().zip(named).filter(|(_, named)| named.part == Some(PartName::Panel));
     let are_alike = alike(of_panels.map(|(piece, _)| piece));
     let is_gore = |named: &Named| {

@@ -1,21 +1,20 @@
 //! Placement of the ends of edges by the lengths of their seam partners.
 //!
-//! A vent, a step at a hem or a shifted seam puts corners near each other. The outline alone does not tell at which of
-//! them the side ends and the armhole begins. The other piece does, because sides that are sewn together are equally
-//! long.
+//! A vent, a step at a hem or a shifted seam puts corners near each other. The outline alone does not show at which of
+//! these the side ends and the armhole begins. The partner does, because both sides of a seam are equally long.
 
 use super::ask::Asker;
 use super::recognise::Recognised;
 use super::{sew, worn_pieces};
 use crate::piece::Piece;
 
-/// Greatest length that is moved from one edge to its neighbour, as a share of the shorter.
+/// Greatest length moved from one edge to its neighbour, as a share of the shorter edge.
 const MOVED_SHARE: f64 = 0.2;
-/// Least gain in the sum of the confidences of all seams for a change.
+/// Least gain in the sum of the confidences of all seams for which an end is moved.
 const GAIN: f64 = 0.05;
 /// Greatest number of corners by which an end of an edge is moved.
 const MOST_CORNERS: usize = 3;
-/// Greatest number of changes.
+/// Greatest number of moved ends.
 const MOST_CHANGES: usize = 16;
 
 /// Moves ends of edges to other corners while this raises the confidence of the seams of the whole garment.
@@ -44,7 +43,7 @@ fn agreement(pieces: &[Piece], recognised: &[Recognised], asker: &Asker<'_>) -> 
     sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
 }
 
-/// Variants of a piece with the end of one edge, or of the two equal edges of both sides, at another corner.
+/// Variants of a piece with the end of one edge, or of two equal edges on both sides, at another corner.
 fn changes(candidate: &Recognised) -> Vec<Recognised> {
     let parts = &candidate.alignment.parts;
     let n = parts.len();
@@ -53,7 +52,7 @@ fn changes(candidate: &Recognised) -> Vec<Recognised> {
         for corners in 1..=MOST_CORNERS {
             for is_longer in [true, false] {
                 let Some(changed) = moved(candidate, first, corners, is_longer) else { continue };
-                // If the piece has the same two edges on its other side, in reverse order, they are moved too.
+                // If the other side of the piece has the same two edges in reverse order, they are moved too.
                 let (label, next) = (parts[first].label, parts[(first + 1) % n].label);
                 let twin = (0..n).find(|&k| k != first && parts[k].label == next && parts[(k + 1) % n].label == label);
                 all.extend(twin.and_then(|twin| moved(&changed, twin, corners, !is_longer)));
@@ -64,7 +63,7 @@ fn changes(candidate: &Recognised) -> Vec<Recognised> {
     all
 }
 
-/// Variant of a piece with the end of an edge moved by some corners, forwards or backwards.
+/// Variant of a piece with the end of an edge moved by some corners, forwards if `is_longer`.
 fn moved(candidate: &Recognised, first: usize, corners: usize, is_longer: bool) -> Option<Recognised> {
     let (shape, n) = (&candidate.shape, candidate.shape.len());
     let second = (first + 1) % candidate.alignment.parts.len();

@@ -1,8 +1,8 @@
-//! Proposal of a seam file for the pieces of one size: the kind of each piece, and the seams.
+//! Proposal of a seam file for the pieces of one size: kind of each piece, and seams.
 //!
 //! Names are read first (`told`, `names`). The outline of every piece is aligned with templates (`align`), which labels
-//! its edges. Then matching edges are sewn (`sew`). Equal lengths raise the confidence in the pieces (`agree`). Every
-//! piece and seam has a confidence, and each doubt becomes a question to the person who edits the file.
+//! its edges. Then matching edges are sewn (`sew`), and equal lengths raise the confidence in the pieces (`agree`).
+//! Every piece and seam has a confidence, and each doubt becomes a question to the user.
 
 mod agree;
 mod align;
@@ -51,7 +51,7 @@ use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
 
-/// Least gain in the worth of a garment for a less likely reading of its pieces: about one seam.
+/// Least gain in [`Sewn::worth`] for a less likely reading of the pieces to be taken: about one seam.
 const SURER: f64 = 1.0;
 
 /// Kind of a piece.
@@ -68,14 +68,13 @@ pub enum Class {
     Sleeve,
     /// Front or back of a skirt.
     Skirt,
-    /// Yoke: the part of a front or back over the shoulder, or of a leg or skirt below the waist, that is cut
-    /// separately.
+    /// Yoke: separately cut part of a front or back over the shoulder, or of a leg or skirt below the waist.
     Yoke,
     /// Band round the waist of a skirt or trousers.
     Waistband,
     /// Band at the end of a sleeve.
     Cuff,
-    /// Anything else: it is in no proposed seam.
+    /// Anything else, in no proposed seam.
     Other,
 }
 
@@ -174,7 +173,7 @@ pub enum Label {
     Side,
     /// Princess seam: between a side panel and the panel in the middle.
     Princess,
-    /// Armhole; of a raglan, the whole edge up to the neck.
+    /// Armhole. Of a raglan, the whole edge up to the neck.
     Armhole,
     /// Seam over the shoulder.
     Shoulder,
@@ -190,7 +189,7 @@ pub enum Label {
     Inseam,
     /// Seat seam, from the waist to the fork.
     Crotch,
-    /// Edge of a sleeve that meets the armhole; of a raglan sleeve, either side of its neck.
+    /// Edge of a sleeve that meets the armhole. Of a raglan sleeve, either edge beside its neck.
     Cap,
     /// Lower lengthwise edge of a sleeve.
     Underarm,
@@ -225,7 +224,7 @@ impl Label {
     }
 }
 
-/// Part of a kind of piece, as names give it.
+/// Part of a kind of piece that names tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PartName {
     /// Under sleeve: the piece below the arm of a sleeve in two.
@@ -268,7 +267,7 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
     }
 }
 
-/// Roles of pieces by their names alone, for files that hold their seams.
+/// Roles of pieces by their names alone, for files that have their seams.
 pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
     let named: Vec<Named> = names.iter().map(|name| names::read(name)).collect();
     let is_below = |named: &Named| matches!(named.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
@@ -279,15 +278,15 @@ pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
 /// Proposed meaning of a drawn piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedPiece {
-    /// Identifier in the seam file. `None` if it is in no seam.
+    /// Identifier in the seam file. `None` for a piece in no seam.
     pub id: Option<String>,
     /// Name in the file.
     pub name: String,
-    /// Kind. `None` if it was not recognised.
+    /// Kind. `None` if the piece was not recognised.
     pub class: Option<Class>,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer. `None` for a piece of both sides.
+    /// Side of the wearer. `None` for a piece on both sides.
     pub hand: Option<Hand>,
     /// Confidence, from 0 (guessed) to 1 (certain).
     pub confidence: f64,
@@ -299,7 +298,7 @@ pub struct ProposedSeam {
     /// Entry of the seam file.
     #[serde(flatten)]
     pub entry: SeamEntry,
-    /// Kind of the seam. Its text is the name of the entry.
+    /// Kind of the seam, of which the name of the entry is the text.
     #[serde(skip)]
     pub kind: SeamKind,
     /// Length of side `a`, mm.
@@ -331,13 +330,13 @@ pub struct Proposal {
     pub questions: Vec<Question>,
     /// Notes on what was left out or assumed without a question.
     pub notes: Vec<String>,
-    /// Size that it was made on, if it was checked against others.
+    /// Size that the proposal was made on. `None` if it was checked against no other size.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
     /// Seam allowance that was added to the pieces, m.
     #[serde(skip)]
     pub allowance_m: f64,
-    /// Pieces of the seam file.
+    /// Pieces as worn.
     #[serde(skip)]
     worn: Vec<Worn>,
 }
@@ -356,8 +355,7 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
     propose_told(pieces, &Answers::new())
 }
 
-/// Proposes as [`propose`] does, with answers of the user by the text of their question. Answers to other questions are
-/// ignored.
+/// Proposes as [`propose`] does, with answers of the user. Answers to questions that are not asked are ignored.
 #[must_use]
 pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
     let mut proposal = with_answers(pieces, answers);
@@ -365,8 +363,8 @@ pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
     proposal
 }
 
-/// Proposes as [`propose`] does, with answers of the user as number of the question and letter of the choice, in the
-/// order given. A question that an answer raises is numbered after those that were asked before.
+/// Proposes as [`propose`] does, with answers of the user in the order given, each as number of the question and letter
+/// of the choice. Questions that an answer raises are numbered after the earlier ones.
 ///
 /// # Errors
 /// [`UnknownAnswer`] if there is no such question or choice.
@@ -390,7 +388,7 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// Pieces as worn and the seams between them, under one reading.
+/// Pieces as worn under one reading, and the seams between them.
 struct Sewn {
     reading: Reading,
     worn: Vec<Worn>,
@@ -398,14 +396,14 @@ struct Sewn {
 }
 
 impl Sewn {
-    /// Worth: the sum of the confidences of its seams, less one for each missing seam.
+    /// Sum of the confidences of the seams, less one for each missing seam.
     fn worth(&self) -> f64 {
         let sum: f64 = self.seams.iter().map(|seam| seam.confidence).sum();
         sum - wear::lacking(&self.worn, &self.seams).len() as f64
     }
 }
 
-/// Best reading of the pieces by its worth, without questions.
+/// Reading of the pieces with the greatest worth, made without asking.
 fn best_sewn(pieces: &[Piece], named: &[Named], asker: &Asker<'_>) -> Sewn {
     let ways = Reading::ways(pieces, named);
     let (&first, rest) = ways.split_first().expect("there is always one way");
@@ -444,7 +442,7 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let recognised = recognise::recognise(pieces, &named, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
-    // The side of a drawn sleeve is known only once its notches are compared with those of the armhole.
+    // The notches of a sleeve tell for which arm it is drawn, once they are compared with those of the armhole.
     let first = worn_pieces::worn(pieces, &recognised, None, &mut asker.aside());
     let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));
     let drawn = drawn.or_else(|| worn_pieces::ask_drawn_sleeve(pieces, &recognised, &mut asker));

@@ -1,7 +1,7 @@
 //! Reading of the names of pieces, in the languages of [`super::words`].
 //!
-//! A name is split into words. A word that is no garment term is split into such terms: `Vorderhose` is `vorder` and
-//! `hose`. If a rest remains, it is another word: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.
+//! A name is split into words. A word that is no garment term is divided into terms: `Vorderhose` is `vorder` and
+//! `hose`. If anything remains, the word is another one: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use super::words::{CLASSES, FACES, HANDS, PARTS, PLAIN};
 use super::{Class, Face, Hand, PartName};
 
-/// Statement of a name about a piece.
+/// Statement of a name about a piece. `None` for what the name does not say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Named {
     /// Kind of piece.
@@ -18,12 +18,12 @@ pub struct Named {
     pub face: Option<Face>,
     /// Side of the wearer.
     pub hand: Option<Hand>,
-    /// Part of its kind, if the name gives one.
+    /// Part of a kind.
     pub part: Option<PartName>,
 }
 
 impl Named {
-    /// Combines it with another statement. Of two kinds, faces, hands or parts, the one that is listed first counts.
+    /// Combines two statements. Of two kinds, faces, hands or parts, the one that is listed first counts.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         fn first<T: Copy + PartialEq>(a: Option<T>, b: Option<T>, order: impl Iterator<Item = T>) -> Option<T> {
@@ -37,7 +37,7 @@ impl Named {
         }
     }
 
-    /// True if it gives neither kind, nor face, nor side.
+    /// True if the statement gives neither kind, nor front or back, nor side.
     #[must_use]
     pub fn is_nameless(self) -> bool {
         (self.class, self.face, self.hand) == (None, None, None)
@@ -48,23 +48,24 @@ impl Named {
 const DETAILS: [&str; 13] =
     ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
 
-/// First character of the scripts that write a word or a syllable with one sign.
+/// First character of the scripts that write a word or a syllable as one sign.
 const SIGNS: char = '\u{2e80}';
 /// Scripts whose words contain combining marks.
 const MARKED: std::ops::Range<char> = '\u{900}'..'\u{e00}';
 /// Least number of letters of an alphabetic word inside a compound.
 const LEAST_IN_COMPOUND: usize = 3;
-/// Greatest number of letters of an ending.
+/// Greatest number of letters of the ending of a stem.
 const LONGEST_ENDING: usize = 3;
 
-/// Splits a name into words in lower case: where letters end, where capitals begin, and between alphabets and signs.
+/// Splits a name into lower-case words: at other characters than letters, before capitals, and between alphabets and
+/// signs.
 #[must_use]
 pub fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before: Option<char> = None;
     for c in name.chars() {
         if !c.is_alphabetic() && !MARKED.contains(&c) {
-            // An elided article (`d'`, `l'`) is no initial.
+            // An elided article (`d'`, `l'`) is not an initial.
             if matches!(c, '\'' | '\u{2019}') && before.is_some() {
                 words.pop_if(|word| word.chars().count() == 1);
             }
@@ -81,15 +82,14 @@ pub fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Reads kind, face and hand of a piece from its name.
+/// Kind, face and hand of a piece by its name.
 #[must_use]
 pub fn read(name: &str) -> Named {
     let words = words(name);
     read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), false)
 }
 
-/// Combined statement of the words of a name. The initials `f` and `b` mean front and back if the kind of piece is
-/// known.
+/// Combined statement of some words. The initials `f` and `b` mean front and back if the kind of piece is known.
 #[must_use]
 pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     let words = || words.iter().take_while(|word| !DETAILS.contains(word));
@@ -106,11 +106,11 @@ pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     Named { face, ..said }
 }
 
-/// Statement of a word: a garment term, or a compound of such. `None` for any other word.
+/// Statement of a word that is a garment term or a compound of terms. `None` for any other word.
 #[must_use]
 pub fn word_of(word: &str) -> Option<Named> {
     let ends: Vec<usize> = word.char_indices().map(|(at, _)| at).chain([word.len()]).collect();
-    // Fewest terms that make up the beginning of the word, with their statement.
+    // For each beginning of the word, the fewest terms that make it up, with their statement. `None` if no terms do.
     let mut made: Vec<Option<(usize, Named)>> = vec![None; ends.len()];
     made[0] = Some((0, Named::default()));
     for from in 0..ends.len() - 1 {
@@ -119,7 +119,7 @@ pub fn word_of(word: &str) -> Option<Named> {
             let is_whole = from == 0 && to + 1 == ends.len();
             let Some(named) = listed(&word[ends[from]..ends[to]], to + 1 == ends.len(), is_whole) else { continue };
             let found = (count + 1, said.and(named));
-            // An `s` after a term is a plural, or joins it to the next.
+            // An `s` after a term is a plural, or joins the term to the next.
             let joined = (word[ends[to]..].starts_with('s')).then_some(to + 1);
             for to in [Some(to), joined].into_iter().flatten() {
                 if made[to].is_none_or(|(fewest, _)| count + 1 < fewest) {
@@ -131,7 +131,7 @@ pub fn word_of(word: &str) -> Option<Named> {
     made[ends.len() - 1].map(|(_, named)| named)
 }
 
-/// Statement of a term. Short terms do not count inside a compound. A stem takes its ending at the end of the compound.
+/// Statement of a term. Short terms do not count inside a compound, and a stem takes its ending at the end of one.
 fn listed(word: &str, is_last: bool, is_whole: bool) -> Option<Named> {
     let is_sign = word.chars().all(|c| c >= SIGNS);
     let letters = word.chars().count();

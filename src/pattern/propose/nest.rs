@@ -1,5 +1,5 @@
-//! Check of a proposal made on one size against the other sizes. The corners are found on each size, and the ease of
-//! each is recorded.
+//! Check of a proposal made on one size against the other sizes: the corners are found on each size, and the ease of
+//! its seams is recorded.
 
 use std::collections::BTreeMap;
 
@@ -12,9 +12,9 @@ use crate::size_order;
 use crate::style::{Seam, Style};
 use geom::units::mm;
 
-/// Greatest difference of the sides of a plain seam, mm: an eighth of an inch, the usual sewing tolerance.
+/// Greatest length difference between both sides of a plain seam, mm: an eighth of an inch, the usual sewing tolerance.
 const PLAIN_MM: f64 = 3.0;
-/// The same for a long seam, over its length: cloth takes up as much without a pleat.
+/// The same for a long seam, as a share of its length: cloth takes up as much without a pleat.
 const PLAIN_SHARE: f64 = 0.02;
 
 /// Style that the proposal makes in one size.
@@ -24,7 +24,8 @@ struct Sewn<'a> {
 }
 
 impl Proposal {
-    /// Records the size that it was made on, and checks it against the others. Each mismatch becomes a question.
+    /// Records the size of the proposal, and checks the proposal against the other sizes. Each mismatch becomes a
+    /// question.
     pub fn hold_for(&mut self, sizes: &Sizes<'_>) {
         self.size = Some(sizes.name.to_owned());
         let own = std::iter::once((sizes.name, sizes.pieces));
@@ -51,8 +52,8 @@ impl Proposal {
         doubted_leaps(&sewn).into_iter().for_each(|doubt| self.tell(doubt));
     }
 
-    /// Records the ease of a seam in every size in which the ratio of its sides is as in the neighbouring size. Returns
-    /// a question about the others.
+    /// Records the ease of a seam in every size whose length ratio is plausible. Returns a question about the other
+    /// sizes. `None` without such a size.
     fn ease_in(&mut self, number: usize, sewn: &[Sewn<'_>], made_on: usize) -> Option<String> {
         let seam = &mut self.seams[number];
         let sides_mm: Vec<[f64; 2]> =
@@ -77,7 +78,7 @@ impl Proposal {
         self.questions.push(Question { number, ..Question::told(text) });
     }
 
-    /// Makes the style of another size, with any difference of seam lengths.
+    /// Style of another size, whatever the length differences of its seams.
     fn on(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut entries = self.seam_file("");
         entries.length_tolerance_mm = f64::INFINITY;
@@ -85,8 +86,8 @@ impl Proposal {
     }
 }
 
-/// True for each size in which the ratio of both sides of a seam is doubtful. It is compared with that of the next
-/// sound size towards the one of the proposal. A plain seam must be plain in every size.
+/// True for each size in which the length ratio of both sides of a seam is doubtful. A plain seam must be plain in
+/// every size. The ratio of any other seam is compared with that of the nearest undoubted size towards `made_on`.
 fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     let ratio = |size: usize| sides_mm[size][0] / sides_mm[size][1];
     let is_plain = |size: usize| {
@@ -112,7 +113,7 @@ fn doubted_sizes(sides_mm: &[[f64; 2]], made_on: usize) -> Vec<bool> {
     doubted
 }
 
-/// Question about a seam that is doubtful in some sizes.
+/// Question about a seam that is doubtful in some sizes. `None` without such a size.
 fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted: &[bool]) -> Option<String> {
     let first = doubted.iter().position(|is_doubted| *is_doubted)?;
     let doubted_ones = sewn.iter().zip(doubted).filter(|(_, is_doubted)| **is_doubted);
@@ -128,7 +129,7 @@ fn doubt(seam: &ProposedSeam, sewn: &[Sewn<'_>], sides_mm: &[[f64; 2]], doubted:
     ))
 }
 
-/// Question for every two sizes between which lengths leap.
+/// Questions, one for every two sizes between which lengths leap.
 fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
     let sizes: Vec<String> = sewn.iter().map(|sized| sized.size.to_owned()).collect();
     let styles: Vec<&Style> = sewn.iter().map(|sized| &sized.style).collect();
@@ -146,7 +147,7 @@ fn doubted_leaps(sewn: &[Sewn<'_>]) -> Vec<String> {
     by_sizes.iter().map(told).collect()
 }
 
-/// Lengths of the sides of a seam, mm.
+/// Lengths of both sides of a seam, mm.
 fn lengths_mm(style: &Style, seam: &Seam) -> [f64; 2] {
     [&seam.a, &seam.b].map(|chain| chain.iter().map(|&edge| mm(style.edge(edge).line.length())).sum())
 }

@@ -1,24 +1,24 @@
-//! Evidence of notches: it tells whether two sides belong together, and in which direction.
+//! Evidence of notches: do two sides belong together, and in which direction?
 
 use super::worn_pieces::{Along, Worn};
 use super::{Class, Face, Hand, Label};
 
-/// Greatest difference of two matching notches, as a share of the length of the seam.
+/// Greatest distance of two matching notches, as a share of the length of the seam.
 const SAME_SHARE: f64 = 0.03;
-/// Least difference of agreement between both directions that is decisive.
+/// Least difference in agreement between both directions that decides between them.
 const CLEAR: f64 = 0.3;
 
 /// A side of a seam: edges in order.
 type Side<'w> = [Along<'w>];
 
-/// Evidence of the notches of two sides.
+/// Evidence of the notches of two sides for a seam between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// They match as proposed, and better than reversed, or all of them match.
+    /// Notches match as proposed: better than reversed, or all of them.
     For,
-    /// They match better with one side reversed.
+    /// Notches match better with one side reversed.
     Turned,
-    /// No evidence: there are too few, or they match in neither direction.
+    /// No evidence: too few notches, or a match in neither direction.
     None,
 }
 
@@ -40,7 +40,7 @@ pub fn evidence(a: &Side<'_>, b: &Side<'_>) -> Evidence {
     }
 }
 
-/// Share of the notches of both sides that have a partner, one to one.
+/// Share of the notches of both sides that have a partner, each at most one.
 fn agreement(a: &[f64], b: &[f64]) -> f64 {
     let mut free: Vec<f64> = b.to_vec();
     let mut matched = 0;
@@ -54,7 +54,7 @@ fn agreement(a: &[f64], b: &[f64]) -> f64 {
     2.0 * f64::from(matched) / (a.len() + b.len()) as f64
 }
 
-/// Positions of the notches along a side, as shares of its length in the direction of the walk.
+/// Positions of the notches along a side in the direction of the walk, as shares of its length.
 fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
     let total = length(side);
     let mut shares = Vec::new();
@@ -68,8 +68,8 @@ fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
     shares
 }
 
-/// Side of the arm for which a whole sleeve without a side is drawn, by the notches of cap and armhole. `worn` has it
-/// as the right one.
+/// Arm for which a whole sleeve is drawn whose name gives none, by the notches of cap and armhole. `worn` has it as the
+/// right sleeve. `None` if the notches do not decide.
 #[must_use]
 pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     let right = Some(Hand::Right);
@@ -81,7 +81,8 @@ pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     let [front, back] = [[Class::SidePanel, Class::Body], [Class::Body, Class::SidePanel]];
     let front: Vec<_> = front.into_iter().flat_map(|class| armhole_of(class, Face::Front)).collect();
     let back: Vec<_> = back.into_iter().flat_map(|class| armhole_of(class, Face::Back)).collect();
-    // Both sides of a raglan sleeve are sewn separately, and their notches are at similar shares.
+    // Both sides of a raglan sleeve are sewn separately, and their notches lie at similar shares, so their lengths
+    // decide.
     let sides = Hand::BOTH.map(|side| length(&cap.chain(Label::Cap, Some(side))));
     let by_lengths = cap.has(Label::Neck).then(|| by_lengths(sides, [length(&front), length(&back)])).flatten();
     by_lengths.or_else(|| match evidence(&cap.chain(Label::Cap, None), &[front, back].concat()) {
@@ -91,8 +92,8 @@ pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     })
 }
 
-/// Side of the arm for which a raglan sleeve is drawn. The lengths of its right and left side, m, are compared with
-/// those of front and back.
+/// Arm for which a raglan sleeve is drawn: lengths of its right and left side compared with those of front and back, m.
+/// `None` if they do not decide.
 fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> {
     let as_right = (right - front).abs() + (left - back).abs();
     let as_left = (right - back).abs() + (left - front).abs();

@@ -1,4 +1,4 @@
-//! Pose of a drawn piece of known role: its orientation, and the half that it is.
+//! Pose of a drawn piece of known role: which side is up, and which half of a piece it is.
 
 use super::align::{TURNED, align, parts_of};
 use super::names;
@@ -12,25 +12,26 @@ use geom::V2;
 /// Pose of a drawn piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Number of quarter turns, counter-clockwise, that set it upright.
+    /// Number of quarter turns, counter-clockwise, that set the piece upright.
     pub quarter_turns: usize,
-    /// True if it covers both sides of the body, or goes round the arm.
+    /// True if the piece covers both sides of the body, or goes round the arm.
     pub is_whole: bool,
-    /// True if its outer side is on the left of the upright drawing. It has no meaning for a whole piece.
+    /// True if the outer side is on the left of the upright drawing. Without meaning for a whole piece.
     is_mirrored: bool,
-    /// Score of the fit of the template, at most 1, less the penalty for a grain across.
+    /// Score of the fit of the template, at most 1, less the penalty for a grain across the piece.
     pub score: f64,
 }
 
 impl Pose {
-    /// Side of the wearer that half a front or back is for, seen from outside. `None` for a whole piece.
+    /// Side of the wearer that half a front or back covers, as seen from outside. `None` for a whole piece.
     #[must_use]
     pub fn hand(&self, face: Face) -> Option<Hand> {
         (!self.is_whole).then(|| natural_hand(face, self.is_mirrored))
     }
 }
 
-/// Side of the wearer of half a piece, whose outer side is on the right of the drawing, or on the left if mirrored.
+/// Side of the wearer that half a piece covers. Its outer side is on the right of the drawing, or on the left if
+/// mirrored.
 pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
     if (face == Face::Back) == is_mirrored { Hand::Left } else { Hand::Right }
 }
@@ -59,7 +60,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     corners.sort_unstable();
     corners.dedup();
     let shape = Shape::new(outline, corners)?;
-    // As in a proposal, a sleeve that is called front or back is half of one.
+    // As in a proposal, a sleeve called front or back is half a sleeve.
     let is_whole_sleeve = names::read(&piece.id).face.is_none();
     let has = |label: Label| {
         piece.edges.iter().any(|edge| edge.name.as_deref().is_some_and(|name| name.starts_with(label.as_str())))
@@ -86,7 +87,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     if let Some(pose) = by_edges(piece, TEMPLATES.iter().filter(fits)) {
         return Some(pose);
     }
-    // The grain is vertical, except in a band, where it runs along.
+    // The grain of a band runs along the band, that of any other piece runs vertically.
     let is_along =
         |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
     let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
@@ -99,8 +100,8 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     })
 }
 
-/// Pose of a piece by the names of its edges, if at least two kinds of them are those of templates. A hem is below and
-/// a cap above, whatever the outline looks like.
+/// Pose of a piece by the names of its edges: a hem is below and a cap above, whatever the outline looks like. `None`
+/// if fewer than two kinds of edges are named as in the templates.
 fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template>) -> Option<Pose> {
     let named: Vec<(Label, V2)> =
         piece.edges.iter().filter_map(|edge| Some((label_of(edge.name.as_deref()?)?, middle(edge)))).collect();
@@ -137,7 +138,7 @@ fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template
     best
 }
 
-/// Kind of edge that a name begins with, before its side or number.
+/// Kind of edge at the beginning of a name. `None` for another name.
 fn label_of(name: &str) -> Option<Label> {
     use Label::{
         Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Princess, Shoulder, Side, Top, Underarm,
@@ -157,7 +158,7 @@ fn middle(edge: &Edge) -> V2 {
     edge.line.points()[k - 1].lerp(&edge.line.points()[k], (half - from) / (to - from).max(f64::MIN_POSITIVE))
 }
 
-/// Face and side of the wearer in a name.
+/// Front or back, and side of the wearer, by a name.
 #[must_use]
 pub fn named_face_and_hand(name: &str) -> (Option<Face>, Option<Hand>) {
     let named = names::read(name);

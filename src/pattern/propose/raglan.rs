@@ -7,9 +7,8 @@ use super::shape::Shape;
 use super::templates::Template;
 use crate::piece::Piece;
 
-/// Possible values of `is_raglan`, the likelier first. Raglan is likelier if fronts, backs and sleeves together fit
-/// raglan templates better than plain ones. Without a sleeve that fits a raglan template, only plain sleeves are
-/// possible.
+/// Possible values of `is_raglan`, the likelier first. True is likelier if fronts, backs and sleeves together fit
+/// raglan templates better than plain ones. Without a sleeve that fits a raglan template, only false is possible.
 pub fn ways(pieces: &[Piece], named: &[Named]) -> &'static [bool] {
     let mut gain = 0.0;
     let mut has_sleeve = false;

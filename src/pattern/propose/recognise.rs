@@ -14,7 +14,7 @@ use crate::style::named::reference;
 
 /// Least score of an outline without other evidence.
 pub const LEAST_UNNAMED_FIT: f64 = 0.6;
-/// Kinds with templates, in the order in which equal scores count.
+/// Kinds with templates. Of equal scores the first kind counts.
 const CLASSES: [Class; 8] = [
     Class::Body,
     Class::SidePanel,
@@ -25,28 +25,28 @@ const CLASSES: [Class; 8] = [
     Class::Waistband,
     Class::Cuff,
 ];
-/// Factor on the confidence if front and back are told by comparing outlines.
+/// Factor on the confidence if only a comparison of outlines tells front from back.
 const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, as a share of the longer side of the piece.
 const LEAST_DIFFERENCE: f64 = 0.01;
 
-/// Least difference of waists that contradicts the names of both halves of a skirt, m: an ease that nobody sews in by
+/// Least difference of the waists at which a skirt contradicts both names of its halves, m. Nobody eases in as much by
 /// chance.
 const CLEAR_WAIST_M: f64 = 10e-3;
-/// The same if only one of them has a name, m: the precision of drawn outlines.
+/// Least such difference if only one half has a name, m: the precision of drawn outlines.
 const ANY_WAIST_M: f64 = 0.1e-3;
 
-/// Greatest area, as a share of the largest piece, of a nameless piece that is taken for a detail. The sleeve of a
+/// Greatest area of a nameless piece that is taken for a detail, as a share of the largest piece. The sleeve of a
 /// T-shirt has a fifth, half of a child's sleeve a tenth.
 pub const DETAIL_SHARE: f64 = 0.08;
 
-/// Greatest relative difference of the two inseams of a leg in one piece.
+/// Greatest relative length difference between the two inseams of a leg in one piece.
 const SAME_INSEAM: f64 = 0.03;
-/// Least advantage in score of another kind for a name to be doubted.
+/// Least advantage in score of another kind at which a name is doubted.
 pub const CONTRADICTED: f64 = 0.25;
-/// Factor on the confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
+/// Factor on the confidence if the outline contradicts the name, or another kind fits nearly as well.
 const DOUBTED: f64 = 0.5;
-/// Difference of scores from which two kinds of piece are clearly distinct.
+/// Difference in score from which two kinds are clearly distinct.
 const CLEAR_MARGIN: f64 = 0.15;
 
 /// A piece with its recognised kind.
@@ -58,36 +58,36 @@ pub struct Recognised {
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer by its name.
+    /// Side of the wearer that the name gives. `None` if it gives none.
     pub hand: Option<Hand>,
     /// Outline as edges between corners.
     pub shape: Shape,
-    /// Alignment of the best template.
+    /// Alignment of the outline with its best template.
     pub alignment: Alignment,
     /// Confidence, 0 to 1.
     pub confidence: f64,
-    /// Second-best alignment, for an outline whose name gives no kind.
+    /// Second-best alignment. `None` if the name gives the kind.
     rival: Option<Alignment>,
-    /// True if it is cut twice, for both sides of the wearer, though its outline does not show it: half a waistband.
+    /// True if the piece is cut twice, for both sides of the wearer, without the outline showing it: half a waistband.
     pub is_pair: bool,
-    /// Quantities, if it is a gore of a skirt.
+    /// Quantities of a gore. `None` for any other piece.
     pub gore: Option<Cut>,
-    /// Part of its kind by its name.
+    /// Part of a kind that the name gives. `None` if it gives none.
     pub part: Option<PartName>,
 }
 
-/// Evidence of the other pieces of a file.
+/// Evidence of the other pieces of a file about a piece.
 #[derive(Clone, Copy)]
 struct Around {
-    /// True if there is a sleeve. Nameless pieces are then no legs.
+    /// True if there is a sleeve: nameless pieces are then no legs.
     has_sleeve: bool,
-    /// True if a name says yoke. A front or back may then have no shoulders.
+    /// True if a name says yoke: a front or back may then have no shoulders.
     has_yoke: bool,
-    /// True if there is a trunk. A yoke then lies over the shoulders.
+    /// True if there is a trunk: a yoke then lies over the shoulders.
     has_trunk: bool,
     /// True if sleeves reach the neck.
     is_raglan: bool,
-    /// True if no name says front or back of a leg.
+    /// True if no leg is called front or back.
     has_lone_leg: bool,
     /// Possible kinds of nameless pieces.
     nameless: &'static [Class],
@@ -96,15 +96,15 @@ struct Around {
 /// Assumptions under which all pieces of a file are read.
 #[derive(Clone, Copy)]
 pub struct Reading {
-    /// Possible kinds of nameless pieces, in the order in which equal scores count.
+    /// Possible kinds of nameless pieces. Of equal scores the first kind counts.
     pub nameless: &'static [Class],
     /// True if sleeves reach the neck.
     pub is_raglan: bool,
 }
 
 impl Reading {
-    /// Possible readings of some pieces, the likeliest first. Bands and skirts are rectangles, like many other pieces.
-    /// Nameless ones are tried as such only after sleeves.
+    /// Possible readings of some pieces, the likeliest first. Nameless rectangles may be bands, skirts or other pieces,
+    /// so they are tried as such only after sleeves.
     pub fn ways(pieces: &[Piece], named: &[Named]) -> Vec<Self> {
         let kinds: [&[Class]; 2] =
             [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
@@ -116,28 +116,28 @@ impl Reading {
     }
 }
 
-/// Role of a piece among others, known before its outline is read.
+/// Place of a piece among others, known before its outline is read.
 #[derive(Clone, Copy)]
 struct Among {
     gore: Option<Cut>,
     panel: Option<Panel>,
-    /// Kind of a front and a back whose names give no more.
+    /// Kind of a front and a back whose names do not give the kind.
     pair: Option<Class>,
 }
 
-/// A piece to recognise.
+/// Piece to recognise.
 #[derive(Clone, Copy)]
 struct Subject<'p> {
     /// Index of the piece.
     index: usize,
-    /// Name for questions.
+    /// Name, for questions.
     name: &'p str,
     piece: &'p Piece,
-    /// Statement of its name.
+    /// Statement of the name.
     named: Named,
 }
 
-/// True for each piece that a drape does without: details by name, and small nameless pieces.
+/// True for each piece that a drape does without: a detail by its name, or a small nameless piece.
 pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
     let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
     let is_detail = |(piece, named): (&Piece, &Named)| {
@@ -146,7 +146,7 @@ pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
     pieces.iter().zip(named).map(is_detail).collect()
 }
 
-/// Recognises pieces. Each piece that is left out becomes a question, except for details.
+/// Recognises pieces. Each piece that is left out becomes a question, except details.
 pub fn recognise(
     pieces: &[Piece],
     named: &[Named],
@@ -191,7 +191,7 @@ pub fn recognise(
     tell_skirt_faces(pieces, named, &mut found, asker);
     let skirts = found.iter().filter(|candidate| candidate.class == Class::Skirt).count();
     for candidate in &mut found {
-        // A single piece may go all round, as gores do.
+        // A single skirt piece may go all round, as gores do.
         if candidate.class == Class::Skirt && (skirts == 1 || candidate.gore.is_some()) {
             continue;
         }
@@ -205,13 +205,13 @@ pub fn recognise(
     found
 }
 
-/// True if a name gives front or back and no kind.
+/// True if a name gives front or back, but no kind.
 fn is_nameless_face(named: Named) -> bool {
     named.class.is_none() && named.face.is_some()
 }
 
-/// Kind of one front and one back whose names give no more: the one that fits both best, because they belong to one
-/// garment.
+/// Kind of a front and a back whose names do not give it: the kind that fits both best, because they belong to one
+/// garment. `None` without exactly such two pieces.
 fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
     let pair: Vec<usize> = (0..pieces.len()).filter(|&k| is_nameless_face(named[k])).collect();
     let [first, second] = pair[..] else { return None };
@@ -234,7 +234,7 @@ fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan:
     (sum >= 2.0 * LEAST_FIT).then_some(class)
 }
 
-/// Possible answers about a piece whose kind neither name nor outline tells.
+/// Possible answers about a piece of unknown kind.
 const KINDS: [(Class, Option<Face>); 9] = [
     (Class::Body, Some(Face::Front)),
     (Class::Body, Some(Face::Back)),
@@ -246,10 +246,10 @@ const KINDS: [(Class, Option<Face>); 9] = [
     (Class::Waistband, None),
     (Class::Cuff, None),
 ];
-/// Number of kinds that are offered: those whose templates fit best.
+/// Number of kinds that are offered as answers: those that fit best.
 const OFFERED: usize = 3;
 
-/// Asks for the kind of a piece that neither name nor outline tells. It is left out without an answer.
+/// Asks for the kind of a piece that neither name nor outline shows. Without an answer the piece is left out.
 fn ask_kind(
     subject: Subject<'_>,
     doubt: &str,
@@ -278,7 +278,7 @@ fn ask_kind(
     Some(kinds.swap_remove(choice).1)
 }
 
-/// Recognises one piece. The error is the reason why its kind is unknown.
+/// Recognises one piece. The error says why its kind is unknown.
 fn recognise_one(
     subject: Subject<'_>,
     around: Around,
@@ -298,7 +298,7 @@ fn recognise_one(
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),
         (None, None) => around.nameless.contains(&class),
     };
-    // A sleeve that is called front or back is half of one.
+    // A sleeve called front or back is half a sleeve.
     let is_half_sleeve = named.face.is_some();
     let as_class = |class: Class| {
         let of_class = |template: &Template| {
@@ -384,7 +384,7 @@ fn recognise_one(
     })
 }
 
-/// Alignment of an outline as a leg in one piece. Both edges of its inseam must be equally long.
+/// Alignment of an outline as a leg in one piece, whose two inseam edges are equally long. `None` for another outline.
 fn whole_leg(shape: &Shape) -> Option<Alignment> {
     let whole = upright(shape, |template| template.class == Class::Leg && template.is_limb())?;
     let inseams = whole.parts.iter().filter(|part| part.label == Label::Inseam);
@@ -393,7 +393,7 @@ fn whole_leg(shape: &Shape) -> Option<Alignment> {
     (whole.score >= LEAST_FIT && (right_m - left_m).abs() < SAME_INSEAM * right_m.max(left_m)).then_some(whole)
 }
 
-/// Reinterprets pieces that look like a leg without its other half, as the second-best kind.
+/// Takes a piece that looks like half a leg for its second-best kind, if there is no other half.
 fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let has_leg = |face: Face| {
         found.iter().any(|candidate| candidate.class == Class::Leg && candidate.face != Some(face.other()))
@@ -421,13 +421,13 @@ fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Aske
     }
 }
 
-/// True for a leg in one piece, front and back together.
+/// True for a leg in one piece, front and back.
 pub fn is_whole_leg(candidate: &Recognised) -> bool {
     candidate.class == Class::Leg && candidate.alignment.template.is_limb()
 }
 
-/// Tells front from back of exactly two pieces of a kind without other evidence. The front neck is cut deeper, and the
-/// back seat seam reaches further out.
+/// Tells front from back of two pieces of a kind that have no other evidence: the front neck is deeper, and the back
+/// seat seam reaches further out.
 fn tell_faces(class: Class, found: &mut [Recognised]) {
     let unknown: Vec<usize> = (0..found.len())
         .filter(|&i| found[i].class == class && found[i].face.is_none() && !is_whole_leg(&found[i]))
@@ -440,7 +440,7 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
             found[only].confidence *= COMPARED;
         }
         (&[first, second], []) => {
-            // A piece without shoulders hangs from a yoke, which belongs to the back.
+            // A piece without shoulders hangs from a yoke, so it is the back.
             let has_shoulder = |i: usize| class != Class::Body || found[i].alignment.template.has_shoulder();
             let by_shoulder = match [first, second].map(has_shoulder) {
                 [true, false] => Some((first, second)),
@@ -462,8 +462,8 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
     }
 }
 
-/// Doubts the names of a front and a back if each looks like the other. If only one of them has a name, the outlines
-/// are the default answer, otherwise the names.
+/// Asks about a front and a back of which each looks like the other. The default is what the names say, or the outlines
+/// if only one of the pieces has a name.
 fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let of_class: Vec<usize> =
         (0..found.len()).filter(|&i| found[i].class == class && !is_whole_leg(&found[i])).collect();
@@ -475,7 +475,7 @@ fn doubt_faces(class: Class, pieces: &[Piece], named: &[Named], found: &mut [Rec
     }
 }
 
-/// Front and back of exactly two pieces. `None` for more or fewer.
+/// Front and back, of two pieces. `None` unless there is one of each.
 fn front_and_back(found: &[Recognised], two: &[usize]) -> Option<[usize; 2]> {
     let &[first, second] = two else { return None };
     match [first, second].map(|i| found[i].face) {
@@ -485,7 +485,7 @@ fn front_and_back(found: &[Recognised], two: &[usize]) -> Option<[usize; 2]> {
     }
 }
 
-/// Asks whether a front and a back are swapped, if a name says what they are, and swaps them on that answer.
+/// Asks if a front and a back are swapped, where a name says what they are, and swaps them on that answer.
 fn ask_faces(pair: [usize; 2], pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let called: Vec<usize> = pair.into_iter().filter(|&i| named[found[i].piece].face.is_some()).collect();
     let Some(&asked) = called.first() else { return };
@@ -502,7 +502,7 @@ fn ask_faces(pair: [usize; 2], pieces: &[Piece], named: &[Named], found: &mut [R
     }
 }
 
-/// Tells the front of a skirt from its back by the waists of the trunk that they hang from, without other evidence.
+/// Tells the front of a skirt from its back by the waists of the trunk that they hang from, if nothing else tells.
 fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let hem_m = |face: Face| {
         let is_it = |candidate: &&Recognised| candidate.class == Class::Body && candidate.face == Some(face);
@@ -537,7 +537,7 @@ fn tell_skirt_faces(pieces: &[Piece], named: &[Named], found: &mut [Recognised],
     if as_named > otherwise + least {
         ask_faces([front, back], pieces, named, found, asker);
     } else if !are_called && as_named > otherwise - least {
-        // A single name tells both apart.
+        // The name of one tells both apart.
         let Some(&called) = [front, back].iter().find(|&&i| named[found[i].piece].face.is_some()) else { return };
         let text = format!("is piece `{}` a front or a back?", reference(pieces, found[called].piece));
         let says = usize::from(found[called].face == Some(Face::Back));
@@ -555,7 +555,7 @@ pub fn length_m(candidate: &Recognised, label: Label) -> f64 {
     parts.map(|part| candidate.shape.sewn_length(part.from, part.span)).sum()
 }
 
-/// Sets the face of yokes without one: that of a trunk without shoulders, the back first.
+/// Sets front or back of yokes without it: that of a trunk piece without shoulders, the back first.
 fn tell_yoke_faces(found: &mut [Recognised]) {
     let is_under = |face: Face| {
         let is_it = |candidate: &Recognised| candidate.class == Class::Body && candidate.face == Some(face);
@@ -567,7 +567,7 @@ fn tell_yoke_faces(found: &mut [Recognised]) {
     }
 }
 
-/// Measure of how much a piece looks like a front rather than a back, for comparison.
+/// Measure that is greater for a front than for a back of the same kind. `None` for a kind without one.
 fn frontness(candidate: &Recognised) -> Option<f64> {
     let (shape, _) = candidate.shape.framed(candidate.alignment.quarter_turns);
     let section = |label: Label| candidate.alignment.parts.iter().find(|part| part.label == label);

@@ -1,5 +1,5 @@
-//! Kinds of proposed seams. Seam files and questions contain them as text, which only the `Display` of [`SeamKind`]
-//! writes. Seams are identified by their kind.
+//! Kinds of proposed seams. A seam is identified by its kind. Seam files and questions have the kind as text, which
+//! only the `Display` of [`SeamKind`] writes.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::{Face, Hand};
 /// Kind of a proposed seam: the edges that it joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SeamKind {
-    /// Legs of a dart of a piece.
+    /// The two edges of a dart.
     Dart {
         /// Identifier of the piece.
         piece: String,
@@ -29,7 +29,7 @@ pub enum SeamKind {
     YokeCentre(Face),
     /// A sleeve to its armhole.
     Armhole(Hand),
-    /// A raglan sleeve to the front or the back.
+    /// A raglan sleeve to front or back.
     Raglan(Face, Hand),
     /// A whole sleeve to itself.
     Underarm(Hand),
@@ -59,7 +59,7 @@ pub enum SeamKind {
     Gore(usize),
     /// Left to right half of a skirt.
     SkirtCentre(Face),
-    /// Upper to lower pieces of one face, with the number of the seam, from 1 at the top.
+    /// Upper to lower pieces of front or back, with the number of the seam, from 1 at the top.
     WaistLevel(Face, usize),
     /// A waistband to the pieces below it, of one side or all round.
     Waist(Option<Hand>),
@@ -80,7 +80,7 @@ impl SeamKind {
         ["_right", "_left"].into_iter().fold(name, |name, side| name.replace(side, ""))
     }
 
-    /// True for a join of two halves at the centre: a seam, an opening or a fold.
+    /// True for two halves that join at the centre: by a seam, an opening or a fold.
     #[must_use]
     pub fn is_centre(&self) -> bool {
         matches!(self, Self::Centre(_) | Self::YokeCentre(_) | Self::SkirtCentre(_))

@@ -1,7 +1,7 @@
 //! Proposal of seams between the edges of recognised pieces.
 //!
-//! Every piece is seen from outside, so both sides of a seam run against each other. Side `a` is walked
-//! counter-clockwise round its piece, `b` clockwise. A chain over several pieces is in the order of the walk.
+//! Every piece is seen from outside, so both sides of a seam run in opposite directions: side `a` is walked
+//! counter-clockwise round its piece, `b` clockwise. A chain that spans several pieces is in the order of the walk.
 
 use super::ask::Asker;
 use super::notched::{self, Evidence};
@@ -10,15 +10,15 @@ use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamEntry};
 use geom::units::mm;
 
-/// Relative difference of length at which the confidence in a seam of straight edges is halved.
+/// Relative length difference at which the confidence in a seam of straight edges is halved.
 pub(super) const PLAIN_DOUBT: f64 = 0.06;
-/// The same for a sleeve, which is eased into its armhole, and for a waist, which may be gathered or open.
+/// The same for sleeves, which are eased into the armhole, and waists, which may be gathered or open.
 pub(super) const EASED_DOUBT: f64 = 0.15;
 /// The same for the end of a sleeve, which is pleated or gathered into its cuff.
 const GATHERED_DOUBT: f64 = 0.3;
 /// Factor on the confidence in a seam at centre front or back.
 pub(super) const CENTRE_CONFIDENCE: f64 = 0.7;
-/// Least confidence of a proposed seam. Others are asked about.
+/// Least confidence of a proposed seam. Less likely seams become questions.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
 /// Confidence in a seam that the user has confirmed.
@@ -30,7 +30,7 @@ const NOTCHED_DOUBT: f64 = 0.6;
 
 /// A chain of edges in order.
 pub(super) type Chain<'w> = Vec<Along<'w>>;
-/// Kind and label of edges, with the kind of seam that joins them on each hand or face.
+/// Kind of piece, label of its edges, and kind of the seam that joins them on a hand or face.
 type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
@@ -54,7 +54,7 @@ pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
     tailor.seams
 }
 
-/// Edges in no seam that are probably openings.
+/// Names of the edges in no seam that are probably openings.
 pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let is_sewn = |name: &String| seams.iter().any(|seam| seam.entry.a.contains(name) || seam.entry.b.contains(name));
     let may_be_open = |label: Label| {
@@ -79,7 +79,7 @@ fn centre_question(kind: &SeamKind) -> String {
 }
 
 impl<'w> Tailor<'w, '_, '_> {
-    /// Piece of a kind for a side. A whole piece serves both.
+    /// Piece of a kind, front or back and side. A whole piece serves both sides.
     pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
         self.worn
             .iter()
@@ -94,7 +94,7 @@ impl<'w> Tailor<'w, '_, '_> {
         }
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
-        // Half pieces do not show how they are joined at the centre, but the user may have answered.
+        // Half pieces do not show how they are joined at the centre. The user's answer does.
         let is_known = !kind.is_centre() || self.asker.is_answered(&centre_question(&kind));
         let known = if is_known { 1.0 } else { CENTRE_CONFIDENCE };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
@@ -171,9 +171,9 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Pieces of a face along a seam of one side, each with its label there, in the order of the walk. A yoke over the
-    /// shoulders has the shoulder of the pieces that hang from it. A yoke below the waist has the upper end of the
-    /// seams of the pieces that it is sewn onto.
+    /// Pieces of front or back along a seam of one side, each with its label there, in the order of the walk. A yoke
+    /// over the shoulders has the shoulder of the pieces that hang from it. A yoke below the waist has the upper end of
+    /// the seams of the pieces that it is sewn onto.
     fn along(&self, class: Class, label: Label, face: Face, hand: Hand) -> Vec<(&'w Worn, Label)> {
         let Some(main) = self.find(class, Some(face), hand) else { return Vec::new() };
         let panel = self.find(Class::SidePanel, Some(face), hand).filter(|panel| panel.has(label));
@@ -183,7 +183,7 @@ impl<'w> Tailor<'w, '_, '_> {
                 let mut walk = vec![main];
                 walk.extend(panel);
                 walk.retain(|worn| worn.has(label));
-                // The walk goes from the neck outwards on the right.
+                // On the right, the walk goes from the neck outwards.
                 if hand == Hand::Left {
                     walk.reverse();
                 }
@@ -194,7 +194,7 @@ impl<'w> Tailor<'w, '_, '_> {
                 let is_middle = matches!(label, Label::Crotch | Label::Centre);
                 let of_yoke = if is_middle { Label::Centre } else { Label::Side };
                 let mut walk = vec![(yoke, of_yoke), (main, label)];
-                // On the outer side the walk goes down on the right and up on the left; at the centre, down behind and
+                // On the outer side, the walk goes down on the right and up on the left. At the centre, down behind and
                 // up in front.
                 if if is_middle { face == Face::Front } else { hand == Hand::Left } {
                     walk.reverse();
@@ -229,7 +229,7 @@ impl<'w> Tailor<'w, '_, '_> {
     fn sleeve(&mut self, hand: Hand) {
         let whole =
             self.worn.iter().find(|worn| worn.class == Class::Sleeve && worn.is_whole && worn.hand == Some(hand));
-        // Counter-clockwise round a right sleeve, the cap runs from front to back.
+        // Counter-clockwise, the cap of a right sleeve runs from front to back.
         let order = if hand == Hand::Right { Face::BOTH } else { [Face::Back, Face::Front] };
         let mut pieces: Vec<&Worn> = Vec::new();
         let mut cap = Chain::new();
@@ -250,7 +250,7 @@ impl<'w> Tailor<'w, '_, '_> {
             }
         }
         let mut armhole = Chain::new();
-        // The armhole goes up the first face, over its yoke and that of the second, and down.
+        // The walk goes up the first face, across both yokes, and down the second face.
         let up = [Class::SidePanel, Class::Body, Class::Yoke].map(|class| (class, order[0]));
         let down = [Class::Yoke, Class::Body, Class::SidePanel].map(|class| (class, order[1]));
         for body in up.into_iter().chain(down).filter_map(|(class, face)| self.find(class, Some(face), hand)) {
@@ -272,7 +272,7 @@ impl<'w> Tailor<'w, '_, '_> {
             self.add(SeamKind::Inseam(hand), a, b, &[leg], PLAIN_DOUBT);
         }
         let [Some(right), Some(left)] = legs else { return };
-        // Seen from outside, the front of a right leg is on the right, that of a left one on the left.
+        // Seen from outside, the front of a right leg lies on the right, that of a left leg on the left.
         for (face, side) in Face::BOTH.into_iter().zip(Hand::BOTH) {
             let a = right.chain(Label::Crotch, Some(side));
             let b = left.chain_back(Label::Crotch, Some(side.other()));
@@ -322,7 +322,7 @@ impl<'w> Tailor<'w, '_, '_> {
         ];
         for (class, label, kind) in halves {
             let is_half = |hand: Hand| self.find(class, Some(face), hand).is_some_and(|worn| worn.hand.is_some());
-            // A yoke below the waist is joined together with the piece that it is sewn onto.
+            // A yoke below the waist is joined together with the piece that carries it.
             let is_low = |worn: &Worn| worn.class == Class::Yoke && worn.has(Label::Waist);
             if !Hand::BOTH.into_iter().all(is_half) || self.find(class, Some(face), Hand::Right).is_some_and(is_low) {
                 continue;

@@ -6,30 +6,30 @@ use geom::V2;
 
 /// Turning angle to the right from which a corner is the apex of a dart, degrees.
 const APEX_TURN_DEG: f64 = 120.0;
-/// Greatest relative difference of the two legs of a dart.
+/// Greatest relative length difference between both edges of a dart.
 const LEG_DIFFERENCE: f64 = 0.04;
-/// Greatest mouth of a dart, as a share of its leg. A wider one is a V-neck.
+/// Greatest mouth of a dart, as a share of its edges. A wider one is a V-neck.
 const WIDEST_MOUTH: f64 = 0.7;
-/// Least leg of a dart, m.
+/// Least length of the edges of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
-/// Turning angle from which a marked point is a corner, whatever its neighbours, degrees. A curve of 30 mm radius, the
+/// Turning angle from which a marked point is a corner whatever its neighbours, degrees. A curve of 30 mm radius, the
 /// narrowest of an armhole or a neck, turns by 19 degrees per centimetre.
 const CLEAR_TURN_DEG: f64 = 20.0;
-/// Least share of its turning angle that a neighbour on the same curve has.
+/// Least share of the turning angle of a vertex by which its neighbour on the same curve turns.
 const SAME_CURVE: f64 = 0.5;
-/// Growth of a dart's mouth that does not count, m.
+/// Growth of the mouth of a dart that does not count, m.
 const LEAST_STEP_M: f64 = 1e-3;
-/// Greatest distance of corners from the images of others in a symmetric outline, as a share of its size.
+/// Greatest distance of a corner from the mirror image of its partner in a symmetric outline, as a share of the size.
 const MIRRORED: f64 = 0.003;
-/// Greatest number of corners of a piece. No pattern has more, and the cost of alignment is quadratic in it.
+/// Greatest number of corners of a piece. No pattern has more, and alignment takes time quadratic in the number.
 const MOST_CORNERS: usize = 100;
 
-/// The sewn outline, split at its corners.
+/// Sewn outline, divided at its corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// Vertices of the outline, counter-clockwise, m.
     outline: Vec<V2>,
-    /// Corners as vertex indices, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
+    /// Corners as vertex indices, counter-clockwise: those of [`corner_vertices`] that do not lie on a curve.
     corners: Vec<usize>,
     /// Darts cut into the outline.
     darts: Vec<Dart>,
@@ -38,24 +38,25 @@ pub struct Shape {
 /// A dart in an outline: as many edges before its apex as after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dart {
-    /// Corner at its tip.
+    /// Corner at the tip.
     pub apex: usize,
-    /// Number of edges of each leg: one, or several if the dart narrows again towards the edge it is cut into.
+    /// Number of edges on each side of the apex: one, or several if the dart narrows again towards the edge that it is
+    /// cut into.
     pub span: usize,
 }
 
-/// Properties of consecutive edges, in the frame of [`Shape::framed`].
+/// Properties of consecutive edges, divided by the longer side of the bounding box, as of [`Shape::framed`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Vector from its first to its last point.
     pub chord: V2,
     /// Midpoint by length.
     pub middle: V2,
-    /// Length, the legs of darts left out.
+    /// Length without the edges of darts.
     pub length: f64,
-    /// Signed area between it and its chord over the square of the chord, positive if it bulges outwards.
+    /// Signed area between edges and chord, divided by the square of the chord, positive if they bulge outwards.
     pub bow: f64,
-    /// Sum of the absolute turning angles at its inner corners, without darts, radians.
+    /// Sum of |turning angle| at the inner corners, without darts, radians.
     pub turn: f64,
 }
 
@@ -70,7 +71,7 @@ pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
     }
 }
 
-/// True if a vertex turns no more than a curve that continues at a neighbour. Programs mark grade points along an edge
+/// True if a vertex turns no more than a curve that continues at a neighbour: programs mark grade points along an edge
 /// as they mark corners.
 fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
     let n = outline.len();
@@ -84,7 +85,7 @@ fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
 }
 
 impl Shape {
-    /// Shape of a piece. `None` with fewer than three corners or more than any pattern has.
+    /// Shape of a piece. `None` with fewer than 3 or more than [`MOST_CORNERS`] corners.
     #[must_use]
     pub fn of(piece: &Piece) -> Option<Self> {
         let outline = piece.seam_outline();
@@ -94,7 +95,7 @@ impl Shape {
         Self::new(outline.to_vec(), corners)
     }
 
-    /// Shape of a counter-clockwise outline with the indices of its corners. `None` as of [`Shape::of`].
+    /// Shape of a counter-clockwise outline with the given corners. `None` as of [`Shape::of`].
     #[must_use]
     pub fn new(outline: Vec<V2>, corners: Vec<usize>) -> Option<Self> {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
@@ -112,7 +113,7 @@ impl Shape {
         &self.corners
     }
 
-    /// Number of corners, which is that of the edges. Edge `k` runs from corner `k` to the next.
+    /// Number of corners, and of edges. Edge `k` runs from corner `k` to the next.
     #[must_use]
     pub fn len(&self) -> usize {
         self.corners.len()
@@ -124,20 +125,20 @@ impl Shape {
         &self.darts
     }
 
-    /// Dart that an edge belongs to, if any.
+    /// Dart that an edge belongs to. `None` for any other edge.
     #[must_use]
     pub fn dart_of(&self, edge: usize) -> Option<Dart> {
         let n = self.len();
         self.darts.iter().copied().find(|dart| (edge + n + dart.span - dart.apex) % n < 2 * dart.span)
     }
 
-    /// True if an edge belongs to a leg of a dart.
+    /// True if an edge belongs to a dart.
     #[must_use]
     pub fn is_leg(&self, edge: usize) -> bool {
         self.dart_of(edge).is_some()
     }
 
-    /// True if a corner is the apex of a dart, or lies within one of its legs.
+    /// True if a corner is the apex of a dart, or lies inside one of its sides.
     #[must_use]
     pub fn is_in_dart(&self, corner: usize) -> bool {
         let n = self.len();
@@ -171,7 +172,7 @@ impl Shape {
         let place = |corner: usize| self.outline[self.corners[corner % self.len()]];
         let mouth = (place(corner + 1) - place(corner + self.len() - 1)).norm();
         let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
-        // The angle is taken between the chords of the legs, because those of a waist dart are often curved.
+        // The edges of a waist dart are often curved, so the angle is that between their chords.
         let into = place(corner) - place(corner + self.len() - 1);
         let out = place(corner + 1) - place(corner);
         into.perp(&out).atan2(into.dot(&out)).to_degrees() < -APEX_TURN_DEG
@@ -180,8 +181,8 @@ impl Shape {
             && long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M)
     }
 
-    /// Number of edges of each leg of the dart with this apex. A dart that is widest inside the piece narrows again on
-    /// its way out.
+    /// Number of edges on each side of the dart with this apex. A dart that is widest inside the piece narrows again
+    /// towards its mouth.
     fn leg_span(&self, apex: usize) -> usize {
         let n = self.len();
         let place = |corner: usize| self.outline[self.corners[corner % n]];
@@ -191,11 +192,11 @@ impl Shape {
             let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
             long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M) && mouth(*span) <= mouth(span - 1) + LEAST_STEP_M
         };
-        // At least one edge stays outside.
+        // At least one edge remains outside the dart.
         1 + (2..=(n - 1) / 2).take_while(is_on).count()
     }
 
-    /// Length of consecutive edges once their darts are sewn, m.
+    /// Length of consecutive edges with their darts sewn, m.
     #[must_use]
     pub fn sewn_length(&self, from: usize, span: usize) -> f64 {
         let edges = (from..from + span).map(|edge| edge % self.len());
@@ -209,8 +210,8 @@ impl Shape {
         points.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
     }
 
-    /// Returns the shape rotated by quarter turns and scaled into the unit square, and the width and height of its
-    /// bounding box there. Both axes are scaled by the longer side, so that angles stay.
+    /// Returns the shape rotated by quarter turns and divided by the longer side of its bounding box, and the resulting
+    /// width and height of that box.
     #[must_use]
     pub fn framed(&self, quarter_turns: usize) -> (Self, V2) {
         let points: Vec<V2> = self.outline.iter().map(|p| quarter_turned(p, quarter_turns)).collect();
@@ -221,8 +222,8 @@ impl Shape {
         (Self { outline, ..self.clone() }, (high - low) / scale)
     }
 
-    /// Mirror symmetry of a framed outline, left to right, if it has one: the sum, modulo the number of corners, of a
-    /// corner and its image.
+    /// Mirror symmetry of a framed outline, left to right: the sum of the indices of a corner and its image, modulo the
+    /// number of corners. `None` if the outline is not symmetric.
     #[must_use]
     pub fn mirror(&self) -> Option<usize> {
         let n = self.len();
@@ -232,7 +233,7 @@ impl Shape {
         (0..n).find(|sum| (0..n).all(|corner| is_image(place(corner), place(sum + n - corner))))
     }
 
-    /// Properties of `span` edges from the edge `from` on.
+    /// Properties of `span` edges, beginning with the edge `from`.
     #[must_use]
     pub fn section(&self, from: usize, span: usize) -> Section {
         let n = self.len();
@@ -253,7 +254,7 @@ impl Shape {
             points = self.points(from % n);
         }
         let chord = points[points.len() - 1] - points[0];
-        // The mouth of a dart counts as the straight step between the two points that it parts.
+        // The mouth of a dart counts as a straight step between the two points that the dart separates.
         let mut arcs = vec![0.0];
         for ends in points.windows(2) {
             arcs.push(arcs[arcs.len() - 1] + (ends[1] - ends[0]).norm());

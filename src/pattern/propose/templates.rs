@@ -1,6 +1,5 @@
-//! Templates of pieces: their edges in counter-clockwise order, upright, as they are drawn in practice.
-//!
-//! Directions, positions and shares are typical of block patterns. Alignment tolerates large differences from them.
+//! Templates of pieces: their edges in counter-clockwise order, upright, with directions, positions and shares typical
+//! of block patterns. The alignment tolerates large differences.
 
 use super::{Class, Label};
 
@@ -9,13 +8,13 @@ use super::{Class, Label};
 pub struct Part {
     /// Kind of edge.
     pub label: Label,
-    /// Direction of its chord, degrees counter-clockwise from +u.
+    /// Direction of the chord, degrees counter-clockwise from +u.
     pub direction_deg: f64,
-    /// Bow: 1 if it bulges outwards, -1 if it is hollow, 0 if it is about straight.
+    /// Bow: 1 for an edge that bulges outwards, -1 for a hollow edge, 0 for a nearly straight one.
     pub bow: f64,
-    /// Position of its middle in the bounding box, 0 to 1 on each axis.
+    /// Position of the middle in the bounding box, 0 to 1 on each axis.
     pub at: [f64; 2],
-    /// Share of the total length.
+    /// Share of the total length of the outline.
     pub share: f64,
 }
 
@@ -24,26 +23,26 @@ pub struct Part {
 pub struct Template {
     /// Kind of piece.
     pub class: Class,
-    /// True if the whole width is drawn. Otherwise it is one half, with the wearer's outer side on the right.
+    /// True if the whole width is drawn. Otherwise one half, with the wearer's outer side on the right.
     pub is_whole: bool,
     /// Parts of the outline, counter-clockwise.
     pub parts: &'static [Part],
 }
 
 impl Template {
-    /// True if it has a part with this label.
+    /// True if the template has a part with this label.
     #[must_use]
     pub fn has(&self, label: Label) -> bool {
         self.parts.iter().any(|part| part.label == label)
     }
 
-    /// True if it has a shoulder. A yoke without one lies below the waist.
+    /// True if the template has a shoulder. A yoke without a shoulder lies below the waist.
     #[must_use]
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)
     }
 
-    /// True for raglan: a trunk or a sleeve that meets the other from the underarm to the neck.
+    /// True for raglan: a trunk or sleeve whose seam runs from the underarm to the neck.
     #[must_use]
     pub fn is_raglan(&self) -> bool {
         matches!(self.class, Class::Body | Class::Sleeve) && self.has(Neck) && !self.has(Shoulder)
@@ -71,7 +70,7 @@ use Label::{
     Waist,
 };
 
-/// All templates. Halves are aligned as their mirror images too.
+/// All templates. A half is also tried as its mirror image.
 pub const TEMPLATES: [Template; 25] = [
     Template {
         class: Class::Body,

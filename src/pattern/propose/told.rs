@@ -1,8 +1,8 @@
-//! Statements of a file about its pieces: by their names, categories and other texts.
+//! Statements of a file about its pieces, by their names, categories and other texts.
 //!
 //! A CAD program names the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`, and those of `PALAZZO` `PALAZZO FRONT`,
-//! `PALAZZO BACK`. The words that all names share do not describe a single piece. The rest is a garment term, or one of
-//! the usual abbreviations.
+//! `PALAZZO BACK`. The words that all names share do not describe a single piece. The rest is a garment term or a usual
+//! abbreviation.
 
 use super::names::{self, Named};
 use super::{Class, Face, Hand};
@@ -10,10 +10,10 @@ use crate::piece::Piece;
 
 /// Keys of texts that describe a piece, in lower case.
 const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_id", "piece id", "type", "part"];
-/// Keys of texts that also tell how to cut it. `CUT 2 FABRIC, 2 LINING` makes no lining of a front.
+/// Keys of texts that say how to cut a piece, too. `CUT 2 FABRIC, 2 LINING` does not make a front a lining.
 const REMARKS: [&str; 2] = ["annotation", "description"];
 
-/// Usual abbreviations as whole words in lower case, and the term that they stand for.
+/// Usual abbreviations, as lower-case words, of the terms that they stand for.
 const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("front", &["f", "fr", "frt", "frnt", "fa", "vt"]),
     ("back", &["b", "bk", "bck", "ba"]),
@@ -29,15 +29,15 @@ const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("interlining", &["int", "intl", "lin", "lng"]),
 ];
 
-/// Abbreviations that are joined to the name of the style (`RUNNERBK`), longest first.
+/// Abbreviations that follow the name of the style without a separator (`RUNNERBK`), the longest first.
 const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
 
 /// Statements about a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Told {
-    /// Statement of its own name and texts.
+    /// Statement of the name and texts of the piece.
     pub own: Named,
-    /// Statement of the words that all pieces of the file share, which are about the style.
+    /// Statement of the words that all names in the file share. They are about the style.
     pub shared: Named,
 }
 
@@ -69,7 +69,7 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
     let face = |k: usize| by_name[k].face.or_else(|| rest(&pieces[k])?.face);
     let own_of = |(k, piece): (usize, &Piece)| -> Named {
         let named = by_name[k];
-        // A kind in the name counts most, because a category may be that of a library.
+        // The name tells the kind better than the category, which may be that of a library.
         if named.class.is_some() {
             return lined(pieces, piece, named);
         }
@@ -86,7 +86,7 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
             part: named.part.or(first.part),
         };
         let said = match text {
-            // A text that is equal for fronts and backs was copied, so the letters of the name precede it.
+            // A text that is equal for fronts and backs was copied, so the letters of the name count before it.
             Some(text) if is_copied(pieces, text, &face) => over(rest(piece).unwrap_or_else(|| names::read(text))),
             Some(text) => over(names::read(text)),
             None if named.face.is_some() => named,
@@ -99,9 +99,9 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
     own.iter().zip(&of_style).map(|(&own, style)| Told { own, shared: shared_by(style) }).collect()
 }
 
-/// The part of the shared words that may hold for a single piece. If names give more than numbers, that is only the
-/// kind of a garment whose other pieces are bands: a skirt has no sleeves, and a shirt with short sleeves has other
-/// pieces too.
+/// Part of the shared statement that may hold for a single piece. If names give more than numbers, that is only the
+/// kind of a garment whose other pieces are bands: all other pieces of a skirt are of its kind, those of a shirt are
+/// not.
 fn shared_of(shared: Named, own: &[Named]) -> Named {
     let is_garment = matches!(shared.class, Some(Class::Leg | Class::Skirt));
     let goes_with = |own: &Named| match own.class {
@@ -117,7 +117,7 @@ fn shared_of(shared: Named, own: &[Named]) -> Named {
     }
 }
 
-/// Statement about a piece. It is a lining if its material says so and that of other pieces does not.
+/// Statement about a piece, made a lining if its material is one and that of other pieces is not.
 fn lined(pieces: &[Piece], piece: &Piece, said: Named) -> Named {
     let is_lining = |piece: &Piece| {
         let materials = piece.texts.iter().filter(|(key, _)| key.eq_ignore_ascii_case("material"));
@@ -136,7 +136,7 @@ fn has_text(piece: &Piece, text: &str) -> bool {
     piece.texts.iter().any(|(_, value)| value == text)
 }
 
-/// True if a front and a back have the same text, which names one of them.
+/// True if a front and a back have the same text, and the text names one of them.
 fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(usize) -> Option<Face>) -> bool {
     let says = |wanted: Face| (0..pieces.len()).any(|k| has_text(&pieces[k], text) && face(k) == Some(wanted));
     names::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
@@ -146,7 +146,7 @@ fn read(words: &[String], is_kind_known: bool) -> Named {
     names::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
 }
 
-/// Words of every name without the names of style and size in the file, and the words among those that name a kind.
+/// Words of every name without the names of style and size, and those of the words that name a kind.
 fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
     let names: Vec<Vec<String>> = pieces.iter().map(|piece| names::words(&piece.name)).collect();
     let names: Vec<Vec<String>> = names.iter().map(|words| loosened(words, &names)).collect();
@@ -157,7 +157,7 @@ fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
         for text in &piece.beside.garment {
             let said = names::words(text);
             let at = words.windows(said.len().max(1)).position(|found| found == said);
-            // Right and left are no sizes.
+            // Right and left are not sizes.
             let is_hand =
                 is_pair && said.iter().any(|word| names::word_of(word).is_some_and(|said| said.hand.is_some()));
             if let Some(at) = at.filter(|_| !said.is_empty() && said.len() < words.len() && !is_hand) {
@@ -170,8 +170,8 @@ fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
     pieces.iter().zip(names).map(without).unzip()
 }
 
-/// Splits words at the end of the name of a style that is joined to a garment term. The name must be a word in another
-/// piece's name, or be joined to another term there (`TEAGANFRONT` beside `TEAGANBACK`).
+/// Splits words where the name of a style joins a garment term. The name must be a word of another name, or be joined
+/// to another term there (`TEAGANFRONT` beside `TEAGANBACK`).
 fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
     let is_of_trade = |part: &str| names::word_of(part).is_some();
     let is_style = |part: &str, word: &String| {
@@ -186,7 +186,7 @@ fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
     words.iter().flat_map(|word| cut(word).map_or_else(|| vec![word.clone()], Vec::from)).collect()
 }
 
-/// Words of each name that are not shared, and the words that all names share.
+/// Words of each name that are not shared, and the shared words.
 fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     let mut own = names.to_vec();
     let mut common: Vec<String> = Vec::new();
@@ -194,7 +194,7 @@ fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
         for word in &names[0] {
             if own.iter().all(|words| words.contains(word)) {
                 for words in &mut own {
-                    // The first of two equal words belongs to the style.
+                    // Of two equal words, the first belongs to the style.
                     if let Some(at) = words.iter().position(|other| other == word) {
                         words.remove(at);
                     }
@@ -206,7 +206,7 @@ fn parted(names: &[Vec<String>]) -> (Vec<Vec<String>>, Vec<String>) {
     (own, common)
 }
 
-/// Number of bytes that all names begin with.
+/// Number of bytes at the beginning that all names share.
 fn common_start(pieces: &[Piece]) -> usize {
     let mut names = pieces.iter().map(|piece| piece.name.as_str());
     let Some(first) = names.next().filter(|_| pieces.len() > 1) else { return 0 };

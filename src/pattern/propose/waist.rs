@@ -5,7 +5,7 @@ use super::worn_pieces::Worn;
 use super::{Class, Face, Hand, Label, SeamKind};
 
 impl<'w> Tailor<'w, '_, '_> {
-    /// Pieces of a kind and face, in the counter-clockwise order of their lower edges.
+    /// Pieces of a kind on front or back, in the counter-clockwise order of their lower edges.
     pub fn row(&self, class: Class, face: Face) -> Vec<&'w Worn> {
         let order = if face == Face::Front { Hand::BOTH } else { [Hand::Left, Hand::Right] };
         let mut row: Vec<&Worn> = Vec::new();
@@ -30,8 +30,8 @@ impl<'w> Tailor<'w, '_, '_> {
         self.add(SeamKind::Yoke(face), a, b, &pieces, EASED_DOUBT);
     }
 
-    /// Joins the lower edges of upper pieces to the upper edges of lower pieces, of one face: bodice, waistband, yoke,
-    /// skirt or legs.
+    /// Joins the lower edges of upper pieces to the upper edges of lower pieces, front or back: bodice, waistband,
+    /// yoke, skirt or legs.
     pub fn waist(&mut self, face: Face) {
         let level = |class: Class| match self.row(class, face) {
             row if row.is_empty() && class == Class::Skirt => self.gores(face),
@@ -66,7 +66,7 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Gores in their order to the right, seen from outside, or a skirt of one piece.
+    /// Gores from left to right, seen from outside, or a skirt of one piece.
     fn skirt_round(&self) -> Vec<&'w Worn> {
         let is_round = |worn: &&Worn| worn.class == Class::Skirt && worn.face.is_none() && worn.hand.is_none();
         self.worn.iter().filter(is_round).collect()
@@ -79,21 +79,21 @@ impl<'w> Tailor<'w, '_, '_> {
         if face == Face::Front { front.to_vec() } else { back.to_vec() }
     }
 
-    /// Waistbands without a face: one all round, or one for each side.
+    /// Waistbands that are neither front nor back: one all round, or one on each side.
     fn bands_round(&self) -> Vec<&'w Worn> {
         self.worn.iter().filter(|worn| worn.class == Class::Waistband && worn.face.is_none()).collect()
     }
 
-    /// Joins waistbands of one piece, or of a right and a left one, to the pieces above and below, and their ends to
-    /// each other. A pattern does not tell where a band begins. It is taken to begin at a seam at centre front, or at
-    /// centre back, otherwise at a side.
+    /// Joins waistbands of one piece, or a right and a left one, to the pieces above and below, and their ends to each
+    /// other. A pattern does not show where a band begins: a seam at centre front is preferred, then one at centre
+    /// back, then a side.
     pub fn waistbands(&mut self) {
         let bands = self.bands_round();
         let side = |hand: Hand| bands.iter().copied().find(|band| band.hand == Some(hand));
         if let Some(band) = bands.iter().copied().find(|band| band.hand.is_none()) {
             self.asker.tell(format!("where does `{}` open, and at which seam does it begin?", band.id));
             self.band(band, None);
-            // The waist of a skirt of one piece is closed by the skirt. The band may overlap there.
+            // A skirt of one piece closes its waist. The band may overlap there.
             if self.skirt_round().is_empty() {
                 let (a, b) = ends(band, band, Label::End);
                 self.add(SeamKind::Waistband, a, b, &[band], PLAIN_DOUBT);
@@ -103,7 +103,7 @@ impl<'w> Tailor<'w, '_, '_> {
             for band in [right, left] {
                 self.band(band, band.hand);
             }
-            // Each runs to the wearer's left: the right one from the back, the left one from the front.
+            // Each band runs to the wearer's left: the right one from the back, the left one from the front.
             for (face, [band, next]) in Face::BOTH.into_iter().zip([[right, left], [left, right]]) {
                 let (a, b) = ends(band, next, Label::End);
                 self.add(SeamKind::WaistbandCentre(face), a, b, &[band, next], PLAIN_DOUBT);
@@ -111,7 +111,7 @@ impl<'w> Tailor<'w, '_, '_> {
         }
     }
 
-    /// Joins one band to the pieces above and below it, of one side or all round.
+    /// Joins one band to the pieces above and below, on one side or all round.
     fn band(&mut self, band: &'w Worn, hand: Option<Hand>) {
         let below = [Class::Skirt, Class::Leg].map(|class| self.round(class, hand));
         if let Some(below) = below.iter().find(|pieces| !pieces.is_empty()) {
@@ -125,8 +125,8 @@ impl<'w> Tailor<'w, '_, '_> {
         self.add(SeamKind::WaistAbove(hand), a, band.chain_back(Label::Top, None), &pieces, EASED_DOUBT);
     }
 
-    /// Pieces of a kind all round the body, or round one side of it, in the order of their lower edges. A yoke on a
-    /// skirt or legs takes the place of the pieces that it is sewn onto.
+    /// Pieces of a kind round the body, or round one side of it, in the order of their lower edges. A yoke on a skirt
+    /// or legs takes the place of the pieces that carry it.
     fn round(&self, class: Class, hand: Option<Hand>) -> Vec<&'w Worn> {
         let of_face = |face: Face| {
             let yokes = self.row(Class::Yoke, face);
@@ -163,7 +163,7 @@ impl<'w> Tailor<'w, '_, '_> {
     }
 }
 
-/// Side `a` at the right end of one piece as drawn, and side `b` at the left end of the one that follows it.
+/// Side `a` at the right end of a piece as drawn, and side `b` at the left end of the next piece.
 fn ends<'w>(worn: &'w Worn, next: &'w Worn, label: Label) -> (Chain<'w>, Chain<'w>) {
     (worn.chain(label, Some(Hand::Left)), next.chain_back(label, Some(Hand::Right)))
 }

@@ -1,5 +1,5 @@
-//! The part of a proposal that can be draped without questions. Pieces with uncertain seams are left out, and the rest
-//! must be closed on the body.
+//! Part of a proposal that can be draped without questions: pieces with uncertain seams are left out, and the rest must
+//! be closed on the body.
 
 use super::worn_pieces::Worn;
 use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
@@ -7,20 +7,20 @@ use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Que
 /// Least confidence of a seam that is sewn without a question.
 const SURE: f64 = 0.4;
 
-/// Kinds of piece that a garment can be worn without, the outermost first.
+/// Kinds of pieces that can be left out, the outermost first.
 const SPARED: [Class; 3] = [Class::Cuff, Class::Waistband, Class::Sleeve];
 
 /// Error: the certain part of a proposal is not closed on the body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("how it is sewn is not sure enough: {reason}")]
 pub struct Unwearable {
-    /// Missing seams, questions and notes.
+    /// Missing seams, questions and notes as text.
     pub reason: String,
 }
 
 impl Proposal {
-    /// The part of the proposal that is draped without questions. Bands, cuffs and sleeves with uncertain seams, and
-    /// pieces that are sewn to nothing, are left out on both sides alike. A note tells of each.
+    /// Part of the proposal that can be draped without questions. Bands, cuffs and sleeves with uncertain seams, and
+    /// pieces that are sewn to nothing, are left out on both sides alike, each with a note.
     ///
     /// # Errors
     /// [`Unwearable`] if the rest is not closed: a side, shoulder, leg or yoke seam is uncertain.
@@ -42,8 +42,8 @@ impl Proposal {
         Err(Unwearable { reason })
     }
 
-    /// A kind of piece that is not attached with certainty and can be spared, with the reason. The outermost comes
-    /// first.
+    /// Outermost kind of piece that is not attached with certainty and can be left out, with the reason. `None` if
+    /// there is none.
     fn loose(&self) -> Option<(Class, String)> {
         let pieces_of = |class: Class| self.pieces.iter().filter(move |piece| piece.class == Some(class));
         let spared = SPARED.into_iter().flat_map(pieces_of);
@@ -62,7 +62,7 @@ impl Proposal {
         of_seams.next()
     }
 
-    /// True if a seam joins pieces of `class` to another kind of piece that holds them.
+    /// True if a seam joins pieces of `class` to the kind of piece that carries them.
     fn is_hold(&self, seam: &ProposedSeam, class: Option<Class>) -> bool {
         let class_of =
             |id: &str| self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).and_then(|piece| piece.class);
@@ -71,7 +71,7 @@ impl Proposal {
 
     /// Removes all pieces of a kind and their seams.
     fn leave_out(&mut self, class: Class, reason: &str) {
-        // A left sleeve goes with the right one, and half a waistband with the other half.
+        // Left and right sleeves go together, as do both halves of a waistband.
         let gone = |piece: &ProposedPiece| piece.class == Some(class);
         let ids_gone: Vec<String> =
             self.pieces.iter().filter(|piece| gone(piece)).filter_map(|piece| piece.id.clone()).collect();
@@ -93,7 +93,7 @@ impl Proposal {
         }
     }
 
-    /// Remarks on what is not closed with certainty.
+    /// Remarks on seams that must close the garment and are not certain.
     fn missing(&self) -> Vec<String> {
         let mut missing: Vec<String> = self
             .seams
@@ -110,19 +110,19 @@ impl Proposal {
     }
 }
 
-/// Remarks on what keeps pieces from being closed on the body: missing seams, and a piece that nothing is sewn to.
+/// Remarks on what keeps pieces from closing on the body: missing seams, and a piece that is sewn to nothing.
 pub fn lacking(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     let needed = needed(worn);
     let not_sewn = needed.iter().filter(|kind| !seams.iter().any(|seam| seam.kind == **kind));
     not_sewn.map(|kind| format!("the seam {kind} was not found")).chain(apart(worn, seams)).collect()
 }
 
-/// Seams without which the pieces are not closed.
+/// Seams without which the pieces do not close.
 fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     let has = |class: Class| worn.iter().any(|worn| worn.class == class);
     let has_edge = |label: Label| worn.iter().any(|worn| worn.has(label));
     let has_shoulder = has_edge(Label::Shoulder);
-    // Nothing else joins front and back of a raglan at the top.
+    // At the top of a raglan, nothing else joins front and back.
     let is_raglan = !has_shoulder && has(Class::Body) && has_edge(Label::Neck);
     let skirts_round = worn.iter().filter(|worn| worn.class == Class::Skirt && worn.face.is_none()).count();
     let mut needed = Vec::new();
@@ -155,7 +155,7 @@ fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     needed
 }
 
-/// The same for one face alone.
+/// Seams without which the front or the back alone does not close.
 fn needed_of(worn: &[Worn], face: Face) -> Vec<SeamKind> {
     let pieces_of = |class: Class| worn.iter().filter(move |worn| worn.class == class && worn.face == Some(face));
     let mut needed = Vec::new();
@@ -177,7 +177,7 @@ fn needed_of(worn: &[Worn], face: Face) -> Vec<SeamKind> {
     needed
 }
 
-/// Remark on a piece that no chain of seams joins to the first.
+/// Remark on a piece that no chain of seams joins to the first piece. `None` without such a piece.
 fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
     let mut joined: Vec<&str> = worn.first().map(|worn| worn.id.as_str()).into_iter().collect();
     let mut at = 0;
@@ -195,13 +195,13 @@ fn apart(worn: &[Worn], seams: &[ProposedSeam]) -> Option<String> {
     Some(format!("no seam joins {apart} to {}", joined.first()?))
 }
 
-/// True if a seam is sewn without a question. Two halves that are mirror images are closed at the centre, by a seam,
-/// buttons or a fold.
+/// True if a seam is sewn without a question. Halves that are mirror images are closed at the centre in any case: by a
+/// seam, buttons or a fold.
 fn is_sure(seam: &ProposedSeam) -> bool {
     seam.confidence >= if seam.kind.is_centre() { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
 }
 
-/// Identifiers of the pieces of a seam, once for each of its edges.
+/// Identifier of the piece of each edge of a seam.
 fn ids(seam: &ProposedSeam) -> impl Iterator<Item = &str> {
     seam.entry.a.iter().chain(&seam.entry.b).filter_map(|edge| edge.split_once('.').map(|(id, _)| id))
 }

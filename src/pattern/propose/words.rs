@@ -6,8 +6,8 @@
 
 use super::{Class, Face, Hand, PartName};
 
-/// Words for a kind of piece. The first kind that is found counts, so small parts precede the pieces that they are sewn
-/// to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
+/// Words for kinds of pieces. The first kind that is found counts, so small parts precede the pieces that they are sewn
+/// to: `front pocket bag` is a pocket, `sleeve cuff` a cuff.
 #[rustfmt::skip]
 pub const CLASSES: [(Class, &[&str]); 7] = [
     (Class::Other, &[
@@ -93,7 +93,7 @@ pub const PARTS: [(PartName, &[&str]); 3] = [
     (PartName::Panel, &["panel", "paneel"]),
 ];
 
-/// Words that form compounds with the others and carry no information for seams.
+/// Words that form compounds with the others and say nothing about seams.
 #[rustfmt::skip]
 pub const PLAIN: &[&str] = &[
     "side", "centre", "center", "middle", "upper", "top", "inner", "outer", "inside", "outside", "inset", "insert", "part", "piece",

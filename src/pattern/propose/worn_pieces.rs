@@ -1,4 +1,4 @@
-//! Pieces as worn: copies of pieces that are cut twice, their side of the wearer, and their named edges.
+//! Pieces as worn: copies of pieces that are cut twice, sides of the wearer, named edges.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -19,16 +19,16 @@ use geom::polyline::Polyline;
 /// An edge of a piece as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WornEdge {
-    /// Name within the piece.
+    /// Name, unique in the piece.
     pub name: String,
-    /// Kind of edge. `None` for a leg of a dart.
+    /// Kind of edge. `None` for an edge of a dart.
     pub label: Option<Label>,
-    /// Side of the wearer, if the piece has the edge on both. For the front or back half of a sleeve, [`Hand::Right`]
-    /// means the front of a right sleeve.
+    /// Side of the wearer, on which the piece has this edge. `None` if the piece has only one. For the front or back
+    /// half of a sleeve, [`Hand::Right`] is the front of a right sleeve.
     pub hand: Option<Hand>,
     /// Length of the sew line, m.
     pub length: f64,
-    /// Arc lengths of its notches, m, as worn.
+    /// Arc lengths of the notches as worn, m.
     pub notches: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ pub struct Worn {
     pub class: Class,
     /// Front or back.
     pub face: Option<Face>,
-    /// Side of the wearer. `None` for both.
+    /// Side of the wearer. `None` for a piece on both sides.
     pub hand: Option<Hand>,
     /// True if the whole width is drawn.
     pub is_whole: bool,
@@ -51,7 +51,7 @@ pub struct Worn {
     pub is_gore: bool,
     /// Edges, counter-clockwise as worn.
     pub edges: Vec<WornEdge>,
-    /// Names of the two legs of every dart.
+    /// Names of both edges of every dart.
     pub darts: Vec<[String; 2]>,
     /// Entry of the seam file.
     pub entry: PieceEntry,
@@ -59,12 +59,12 @@ pub struct Worn {
     pub confidence: f64,
 }
 
-/// An edge of a piece in one side of a seam. It is displayed as in seam files.
+/// An edge in one side of a seam. `Display` writes it as in seam files.
 #[derive(Clone, Copy, Debug)]
 pub struct Along<'w> {
     /// Piece that the seam joins.
     pub piece: &'w Worn,
-    /// Edge of that piece.
+    /// Edge of the piece.
     pub edge: &'w WornEdge,
 }
 
@@ -74,11 +74,11 @@ impl fmt::Display for Along<'_> {
     }
 }
 
-/// Distance within which a notch belongs to an edge, m.
+/// Greatest distance of a notch from the edge that it marks, m.
 const ON_EDGE_M: f64 = 12e-3;
 
-/// Makes the pieces as worn. A second piece for the same place is left out, with a question. `drawn` is the side for
-/// which a whole sleeve is drawn, if known.
+/// Makes the pieces as worn. Of two pieces for one place the second is left out, with a question. `drawn` is the arm
+/// for which a whole sleeve is drawn, if known.
 pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, asker: &mut Asker<'_>) -> Vec<Worn> {
     let backs_face_inwards = recognised.iter().any(|candidate| {
         candidate.face == Some(Face::Back)
@@ -113,8 +113,8 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, as
                 }
                 break;
             }
-            // A yoke over the shoulders is placed with the trunk. One below the waist follows the pieces that it is
-            // sewn to.
+            // A yoke over the shoulders is placed with the trunk. A yoke below the waist follows the pieces that carry
+            // it.
             let is_trunk = candidate.class == Class::Yoke && candidate.alignment.template.has_shoulder();
             let class = if is_trunk { Class::Body } else { candidate.class };
             let role = role_of(Some(class), candidate.face, hand, is_bodice);
@@ -124,7 +124,7 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, as
     all
 }
 
-/// Asks whether a whole sleeve is drawn as the right or the left one.
+/// Asks for which arm a whole sleeve is drawn. `None` without such a sleeve.
 pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut Asker<'_>) -> Option<Hand> {
     let is_it = |candidate: &&Recognised| {
         candidate.class == Class::Sleeve && candidate.alignment.template.is_whole && candidate.hand.is_none()
@@ -135,17 +135,17 @@ pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut
     asker.ask(text, choices, Some(0)).map(|choice| Hand::BOTH[choice])
 }
 
-/// Side of the wearer for which half a piece is drawn, seen from outside.
+/// Side of the wearer for which half a piece is drawn, seen from outside. `None` for a whole piece.
 fn natural_hand(candidate: &Recognised) -> Option<Hand> {
     let face = candidate.face.filter(|_| !candidate.alignment.template.is_whole)?;
     Some(pose::natural_hand(face, candidate.alignment.is_mirrored))
 }
 
-/// One copy of a piece.
+/// Copy of a piece.
 struct PieceCopy {
-    /// Side of the wearer. `None` for both.
+    /// Side of the wearer. `None` for a copy on both sides.
     hand: Option<Hand>,
-    /// True if it is worn as the mirror image of the drawing.
+    /// True if the copy is worn as the mirror image of the drawing.
     is_mirror: bool,
 }
 
@@ -175,7 +175,7 @@ fn copies(candidate: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>)
     }
 }
 
-/// Side for which a leg in one piece is drawn, seen from outside. Its back reaches further in under the seat than its
+/// Side for which a leg in one piece is drawn, seen from outside: its back reaches further in under the seat than its
 /// front.
 fn drawn_leg(candidate: &Recognised) -> Hand {
     let (framed, _) = candidate.shape.framed(candidate.alignment.quarter_turns);
@@ -187,7 +187,7 @@ fn drawn_leg(candidate: &Recognised) -> Hand {
     if reach(true) <= reach(false) { Hand::Right } else { Hand::Left }
 }
 
-/// Identifier of a piece in the seam file, for one side of the wearer or for both.
+/// Identifier of a piece in the seam file, for one side of the wearer or both.
 pub fn id_of(candidate: &Recognised, hand: Option<Hand>) -> String {
     let class = match candidate.class {
         Class::Body | Class::Other => None,
@@ -269,7 +269,7 @@ fn wear(pieces: &[Piece], candidate: &Recognised, id: String, hand: Option<Hand>
     }
 }
 
-/// Arc lengths, m, of the notches along consecutive edges as drawn, without those at the ends.
+/// Arc lengths of the notches along consecutive edges as drawn, m, without notches at their ends.
 fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usize) -> Vec<f64> {
     let mut points: Vec<V2> = (0..span).flat_map(|k| shape.points((from + k) % shape.len())).collect();
     points.dedup();
@@ -287,11 +287,12 @@ fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usi
     found.filter(|(distance, _)| *distance < ON_EDGE_M).map(|(_, arc)| arc).filter(is_inside).collect()
 }
 
-/// Side of the wearer on which one of two equal edges lies.
+/// Side of the wearer of one of two equal edges.
 fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool) -> Hand {
     let is_right_as_worn = is_right != is_mirror;
     let is_back = candidate.face == Some(Face::Back);
-    // Seen from outside, the right of a front is the wearer's left. That of a sleeve or band is named as it lies.
+    // Seen from outside, the right of a front is the wearer's left. The edges of sleeves and bands are named as they
+    // lie.
     match (candidate.class, hand) {
         (Class::Sleeve | Class::Cuff | Class::Leg, _) => {
             if is_right_as_worn {
@@ -306,12 +307,12 @@ fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror
 }
 
 impl Worn {
-    /// True if it has an edge with this label.
+    /// True if the piece has an edge with this label.
     pub fn has(&self, label: Label) -> bool {
         self.edges.iter().any(|edge| edge.label == Some(label))
     }
 
-    /// Edges with a label, counter-clockwise as worn, of one side if the piece has them on both.
+    /// Edges with a label, counter-clockwise as worn: those of `hand`, if the piece has them on both sides.
     pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         let is_it = |edge: &&WornEdge| {
             edge.label == Some(label) && (hand.is_none() || edge.hand.is_none() || edge.hand == hand)
@@ -319,7 +320,7 @@ impl Worn {
         self.edges.iter().filter(is_it).map(|edge| Along { piece: self, edge }).collect()
     }
 
-    /// Edges of [`Worn::chain`] in reverse order, as the other side of a seam is written: clockwise.
+    /// Edges of [`Worn::chain`] in reverse order, clockwise, as the other side of a seam is written.
     pub fn chain_back(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         self.chain(label, hand).into_iter().rev().collect()
     }

@@ -8,7 +8,7 @@ use super::{Proposal, ProposedSeam};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamFile};
 use geom::units::mm;
 
-/// Ratio of the lengths of both sides from which a seam is remarked as eased or gathered.
+/// Length ratio of both sides from which a comment calls a seam eased or gathered.
 const EASED_RATIO: f64 = 1.01;
 
 impl Proposal {
@@ -29,7 +29,7 @@ impl Proposal {
         }
     }
 
-    /// Writes the seam file as TOML. Comments give every confidence, and every question to the editor of the file.
+    /// Writes the seam file as TOML, with confidences and questions to the user as comments.
     #[must_use]
     pub fn toml(&self, name: &str) -> String {
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();

@@ -7,22 +7,22 @@ use crate::piece::Piece;
 use geom::V2;
 use geom::polyline::Polyline;
 
-/// Distance within which a turn point is taken to lie on a vertex of the outline, m.
+/// Distance below which a turn point counts as on a vertex of the outline, m.
 const ON_OUTLINE_M: f64 = 0.5e-3;
-/// Turning angle from which a vertex is a corner if the file marks none, degrees. Judgement: of 296 corners that six
-/// files mark, 265 turn by as much, and no other vertex does.
+/// Turning angle from which a vertex is a corner if the file marks no corners, degrees. Of 296 corners that six files
+/// mark, 265 turn by as much, and no other vertex does.
 const CORNER_TURN_DEG: f64 = 30.0;
-/// Turning angle from which a vertex is a corner besides the marked ones, degrees. No vertex of a sampled curve turns
-/// as much.
+/// Turning angle from which a vertex is a corner besides the marked ones, degrees. A vertex of a sampled curve turns
+/// less.
 const SHARP_TURN_DEG: f64 = 45.0;
-/// Turning angle below which a marked vertex may belong to an internal line, degrees.
+/// Turning angle below which a marked vertex is no corner if an internal line meets the outline there, degrees.
 const SLIGHT_TURN_DEG: f64 = 20.0;
-/// Least distance of such an unmarked corner from the next one along the outline, m. A nearer one belongs to a notch or
-/// a step.
+/// Least distance along the outline of an unmarked corner from the next corner, m. Sharp vertices nearer than that form
+/// a notch or a step.
 const APART_M: f64 = 15e-3;
 
-/// Corners of an outline as vertex indices, counter-clockwise from the first turn point in the file. They are the
-/// marked vertices and isolated sharp ones. If the file marks none, they are those with a large turning angle.
+/// Corners of an outline as vertex indices, counter-clockwise from the first turn point in the file: marked vertices
+/// and isolated sharp ones. If the file marks none, all vertices with a large turning angle.
 pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let outline = piece.seam_outline();
     let nearest = |point: &V2| {
@@ -52,11 +52,11 @@ fn turn_deg(outline: &[V2], i: usize) -> f64 {
     (outline[i] - outline[(i + n - 1) % n]).angle(&(outline[(i + 1) % n] - outline[i])).to_degrees()
 }
 
-/// Marked corners, and the sharp vertices that are isolated.
+/// Marked corners, and sharp vertices far from any other corner.
 fn with_unmarked(outline: &[V2], marked: BTreeSet<usize>) -> BTreeSet<usize> {
     let n = outline.len();
     let is_corner = |i: usize| marked.contains(&i) || turn_deg(outline, i) >= SHARP_TURN_DEG;
-    // True if no corner is near when the outline is walked by `step` vertices at a time.
+    // True if the walk along the outline by `step` vertices at a time meets no corner within the distance.
     let is_apart = |from: usize, step: usize| {
         let (mut at, mut way) = (from, 0.0);
         loop {
@@ -76,7 +76,7 @@ fn with_unmarked(outline: &[V2], marked: BTreeSet<usize>) -> BTreeSet<usize> {
     marked.into_iter().chain(found).collect()
 }
 
-/// Edge along an outline from one corner over `span` corners, counter-clockwise.
+/// Edge of an outline that begins at the corner `from` and ends `span` corners later, counter-clockwise.
 pub(super) fn cut_edge(outline: &[V2], corners: &[usize], from: usize, span: usize, name: Option<String>) -> Edge {
     let n = outline.len();
     let corner = |k: usize| corners[(from + k) % corners.len()];

@@ -1,22 +1,23 @@
 //! Correspondence of corners between sizes, because a seam file is made on one size and holds for all.
 //!
-//! Grading keeps the order of the corners, and moves each a little relative to the whole piece. The seam file has each
-//! corner as shares of the width and height of the piece. They are scaled onto the outline of another size. Each takes
-//! a vertex of it, in cyclic order, so that the sum of squared distances is least. Vertices at corners are preferred to
-//! others.
+//! Grading keeps the order of the corners and moves each a little relative to the piece. The seam file has each corner
+//! as shares of the width and height of the piece. They are scaled onto the outline of another size, and matched with
+//! its vertices in cyclic order so that the sum of squared distances is least. A vertex that is no corner of that
+//! outline costs a penalty.
 
 use super::corners::corner_vertices;
 use crate::piece::Piece;
 use geom::V2;
 
-/// Penalty of a vertex that is no corner, as a distance over the size of the piece. Such a vertex is taken if no corner
-/// is nearer by this.
+/// Penalty of a vertex that is no corner, as a distance divided by the size of the piece: it is taken only if nearer by
+/// this than every corner.
 pub(super) const CORNER_WORTH: f64 = 0.03;
-/// Greatest distance of corresponding corners, over the size of the piece.
+/// Greatest distance of corresponding corners, divided by the size of the piece.
 const TOO_FAR: f64 = 0.15;
-/// Number of rounds of scaling and matching. The first scales by the bounding box of the outline.
+/// Number of rounds of scaling and matching. The first round scales by the bounding boxes, the others fit the last
+/// match.
 const ROUNDS: usize = 3;
-/// Number of candidate vertices for the first corner.
+/// Number of vertices that are tried for the first corner.
 const STARTS: usize = 8;
 
 /// A corner without a counterpart on an outline.
@@ -24,11 +25,11 @@ const STARTS: usize = 8;
 pub(crate) struct Lost {
     /// Index of the corner.
     pub corner: usize,
-    /// Distance of the vertex that it would have, m.
+    /// Distance from the vertex that matches best, m.
     pub away_m: f64,
 }
 
-/// Positions of vertices of an outline as shares of its width and height, rounded to 0.01 mm for a piece of a metre.
+/// Positions of vertices of an outline as shares of its width and height, rounded to 1e-5.
 pub(crate) fn shares(outline: &[V2], vertices: &[usize]) -> Vec<[f64; 2]> {
     let rounded = |share: f64| (share * 1e5).round() / 1e5;
     places(outline, vertices).into_iter().map(|place| [place.x, place.y].map(rounded)).collect()
@@ -44,8 +45,8 @@ pub(super) fn places(outline: &[V2], vertices: &[usize]) -> Vec<V2> {
     vertices.iter().map(|&vertex| V2::new(share(outline[vertex], 0), share(outline[vertex], 1))).collect()
 }
 
-/// Vertices of the outline that correspond to corners of another size, in their order: counter-clockwise as drawn.
-/// `shares` are their relative positions there, as of [`shares`].
+/// Vertices of the outline that correspond to corners of another size, counter-clockwise as drawn. `shares` are the
+/// positions of these corners in that size, as of [`shares`].
 ///
 /// # Errors
 /// [`Lost`] if a corner has no counterpart.
@@ -56,8 +57,8 @@ pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<us
     matched(piece.seam_outline(), &places, |_, vertex| worth[vertex])
 }
 
-/// Vertices of an outline, in order, for corners at some shares of its width and height. `unlike` is the penalty of a
-/// vertex for a corner, as the square of a distance over the size of the piece.
+/// Vertices of an outline, in cyclic order, for corners at `places` (shares of width and height). `unlike(corner,
+/// vertex)` is the penalty of a match: the square of a distance divided by the size of the piece.
 ///
 /// # Errors
 /// [`Lost`] if a corner has no counterpart.
@@ -118,7 +119,7 @@ impl Scaling {
     }
 }
 
-/// Assigns to each of `count` corners one of `vertices`, in cyclic order, with the least sum of costs.
+/// Assigns one of `vertices` to each of `count` corners, in cyclic order, with the least sum of costs.
 fn in_order(count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -> Vec<usize> {
     let mut starts: Vec<usize> = (0..vertices).collect();
     starts.sort_by(|&i, &j| cost(0, i).total_cmp(&cost(0, j)).then(i.cmp(&j)));
@@ -127,7 +128,7 @@ fn in_order(count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -
     ways.reduce(|best, way| if way.cost < best.cost { way } else { best }).map_or_else(Vec::new, |way| way.vertices)
 }
 
-/// A vertex for each corner, with the sum of costs.
+/// Vertex of each corner, and sum of costs.
 struct Assignment {
     cost: f64,
     vertices: Vec<usize>,
@@ -136,8 +137,8 @@ struct Assignment {
 /// Best assignment with the first corner at the vertex `start`, by dynamic programming.
 fn from_start(start: usize, count: usize, vertices: usize, cost: impl Fn(usize, usize) -> f64) -> Assignment {
     let vertex = |step: usize| (start + step) % vertices;
-    // Least cost of the corners so far, with the last of them at most so many vertices after the start, and its
-    // position.
+    // Entry `k`: least cost of the corners so far with the last of them at most `k` vertices after the start, and the
+    // position of that last corner.
     let mut least: Vec<(f64, usize)> = vec![(cost(0, start), 0); vertices];
     let mut before: Vec<Vec<usize>> = Vec::new();
     for k in 1..count {

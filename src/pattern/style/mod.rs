@@ -39,11 +39,11 @@ pub struct EdgePoint {
 pub enum PathPart {
     /// A whole edge.
     Edge(EdgeRef),
-    /// A straight line across one piece.
+    /// A straight line between two points of one piece.
     Line([EdgePoint; 2]),
 }
 
-/// A seam: `a`, walked forwards, meets `b`, walked in the direction of `b_forwards`.
+/// A seam: `a`, walked forwards, is sewn to `b`, walked forwards if `b_forwards` and backwards otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
     /// Name in the seam file, for messages.
@@ -52,7 +52,7 @@ pub struct Seam {
     pub a: Vec<EdgeRef>,
     /// Edges of the other side, in order along the seam.
     pub b: Vec<EdgeRef>,
-    /// True if `b` runs counter-clockwise too.
+    /// True if `b` is walked counter-clockwise round its piece, as `a` is.
     pub b_forwards: bool,
 }
 
@@ -69,7 +69,7 @@ pub struct StyleMeasurement {
     pub path: Vec<PathPart>,
     /// Pattern length L2D, m.
     pub l2d_m: f64,
-    /// True if it runs only along edges that are in no seam.
+    /// True if the path runs only along edges that are in no seam.
     pub is_free_edge: bool,
 }
 
@@ -91,22 +91,23 @@ pub struct StyleReinforcement {
 pub struct Style {
     /// Name of the style, from its seam file.
     pub name: String,
-    /// Name of the size; empty if the file names none.
+    /// Name of the size. Empty if the file names none.
     pub size: String,
     /// Pieces, in the alphabetical order of their identifiers.
     pub pieces: Vec<StylePiece>,
     /// Seams between edges of the pieces.
     pub seams: Vec<Seam>,
-    /// Measurements of the seam file, or those found on openings and seams.
+    /// Measurements of the seam file. Without any, one for each opening and seam.
     pub measurements: Vec<StyleMeasurement>,
     /// Reinforced edges.
     pub reinforcements: Vec<StyleReinforcement>,
-    /// Levels of the body, each with the path of its girth on the pattern.
+    /// Levels of the body, each with the path of the girth of the pattern there.
     pub fit_levels: Vec<(String, Vec<PathPart>)>,
 }
 
 impl Style {
-    /// Makes a style of the pieces of one size by the bytes of a seam file. `file` is its name for messages.
+    /// Makes a style of the pieces of one size and the bytes of a seam file. `file` is the name of the seam file for
+    /// messages.
     ///
     /// # Errors
     /// [`StyleError`] if the bytes are no seam file, a name does not exist, an edge is used twice, or the lengths of
@@ -129,13 +130,13 @@ impl Style {
         Self::of(pieces, &SeamFile::parse(seam_bytes, file)?, file)
     }
 
-    /// Makes a style as [`Style::read`] does, from parsed entries.
+    /// Makes a style as [`Style::read`] does, from a parsed seam file.
     pub(super) fn of(pieces: &[Piece], entries: &SeamFile, file: &str) -> Result<Self, StyleError> {
         Reader { file, entries }.style(pieces)
     }
 
-    /// Replaces measurements and fit levels by those of a seam file without pieces and seams. This serves styles whose
-    /// pieces and seams come from elsewhere. Edges are named by [`Edge::name`].
+    /// Replaces measurements and fit levels by those of a seam file that has nothing else, for a style whose pieces and
+    /// seams come from elsewhere. The file names edges by [`Edge::name`].
     ///
     /// # Errors
     /// [`StyleError`] if the bytes are no such file or a name does not exist.
@@ -146,7 +147,7 @@ impl Style {
         reader.measure(self)
     }
 
-    /// Edge of a reference.
+    /// Edge that a reference names.
     #[must_use]
     pub fn edge(&self, edge: EdgeRef) -> &Edge {
         &self.pieces[edge.piece].edges[edge.edge]

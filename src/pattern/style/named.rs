@@ -1,12 +1,11 @@
-//! Names of pieces in seam files: lookup of a piece by its name, and a unique name of a piece.
+//! Names of pieces in seam files: finds the pieces of a name, and makes a unique name for a piece.
 
 use crate::dxf::r12_name;
 use crate::piece::Piece;
 
-/// Indices of the pieces that match a name of a seam file. Their block name is compared first, then the piece name,
-/// then either with an ordinal number, `NAME#2`. Last, names are compared without the size, which blocks of nests
-/// contain. `made_on` is the size that the seam file was made on. A block also matches the name that it is written
-/// under.
+/// Indices of the pieces that a seam file means by a name. Compared in turn until a piece matches: block name, piece
+/// name, either with an ordinal number (`NAME#2`), block name as written in DXF R12, and either without the size, which
+/// the names of blocks in a nest contain. `made_on` is the size that the seam file was made on.
 pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec<usize> {
     let ways: [fn(&Piece) -> &str; 2] = [|piece| &piece.block, |piece| &piece.name];
     let by = |is: &dyn Fn(&Piece) -> bool| (0..pieces.len()).filter(|&i| is(&pieces[i])).collect::<Vec<_>>();
@@ -19,20 +18,21 @@ pub(crate) fn called(pieces: &[Piece], name: &str, made_on: Option<&str>) -> Vec
     let by_number = by_number.map(|found| found.into_iter().collect::<Vec<_>>());
     let written = [r12_name(name)];
     let by_written = written.iter().map(|written| by(&|piece| piece.block == *written));
-    // The first block of a name has no number in it.
+    // The first of several equal names has no number.
     let first = numbered.filter(|(_, number)| *number == 1).map_or(name, |(base, _)| base);
     let bare = without(first, made_on.unwrap_or_default());
     let by_bare = ways.iter().map(|way| {
         let is_it = |piece: &Piece| bare == without(way(piece), piece.size.as_deref().unwrap_or_default());
-        // A name that consists of its size alone identifies a piece only relative to another size.
+        // A name that is nothing but a size tells a piece only beside `made_on`.
         if bare.is_empty() && made_on.is_none() { Vec::new() } else { by(&is_it) }
     });
     let found = plain.chain(by_number).chain(by_written).chain(by_bare).find(|found| !found.is_empty());
     found.unwrap_or_default()
 }
 
-/// Unique name of a piece for a seam file: its piece name if no other has it, then that of its block, then with an ordinal
-/// number. Blocks of a nest contain the size in their names. There the ordinal among equal piece names comes first.
+/// Unique name of a piece for a seam file: its piece name, its block name, or else its block name with an ordinal
+/// number. In a nest, where block names contain the size, the piece name with an ordinal number comes before the block
+/// name.
 pub(crate) fn reference(pieces: &[Piece], index: usize) -> String {
     let piece = &pieces[index];
     let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;

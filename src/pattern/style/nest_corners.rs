@@ -1,29 +1,28 @@
-//! Corners tracked over the sizes of a nest, from the size that a seam file was made on to the next, and so on.
+//! Corners tracked from size to size of a nest, beginning with the size that the seam file was made on.
 //!
-//! Between neighbouring sizes an outline changes little. Most programs grade the vertices of an outline one by one. All
-//! sizes then have the same vertices in the same order, and a corner is the vertex with its index. If curves are
-//! redrawn in each size, a corner is the vertex with the nearest position, headings and grade rule.
+//! Between neighbouring sizes an outline changes little. If a program grades the vertices of an outline one by one, all
+//! sizes have the same vertices in the same order, and a corner keeps its index. If it redraws curves in each size, a
+//! corner is the vertex that is nearest in position, headings and grade rule.
 
 use super::corners::corner_vertices;
 use super::correspond::{CORNER_WORTH, Lost, corresponding, extent, matched, places};
 use crate::piece::Piece;
 use geom::V2;
 
-/// Length over which the heading of an outline at a vertex is taken, over the size of the piece.
+/// Arc length over which the heading of an outline at a vertex is taken, divided by the size of the piece.
 const HEADING_REACH: f64 = 0.02;
-/// Penalty of a heading that differs by a radian, as a distance over the size of the piece. A vertex on the curve
-/// beside a fork differs by a right angle on one side. It is not taken for the fork, even if it were nearer by a
-/// twelfth of the leg.
+/// Penalty per radian of difference in heading, as a distance divided by the size of the piece. A vertex beside a fork
+/// differs from the fork by a right angle on one side. It is not taken for the fork even if it is nearer by a twelfth
+/// of the leg.
 const RADIAN_WORTH: f64 = 0.05;
-/// Greatest change of a heading at a corner between neighbouring sizes for vertices that are graded one by one,
-/// radians.
+/// Greatest change of a heading at a corner between neighbouring sizes with corresponding vertex indices, radians.
 const SAME_HEADING: f64 = 0.35;
-/// Distance within which a grade point lies on a vertex, m.
+/// Distance below which a grade point counts as on a vertex, m.
 const ON_VERTEX_M: f64 = 0.5e-3;
 
-/// Corners, as vertices of an outline, that the edges of a seam file count. `places` are the shares of its
-/// `corners_at`; if empty, the corners are those of the piece. They are located on the size `made_on`, if the nest of
-/// the piece has it, and tracked from there.
+/// Corners, as vertices of an outline, that the edges of a seam file refer to. `places` are the shares in its
+/// `corners_at`; without any, the corners are those of the piece. They are found on the size `made_on`, if the nest has
+/// it, and tracked from there.
 ///
 /// # Errors
 /// [`Lost`] if a corner has no counterpart.
@@ -47,7 +46,7 @@ pub(crate) fn corners_of(piece: &Piece, made_on: Option<&str>, places: &[[f64; 2
     Ok(corners.swap_remove(last - low))
 }
 
-/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size with the index `sample`.
+/// Vertices in all sizes of a piece, from the smallest, that correspond to corners of the size `sample`.
 ///
 /// # Errors
 /// The index of the size in which a corner has no counterpart, and [`Lost`].
@@ -62,7 +61,7 @@ pub(crate) fn in_sizes(sizes: &[Piece], sample: usize, corners: &[usize]) -> Res
     Ok(found)
 }
 
-/// Vertices of a piece that correspond to corners of it in the neighbouring size.
+/// Vertices of a piece that correspond to corners of the same piece in the neighbouring size.
 fn followed(from: &Piece, corners: &[usize], to: &Piece) -> Result<Vec<usize>, Lost> {
     let (before, after) = (headings(from.seam_outline()), headings(to.seam_outline()));
     let unlike = |corner: usize, vertex: usize| -> [f64; 2] {
@@ -105,7 +104,7 @@ fn headings(outline: &[V2]) -> Vec<[f64; 2]> {
     let count = outline.len();
     let [low, high] = extent(outline);
     let reach_m = HEADING_REACH * (high - low).norm();
-    // First vertex at that distance along the outline in one direction.
+    // First vertex at or beyond that arc length from a vertex in one direction.
     let far = |from: usize, step: usize| {
         let (mut at, mut way_m) = (from, 0.0);
         while way_m < reach_m && (at + step) % count != from {

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use super::{EdgeRef, PathPart, Style, StyleMeasurement};
 use crate::garment::MeasurementKind;
 
-/// Difference of the lengths of both sides from which one counts as eased into the other, m.
+/// Length difference from which the longer side of a seam counts as eased into the shorter one, m.
 const EASED_M: f64 = 1e-3;
 
-/// One end of an edge. In a chain it stands for its edge, walked to this end.
+/// One end of an edge. In a chain it stands for the whole edge, walked to this end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeEnd {
-    /// Edge that it belongs to.
+    /// Edge.
     pub edge: EdgeRef,
     /// True for the last point of the edge, false for the first.
     pub is_last: bool,
@@ -31,8 +31,8 @@ impl EdgeEnd {
 
 impl Style {
     /// Replaces the measurements by one for each opening and one for each seam. An opening is a closed chain of free
-    /// edges, such as a hem, a neckline or a sleeve opening. A seam is measured along its side `a`, or along `b` if `a`
-    /// is longer, and so eased or gathered into it. It is a girth if its ends meet, as at an armhole.
+    /// edges, such as a hem, a neckline or a sleeve opening. A seam is measured along `a`, or along `b` if `a` is eased
+    /// or gathered into it. It is a girth if its ends meet, as at an armhole.
     pub fn measure_openings_and_seams(&mut self) {
         let meets = self.meeting_corners();
         let mut found: Vec<(String, MeasurementKind, bool, Vec<EdgeRef>)> = Vec::new();
@@ -58,8 +58,8 @@ impl Style {
         self.measurements = measured.collect();
     }
 
-    /// Closed chains of edges that are free if only some pieces are present, in the order of the sewn garment. Edges in
-    /// no closed chain are left out.
+    /// Closed chains of edges that are free if only some pieces are present, in the order of the sewn garment. An edge
+    /// whose chain does not close is left out.
     pub(crate) fn openings(&self, is_there: &dyn Fn(usize) -> bool) -> Vec<Vec<EdgeRef>> {
         let partners = self.partners(is_there);
         let mut openings: Vec<Vec<EdgeRef>> = Vec::new();
@@ -78,9 +78,9 @@ impl Style {
     /// Closed chain of free edges that contains a given edge.
     fn opening_from(&self, first: EdgeRef, partners: &BTreeMap<EdgeEnd, EdgeEnd>) -> Option<Vec<EdgeRef>> {
         let mut opening = vec![first];
-        // The walk goes from the end just reached, over the corner to the next edge, and across seams to a free edge.
+        // From the end just reached, the walk passes the corner to the next edge. If that is sewn, it crosses the seam.
         let mut at = EdgeEnd::new(first, true);
-        // Every end is passed at most once, otherwise the chain does not close.
+        // A chain that closes passes each end at most once.
         for _ in 0..2 * self.pieces.iter().map(|piece| piece.edges.len()).sum::<usize>() {
             let next = self.over_corner(at);
             match partners.get(&next) {
@@ -95,7 +95,7 @@ impl Style {
         None
     }
 
-    /// Classes of corners of the pieces that coincide once all seams are sewn.
+    /// Classes of corners that coincide once all seams are sewn.
     fn meeting_corners(&self) -> Corners {
         let mut first = 0;
         let offsets = self.pieces.iter().map(|piece| {
@@ -106,7 +106,7 @@ impl Style {
         let offsets: Vec<(usize, usize)> = offsets.collect();
         let mut corners = Corners { offsets, least: (0..first).collect() };
         let partners = self.partners(&|_| true);
-        // The labels settle after as many rounds as seams meet in one point, which are few.
+        // The number of rounds is that of the seams that meet in one point, so it is small.
         loop {
             let before = corners.least.clone();
             for (end, partner) in &partners {
@@ -120,15 +120,15 @@ impl Style {
         }
     }
 
-    /// End of the neighbouring edge of the same piece at the same corner.
+    /// End of the neighbouring edge of the piece at the same corner.
     pub(crate) fn over_corner(&self, EdgeEnd { edge: EdgeRef { piece, edge }, is_last }: EdgeEnd) -> EdgeEnd {
         let n = self.pieces[piece].edges.len();
         let edge = if is_last { (edge + 1) % n } else { (edge + n - 1) % n };
         EdgeEnd::new(EdgeRef { piece, edge }, !is_last)
     }
 
-    /// Ends of every edge sewn among some pieces, each with the end that it meets. This is the one across the seam, or
-    /// within a chain the neighbour in the chain.
+    /// Ends of every edge sewn among some pieces, each with the end that it meets: across the seam or, inside a side of
+    /// several edges, of the next edge of that side.
     fn partners(&self, is_there: &dyn Fn(usize) -> bool) -> BTreeMap<EdgeEnd, EdgeEnd> {
         let mut partners = BTreeMap::new();
         for seam in self.seams.iter().filter(|seam| seam.a.iter().chain(&seam.b).all(|edge| is_there(edge.piece))) {
@@ -154,9 +154,9 @@ impl Style {
     }
 }
 
-/// Corners of all pieces, each with the least index of those that it meets.
+/// Corners of all pieces, each with the least index of the corners that it meets.
 struct Corners {
-    /// First corner and number of corners of each piece.
+    /// Index of the first corner, and number of corners, of each piece.
     offsets: Vec<(usize, usize)>,
     least: Vec<usize>,
 }
@@ -168,7 +168,7 @@ impl Corners {
         offset + if is_last { (edge + 1) % n } else { edge }
     }
 
-    /// True if edges form a closed chain: every end meets another.
+    /// True if edges form a closed chain: every end meets another end.
     fn close(&self, edges: &[EdgeRef]) -> bool {
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
         for end in edges.iter().flat_map(|edge| [EdgeEnd::new(*edge, false), EdgeEnd::new(*edge, true)]) {

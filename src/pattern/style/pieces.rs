@@ -8,11 +8,11 @@ use geom::polyline::Polyline;
 /// An edge of a piece, counter-clockwise as worn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Name, unique within the piece. `None` for a part of the outline that the seam file does not name.
+    /// Name, unique in the piece. `None` for a part of the outline that the seam file does not name.
     pub name: Option<String>,
     /// Curve as drawn.
     pub line: Polyline,
-    /// Arc lengths of the corners between its ends, m.
+    /// Arc lengths of the corners inside the edge, m.
     pub corners: Vec<f64>,
 }
 
@@ -29,7 +29,7 @@ pub struct StylePiece {
     pub grain: V2,
     /// Notches on the outline as worn.
     pub notches: Vec<Notch>,
-    /// Corners as worn, in the order of their numbers in the seam file.
+    /// Corners, numbered as in the seam file.
     pub corners: Vec<V2>,
 }
 

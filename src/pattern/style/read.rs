@@ -14,7 +14,7 @@ use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch, StyleError};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
-/// Resolver of the names of one seam file.
+/// Finds what the names of one seam file refer to.
 pub(super) struct Reader<'a> {
     /// Name of the seam file, for messages.
     pub(super) file: &'a str,
@@ -22,19 +22,19 @@ pub(super) struct Reader<'a> {
     pub(super) entries: &'a SeamFile,
 }
 
-/// An edge by its corners.
+/// Edge as a range of corners.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct CornerRange {
     /// Index of the first corner.
     from: usize,
-    /// Number of corners from the first to the last.
+    /// Number of corners from `from` to the end of the edge.
     span: usize,
-    /// Name, if the seam file has one.
+    /// Name. `None` if the seam file gives none.
     name: Option<String>,
 }
 
 impl Reader<'_> {
-    /// Makes a style of the pieces.
+    /// Makes a style of the pieces and the seam file.
     pub(super) fn style(&self, pieces: &[Piece]) -> Result<Style, StyleError> {
         let mut style = Style {
             name: self.entries.name.clone(),
@@ -72,7 +72,7 @@ impl Reader<'_> {
         Ok(style)
     }
 
-    /// Refuses a file with other entries than measurements.
+    /// Refuses a seam file with entries other than measurements and fit levels.
     pub(super) fn only_measures(&self) -> Result<(), StyleError> {
         match self.entries.piece.keys().next() {
             None if self.entries.seam.is_empty() => Ok(()),
@@ -127,7 +127,7 @@ impl Reader<'_> {
         Ok(all)
     }
 
-    /// Drawn piece of an entry, by its block name or else its piece name.
+    /// Drawn piece of an entry, by its block name or its piece name.
     fn drawn<'p>(&self, id: &str, entry: &PieceEntry, pieces: &'p [Piece]) -> Result<&'p Piece, StyleError> {
         let place = format!("piece `{id}`");
         let found = called(pieces, &entry.block, self.entries.size.as_deref());
@@ -183,7 +183,7 @@ impl Reader<'_> {
         Ok(StylePiece { id: id.to_owned(), role: entry.role, edges, grain, notches, corners: corner_places })
     }
 
-    /// Corners, as vertices of the outline, that the edges of an entry count.
+    /// Corners that the edges of an entry refer to, as vertices of the outline.
     fn corners(&self, place: &str, entry: &PieceEntry, drawn: &Piece) -> Result<Vec<usize>, StyleError> {
         corners_of(drawn, self.entries.size.as_deref(), &entry.corners_at).map_err(|Lost { corner, away_m }| {
             let found = format!(
@@ -195,8 +195,8 @@ impl Reader<'_> {
         })
     }
 
-    /// The piece with its sew line, and its corners as vertices of that. The sew line is made by the allowance of the
-    /// file for a piece that has only a cut line.
+    /// The piece with its sew line, and its corners as vertices of the sew line. A piece that has only a cut line gets
+    /// a sew line by the allowances of the seam file.
     fn sewn<'p>(
         &self,
         place: &str,
@@ -227,7 +227,7 @@ impl Reader<'_> {
         Ok((Cow::Owned(piece), corners))
     }
 
-    /// Fills the gaps between corner ranges, sorted by their first corner, with unnamed ones.
+    /// Fills the gaps between corner ranges, sorted by their first corner, with unnamed ranges.
     fn without_gaps(
         &self,
         place: &str,
@@ -316,7 +316,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// Resolves `piece.edge`.
+    /// Edge named `piece.edge`.
     fn edge(&self, place: &str, name: &str, style: &Style) -> Result<EdgeRef, StyleError> {
         let (piece_id, edge_name) = name.split_once('.').unwrap_or((name, ""));
         let ids: Vec<&str> = style.pieces.iter().map(|piece| piece.id.as_str()).collect();
@@ -331,7 +331,7 @@ impl Reader<'_> {
         Ok(EdgeRef { piece, edge })
     }
 
-    /// Resolves `piece.edge.start`, `.mid` or `.end`.
+    /// Point named `piece.edge.start`, `.mid` or `.end`.
     fn point(&self, place: &str, name: &str, style: &Style) -> Result<EdgePoint, StyleError> {
         let (edge_name, which) = name.rsplit_once('.').unwrap_or((name, ""));
         let share = match which {

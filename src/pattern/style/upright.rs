@@ -1,7 +1,7 @@
-//! Turning of pieces upright. CAD programs also draw them with the grain along x, on their side or upside down.
+//! Turning of pieces upright: CAD programs also draw them along x, or upside down.
 //!
-//! Simulators and measures expect a piece with its upper part on top. A piece that is upright already stays as it is,
-//! to the bit.
+//! Simulators and measures expect the upper part of a piece on top. A piece that is upright already stays as it is, to
+//! the bit.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,18 +9,17 @@ use super::StylePiece;
 use crate::propose;
 
 /// Greatest angle between the grain and an axis at which a piece counts as drawn along the axes, radians: 15 degrees.
-/// Grain lines are drawn by hand. Those of gores run down the middle, while the piece is drawn along a side.
+/// Grain lines are drawn by hand, and that of a gore runs down its middle while the gore is drawn along a side.
 const ALONG_RAD: f64 = 0.26;
-/// Least advantage in score of the orientation as drawn over that set straight by the grain. A piece that is cut on the
-/// bias has it.
+/// Advantage in score by which a piece as drawn beats the piece set straight by its grain. A piece cut on the bias has
+/// a slanted grain and is drawn upright.
 const BIAS: f64 = 0.03;
 
 /// Turns a piece upright by its role, its outline and its grain.
 pub(super) fn set_upright(piece: &mut StylePiece) {
     let fit_as_drawn = propose::pose(piece).map(|pose| (pose.quarter_turns, pose.score));
     let off_rad = off_axis_rad(piece);
-    // A piece with a slanted grain is also tried with the grain set straight. A piece that is cut on the bias is drawn
-    // upright anyway.
+    // A piece with a slanted grain is also tried with the grain set straight.
     let mut best: Option<(f64, f64)> = fit_as_drawn.map(|(quarters, score)| (FRAC_PI_2 * quarters as f64, score));
     if off_rad.abs() > ALONG_RAD {
         let mut straight = piece.clone();
@@ -36,7 +35,7 @@ pub(super) fn set_upright(piece: &mut StylePiece) {
     }
 }
 
-/// Angle of the grain from the nearest axis, at most 45 degrees either way, radians.
+/// Angle of the grain from the nearest axis, radians, at most 45 degrees in magnitude.
 fn off_axis_rad(piece: &StylePiece) -> f64 {
     let angle = piece.grain.y.atan2(piece.grain.x);
     angle - (angle / FRAC_PI_2).round() * FRAC_PI_2
