@@ -23,7 +23,7 @@ pub(super) struct Level {
     /// Ease on the median body, m.
     middle_m: f64,
     /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of
-    /// [`Bench::dimensions`].
+    /// the bench's `dimensions`.
     slopes: Vec<f64>,
     /// Index of the part of the garment to which the level belongs.
     part: usize,

@@ -18,8 +18,8 @@ const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
 
 /// Slope below which a handle does not follow: over the whole range it would move by less than a step.
 const SLIGHT: f64 = 0.01;
-/// Handles that change a width; only these may be chosen for a level. A shorter length could make a level disappear,
-/// and so must not count as a fit.
+/// Handles that change a width; only these may be chosen for a level. Shortening a garment until it
+/// no longer reaches a level is no way to fit it.
 const WIDTHS: [Handle; 10] = [
     Handle::Chest,
     Handle::Waist,
