@@ -1,19 +1,19 @@
-//! The workbench: screens over a store that changes while one looks.
+//! The workbench: screens over a store that changes meanwhile.
 //!
-//! One event loop takes messages one at a time, lets `App::update` turn them into a new state and effects,
-//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
-//! `threads` that answer with messages; the loop itself only waits for the next one.
+//! One event loop takes messages one at a time, lets `App::update` turn each into a new state and effects, and draws
+//! when the state has changed. Everything that may take time (database, pictures, runs) is done by `threads`, which
+//! answer with messages. The loop itself waits only for the next message.
 //!
-//! The folders, each of which knows only those after it:
+//! Folders, each of which uses only those after it:
 //!
 //! - `app`: the update loop and the frame around the screens;
-//! - `screens`: a folder a screen, with its state, its actions and its drawing, and the state that they share;
-//! - `overlays`: what opens above a screen;
-//! - `threads`, `terminal`: the outside, which knows no screen;
-//! - `messages`: what threads and screens tell each other;
+//! - `screens`: a folder for each screen, with its state, actions and drawing; the state that screens share;
+//! - `overlays`: lists, forms and questions that open above a screen;
+//! - `threads`, `terminal`: work outside the loop, which knows no screen;
+//! - `messages`: messages between threads and screens;
 //! - `keys`: actions and the keys for them;
-//! - `widgets`: what all draw and type with;
-//! - `config`: files of one's own; `glossary`: what numbers are, in words.
+//! - `widgets`: tools for drawing and typing;
+//! - `config`: the user's own files; `glossary`: explanations of numbers.
 //!
 //! *Invariant*: no SQL and no simulator is called here; the crates from `store` on answer.
 
