@@ -97,7 +97,7 @@ impl Visible {
     }
 
     /// Marks pixels whose neighbour to the right or below shows another layer, or another group of a layer with groups
-    /// ([`Look::parts`]).
+    /// (`Look::parts`).
     fn mark_layers(&mut self, scene: &Scene) {
         let differ = |a: u32, b: u32| {
             a != b

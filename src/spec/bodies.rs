@@ -120,7 +120,7 @@ pub enum Lens {
 /// Camera of a front and a side picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureCamera {
-    /// Its lens.
+    /// Lens of the camera.
     pub lens: Lens,
     /// Distance of the camera from the person, m.
     pub distance_m: f64,

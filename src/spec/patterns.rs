@@ -72,7 +72,7 @@ pub fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> R
 pub struct SizePieces {
     /// Name of the size.
     pub size: String,
-    /// Its pieces.
+    /// Pieces of the size.
     pub pieces: Result<Vec<Piece>>,
 }
 

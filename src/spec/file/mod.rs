@@ -226,7 +226,7 @@ pub struct Known {
 pub struct KnownStyle {
     /// Seam file; `None` where the patterns hold their own seams.
     pub seams: Option<SourceFile>,
-    /// Its sizes.
+    /// Sizes of the style.
     pub sizes: Vec<KnownSize>,
 }
 
