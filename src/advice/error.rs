@@ -1,10 +1,10 @@
-//! Refusals of advice.
+//! Errors of advice.
 
 use std::ops::RangeInclusive;
 
 use store::{Origin, StudyError};
 
-/// A refusal of advice.
+/// An error of advice.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum AdviceError {
     /// A nest of a pattern that holds its own seams.
@@ -25,28 +25,28 @@ pub(crate) enum AdviceError {
     /// A garment without subjects or sizes.
     #[error("{garment}: nobody wears it; accepted: a garment with subjects and sizes")]
     NotWorn { garment: String },
-    /// A garment of women and men.
+    /// A garment that women and men wear.
     #[error("{garment}: women and men wear it; accepted: a garment of one sex")]
     BothSexes { garment: String },
     /// A count out of its range.
     #[error("{count} {of}; accepted: {} to {}", accepted.start(), accepted.end())]
     Count { count: usize, of: &'static str, accepted: RangeInclusive<usize> },
-    /// A share that is none.
+    /// A share outside of 0 to 1.
     #[error("a share of {share} draped; accepted: 0 to 1")]
     Share { share: f64 },
     /// A first person whose body cannot be built.
     #[error("the first of the people cannot be built")]
     NoFirstPerson,
-    /// A garment without a target ease.
+    /// A garment without a target for its ease.
     #[error("{garment}: no level has a target; accepted: target_ease_mm of a level")]
     NoTarget { garment: String },
-    /// A style whose handles change no level that has a target.
+    /// A style whose handles widen no level that has a target.
     #[error("{style}: no handle widens a level that has a target; there is: {handles}")]
     NoHandle { style: String, handles: String },
-    /// A piece that the grade rules do not make.
+    /// A piece for which the grade rules make nothing.
     #[error("the rules make no piece `{piece}`")]
     NoPiece { piece: String },
-    /// A piece that the grade rules make otherwise than it was drawn.
+    /// A piece that the grade rules make different from its drawing.
     #[error("piece `{piece}` of size {size}: the rules make it {apart_mm:.2} mm off; accepted: {accepted_mm} mm")]
     OtherPiece { piece: String, size: String, apart_mm: f64, accepted_mm: f64 },
     /// A grading without a size.

@@ -1,6 +1,6 @@
-//! A population as a few representative bodies (the thesis's proposal, 7.1). People are drawn from a published survey
-//! and grouped by the dimensions that clothes depend on, and the middle person of each group represents it. For a new
-//! subject the nearest representative answers, whose results are there already.
+//! A population as a few representative bodies, as the thesis proposes (7.1). People are drawn from a published survey
+//! and grouped by the dimensions that clothes depend on; the middle person represents each group. For a new subject the
+//! nearest representative answers, whose results exist already.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use spec::{Given, MEASUREMENTS};
 use store::{JobId, Result, Store, StudyError, SubjectId, read};
 use wardrobe::catalogue;
 
-/// Dimensions by which people are drawn and grouped: those that the thesis's subjects are known by.
+/// Dimensions by which people are drawn and grouped: those that the thesis gives of its subjects.
 pub(crate) const DIMENSIONS: [Dimension; 7] = [
     Dimension::Stature,
     Dimension::Weight,
@@ -22,10 +22,10 @@ pub(crate) const DIMENSIONS: [Dimension; 7] = [
     Dimension::NeckGirth,
     Dimension::AcrossShoulder,
 ];
-/// Greatest magnitude of a score: one person of 16,000 is beyond it.
+/// Greatest magnitude of a standard score: one person in 16,000 is beyond it.
 const EXTREME: f64 = 4.0;
-/// Greatest number of representatives for which people are grouped. Beyond it everybody who is drawn represents
-/// himself, since grouping takes as many comparisons as people times representatives, in every round.
+/// Greatest number of representatives for which people are grouped. Beyond it everybody who is drawn is a
+/// representative, since a round of grouping takes as many comparisons as people times representatives.
 const GROUPED: usize = 500;
 /// Greatest number of rounds of grouping.
 const ROUNDS: usize = 200;
@@ -33,9 +33,9 @@ const ROUNDS: usize = 200;
 /// A person who represents a group of a population.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Representative {
-    /// Measurements, to the millimetre and the tenth of a kilogram.
+    /// Measurements, rounded to 1 mm and 0.1 kg.
     pub measurements: Measurements,
-    /// Share of the people of this sex in the group.
+    /// Share of the people of this sex who are in the group.
     pub share: f64,
 }
 
@@ -53,20 +53,20 @@ pub struct PopulationOptions {
 /// The representative of a study that is nearest to a person.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
-    /// Name in the study.
+    /// Name of the representative in the study.
     pub subject: String,
-    /// Root mean square difference of the dimensions known of both, standard deviations.
+    /// Root mean square difference of the dimensions that both have, in standard deviations.
     pub distance: f64,
     /// Dimension with the greatest difference.
     pub widest: Difference,
-    /// Its jobs that have a result.
+    /// Jobs of the representative that have a result.
     pub jobs: Vec<JobId>,
 }
 
-/// A dimension of two people.
+/// A dimension in which two people differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Dimension in which they differ.
+    /// Dimension.
     pub dimension: Dimension,
     /// Value of the person who is asked about, m or kg.
     pub asked: f64,
@@ -74,7 +74,7 @@ pub struct Difference {
     pub found: f64,
 }
 
-/// Draws people of a sex, as frequent as in the survey.
+/// Draws people of a sex as frequently as they occur in the survey.
 #[must_use]
 pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
     (0..count).map(|_| draw(sex, random)).collect()
@@ -103,13 +103,13 @@ pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representat
     found
 }
 
-/// Writes `[[subject]]` tables of representatives.
+/// Writes the `[[subject]]` tables of representatives.
 #[must_use]
 pub fn subjects_text(representatives: &[Representative]) -> String {
     let mut text = String::new();
     for (number, Representative { measurements, share }) in representatives.iter().enumerate() {
         let sex = sex_name(measurements);
-        // Writing into a text does not fail, here and below.
+        // Writing to a `String` does not fail, here and below.
         let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", share * 100.0);
         let _ = writeln!(text, "id = \"{}{:03}\"\nsex = \"{sex}\"", &sex[..1], number + 1);
         for field in MEASUREMENTS.iter() {
@@ -122,7 +122,7 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
     text
 }
 
-/// Returns the subject of a study that is nearest to a person, among those of the same sex.
+/// Subject of a study that is nearest to a person, of the same sex.
 ///
 /// # Errors
 /// When a value is wrong, there is no such study, or it has nobody of that sex.
@@ -159,7 +159,7 @@ pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
     Ok(best)
 }
 
-/// Difference of two people of one sex over the dimensions known of both, and the greatest of them.
+/// Root mean square difference of two people of one sex over the dimensions that both have, and the greatest one.
 fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, Difference)> {
     if a.sex != b.sex {
         return None;
@@ -180,7 +180,7 @@ fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, Difference)> {
     Some((mean.sqrt(), Difference { dimension, asked: a.get(dimension)?, found: b.get(dimension)? }))
 }
 
-/// Draws a person within the range of the survey.
+/// Draws a person whose scores are not beyond [`EXTREME`].
 fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     loop {
         let scores = DIMENSIONS.map(|dimension| (dimension, random.normal()));
@@ -217,8 +217,8 @@ fn off(a: &Point, b: &Point) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 
-/// Groups points by k-means [Lloyd 1982], begun as in [Arthur and Vassilvitskii 2007]. Returns of each group the point
-/// nearest its mean, and the number of its points.
+/// Groups points by k-means [Lloyd 1982], started as in [Arthur and Vassilvitskii 2007]. Returns for each group the
+/// point nearest to its mean, and the number of its points.
 fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
     let mut middles = seeds(points, count, random);
     let mut group_of = vec![usize::MAX; points.len()];
@@ -250,7 +250,7 @@ fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize
     found
 }
 
-/// First middles: each point is chosen the likelier, the farther it is from those before.
+/// First means: each point is drawn with a probability that grows with its distance from those drawn before.
 fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
     let mut middles: Vec<Point> = points.first().copied().into_iter().collect();
     let mut far: Vec<f64> = points.iter().map(|point| middles.first().map_or(0.0, |first| off(point, first))).collect();
@@ -287,7 +287,7 @@ mod tests {
             let sd = (points.iter().map(|p| (p[k] - mean).powi(2)).sum::<f64>() / 3999.0).sqrt();
             assert!(mean.abs() < 0.06 && (sd - 1.0).abs() < 0.06, "{:?}: {mean} {sd}", DIMENSIONS[k]);
         }
-        // Correlation of stature and weight, as the survey has it.
+        // Correlation of stature and weight in the drawn people.
         let both = points.iter().map(|p| p[0] * p[1]).sum::<f64>() / 4000.0;
         assert!((both - 0.472).abs() < 0.05, "{both}");
     }
@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(found.len(), FEW.bodies);
         assert!((found.iter().map(|group| group.share).sum::<f64>() - 1.0).abs() < 1e-9);
         assert!(found[0].share < 0.25 && found[FEW.bodies - 1].share > 0.01, "{found:?}");
-        // Nobody is far from all of them: within the spread of one group.
+        // On average a person is within the spread of one group from the nearest middle.
         let middles: Vec<Point> = found.iter().map(|middle| point(&middle.measurements)).collect();
         let mut random = Draw::new(9);
         let far: Vec<f64> = (0..500)

@@ -7,7 +7,7 @@ use advice::{Alteration, AlteredLevel, AlteredReading, Wish};
 use geom::units::signed_tenths;
 use store::{Table, Value};
 
-/// Runs `toile alter`: finds or applies a change of a size for a subject, and prints it.
+/// Runs `toile alter`: finds or applies the alteration of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["dxf", "toml", "json", "svg"])).transpose()?;
     let store = context.store()?;
@@ -71,7 +71,7 @@ fn moves(found: &Alteration) -> Table {
     let columns = ["handle", "by_mm", "of", "girth_mm"];
     let row = |moved: &advice::MovedHandle| {
         let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
-        // A girth changes by twice the change of half of it.
+        // Half of a girth changes by the amount, and the girth by twice as much.
         let [of, girth] = match moved.is_half_girth {
             true => [Value::Text("half girth".to_owned()), by(2.0 * moved.amount_mm)],
             false => [Value::Null, Value::Null],

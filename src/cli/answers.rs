@@ -63,13 +63,13 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     Ok(End::Done)
 }
 
-/// True if a query is one word, and so the name of a saved query, since no SQL is one word.
+/// True if a query is a single word, which no SQL is: then it is the name of a saved query.
 fn is_name(query: &str) -> bool {
     query.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-')) && !query.is_empty()
 }
 
-/// Runs `toile audit`: prints findings. Those on our own results make the exit code 3. The errors of the thesis are
-/// known and no failure.
+/// Runs `toile audit`: prints findings. Findings on a study make the exit code 3. The errors of the thesis are known
+/// and do not.
 pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     let path = match (&arguments.command, &arguments.study) {
         (Some(AuditCommand::Garments(arguments)), _) => return wardrobe::audit(context, arguments),
@@ -91,8 +91,8 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
     Ok(if of_thesis || found == 0 { End::Done } else { End::CheckFailed })
 }
 
-/// A row of `toile ease`. Only the level that decides has a fit class, since the thesis's classes are of chest and hip.
-/// `toile fit` judges the other levels.
+/// Row of `toile ease`. Only the level that decides has a fit class, since the thesis defines classes for chest and
+/// hip. `toile fit` judges the other levels.
 fn ease_row(ease: EaseRow) -> Vec<Value> {
     let tenth = |length_m: f64| output::tenths(mm(length_m));
     let mark = |holds: bool| Value::Text(if holds { "yes" } else { "" }.to_owned());
@@ -142,7 +142,7 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     Ok(End::Done)
 }
 
-/// Message where no level of a garment was found.
+/// Message where a garment has no level.
 pub const NO_EASE: &str =
     "no ease is known: no piece has a role by which levels are found, and the seam file names none ([fit.*])";
 

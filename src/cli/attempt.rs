@@ -11,7 +11,7 @@ use geom::units::from_mm;
 use spec::patterns::Unit;
 use store::{Table, Value, files};
 
-/// Argument that stands for no value.
+/// Argument that means no value.
 const NONE: &str = "-";
 
 /// Runs `toile try`: writes pictures and meshes, and prints measurements.
@@ -54,7 +54,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     Ok(if is_good { End::Done } else { End::CheckFailed })
 }
 
-/// The garments that are asked for, the inmost first. A flag that is given once counts for all.
+/// Garments of the arguments, the inmost first. A flag that is given once applies to all.
 fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
     let count = arguments.pattern.len();
     let of_each = |flag: &str, given: &[String]| match given.len() {
@@ -81,7 +81,7 @@ fn layers(arguments: &Try) -> Result<Vec<AttemptLayer>, CliError> {
     Ok(arguments.pattern.iter().enumerate().map(layer).collect())
 }
 
-/// Prints the measurements after the last stage, the girths that the garment lacks, then the summary.
+/// Prints the measurements of the last stage, the girths that the garment lacks, and the summary.
 fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     let mut columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
     if tried.chi_spread_max.is_some() {
@@ -127,7 +127,7 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     context.print(&Table::new(columns, [row]))
 }
 
-/// Prints the changes in the pose that is reached: openings, then loads of pieces and of regions of the body.
+/// Prints the changes by a movement: openings, then loads on pieces and on regions of the body.
 fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
     let columns = ["opening", "drawn_mm", "drawn_most_mm"];
     let drawn = |reached: &ReachedOpening| {
@@ -143,7 +143,7 @@ fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
     Ok(())
 }
 
-/// A number, rounded to a hundredth.
+/// Number rounded to a hundredth.
 fn hundredths(number: f64) -> Value {
     Value::Real((number * 100.0).round() / 100.0)
 }

@@ -50,7 +50,7 @@ pub fn sex_of(sex: Sex) -> bodies::Sex {
     }
 }
 
-/// Prints the accuracy of the measurement of the bodies of a folder.
+/// Prints how exactly the bodies of a folder are measured.
 fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
     let found = evaluate::evaluate(folder)?;
     if context.json {
@@ -118,7 +118,7 @@ fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<
     context.write_files(folder, &files)
 }
 
-/// Reads a scan, and prints remarks on guesses and repairs.
+/// Reads a scan. Prints remarks on guesses and repairs.
 fn read_scan(
     context: &Context,
     source: &files::SourceFile,
@@ -132,7 +132,7 @@ fn read_scan(
     Ok(scan)
 }
 
-/// Refuses measurements beside a scan, which is the body itself.
+/// Refuses measurements together with a scan, since the scan is the body.
 pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
     let Some((key, _)) = given else { return Ok(()) };
     Err(CliError::Usage(format!(
@@ -141,7 +141,7 @@ pub fn refuse_beside_scan(given: Option<&Given>) -> Result<(), CliError> {
     )))
 }
 
-/// The person of a catalogue entry, a file or pictures, with the measurements of the command line in place of theirs.
+/// Person of a catalogue entry, a file or pictures. Measurements on the command line replace the person's own.
 fn person(context: &Context, arguments: &BodyBuild) -> Result<Person, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => {
@@ -181,7 +181,7 @@ fn set_given(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> 
     Ok(())
 }
 
-/// Measurements read from a front and a side picture.
+/// Measurements from a front and a side picture.
 fn pictured(
     context: &Context,
     arguments: &BodyBuild,
@@ -212,8 +212,8 @@ fn pictured(
     Ok(found.measurements)
 }
 
-/// Prints measurements as a table, with the standard deviation and its reason where they are known, or as JSON with the
-/// documented keys.
+/// Prints measurements as JSON with the documented keys, or as a table, with their standard deviations and the reasons
+/// for these where they are known.
 fn print(context: &Context, read: &impl serde::Serialize) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(read)?);

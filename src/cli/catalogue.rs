@@ -1,4 +1,4 @@
-//! `toile subject|style|size|fabric`: lists and changes the catalogue.
+//! `toile subject|style|size|fabric`: lists the catalogue and changes it.
 
 use std::path::PathBuf;
 
@@ -11,9 +11,9 @@ use spec::Given;
 use store::{Store, StudyError, Table, Value, sql};
 use wardrobe::{Imported, Mode, Part, Saved, ScanGiven, SizeRow, Strictness, StyleGiven, catalogue};
 
-/// The values of one part of the catalogue on the command line.
+/// Values of one part of the catalogue on the command line.
 pub trait Values: Args {
-    /// Part of the catalogue that the values belong to.
+    /// Part to which the values belong.
     const PART: Part;
 
     /// Saves an entry with the values.
@@ -70,7 +70,7 @@ impl Values for SizeValues {
     }
 }
 
-/// Reads a pattern argument, `[SIZE=]FILE`.
+/// Parses a pattern argument, `[SIZE=]FILE`.
 pub fn pattern_of(text: &str) -> (Option<String>, PathBuf) {
     match text.split_once('=') {
         Some((size, file)) => (Some(size.to_owned()), PathBuf::from(file)),
@@ -83,7 +83,7 @@ pub fn unit_name(unit: PatternUnit) -> Option<String> {
     unit.to_possible_value().map(|value| value.get_name().to_owned())
 }
 
-/// The view of a part, and the columns that name an entry in it.
+/// View of a part, and its columns that name an entry.
 fn view(part: Part) -> (&'static str, &'static str) {
     match part {
         Part::Subject => ("v_subjects", "subject"),
@@ -123,7 +123,7 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
     Ok(End::Done)
 }
 
-/// Imports files. Where only good rows are asked for, prints the problems of the others.
+/// Imports files. With `good_rows`, prints the problems of the other rows.
 fn import(context: &Context, part: Part, files: &[PathBuf], good_rows: bool) -> Outcome {
     let strictness = if good_rows { Strictness::GoodRows } else { Strictness::AllOrNone };
     let Imported { saved, left_out } = catalogue::import(&mut context.store()?, part, files, strictness)?;
@@ -153,7 +153,7 @@ pub fn style(context: &Context, command: StyleCommand) -> Outcome {
     Ok(End::Done)
 }
 
-/// Prints entries that were saved, with remarks on guesses and repairs, and doubts.
+/// Prints saved entries, with doubts, and with remarks on guesses and repairs.
 pub fn say(context: &Context, saved: &[Saved]) {
     for entry in saved {
         entry.notes.iter().for_each(|note| context.say(format_args!("{} {}: {note}", entry.part, entry.name)));
@@ -187,7 +187,7 @@ fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
     context.print(&if context.json { found } else { sideways(&without(found, &["entry"])) })
 }
 
-/// A table of entries, with the columns that are computed from their numbers.
+/// Adds the columns that are computed from the numbers of entries.
 fn described(part: Part, entries: Table) -> Table {
     if part == Part::Fabric { wardrobe::with_bending(entries) } else { entries }
 }
@@ -202,7 +202,7 @@ fn without(table: Table, hidden: &[&str]) -> Table {
     }
 }
 
-/// A table with a column for each revision and a row for each property.
+/// Turns a table: a column for each revision, a row for each property.
 fn sideways(table: &Table) -> Table {
     let mut columns = vec!["property".to_owned()];
     columns.extend((1..=table.rows.len()).map(|n| format!("revision {n}")));

@@ -6,11 +6,11 @@ use super::{CliError, End, Outcome, output, pictures};
 use advice::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance};
 use store::{Table, Value};
 
-/// Accepted coverage of the 80 % intervals.
+/// Accepted share of true values within the 80 % intervals.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
 
-/// Runs `toile chance`: prints the probability that the sizes of a garment fit a subject, or the calibration on
-/// simulated people.
+/// Runs `toile chance`: prints the probability that sizes of a garment fit a subject, or the calibration on simulated
+/// people.
 pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
     arguments.output.as_deref().map(pictures::chart_format).transpose()?;
     let store = context.store()?;
@@ -73,7 +73,7 @@ fn print(context: &Context, found: &Chance) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Whole percent of a share.
+/// Share in whole percent.
 fn percent(share: f64) -> String {
     format!("{:.0}", 100.0 * share)
 }
@@ -110,7 +110,7 @@ fn levels(size: &SizeChance) -> Table {
     table(columns, size.levels.iter().map(row))
 }
 
-/// Readings of the body, beside their likely true values.
+/// Table of the body's dimensions: readings, and their likely true values.
 fn body(dimensions: &[LikelyDimension]) -> Table {
     let row = |likely: &LikelyDimension| {
         let [read, error] = likely.read?;

@@ -1,4 +1,4 @@
-//! Context of a command: the global flags, resolved once, and what all commands do with them.
+//! Context of a command: the global flags, and work common to all commands.
 
 use std::path::{Path, PathBuf};
 
@@ -13,17 +13,17 @@ use wardrobe::catalogue;
 pub struct Context {
     /// Path of the database file.
     pub db: PathBuf,
-    /// True where it was named, by a flag or the environment.
+    /// True if the database was named, by a flag or the environment.
     pub is_db_named: bool,
-    /// True where the database may only be read.
+    /// True if the database may only be read.
     pub readonly: bool,
-    /// True where JSON was asked for.
+    /// True to print JSON.
     pub json: bool,
-    /// True where only errors are printed.
+    /// True to print only errors.
     pub quiet: bool,
-    /// True where more messages are printed.
+    /// True to print more messages.
     pub verbose: bool,
-    /// True where colours may be used.
+    /// True if colours may be used.
     pub colour: bool,
 }
 
@@ -57,14 +57,14 @@ impl Context {
         Ok(store)
     }
 
-    /// Prints a message on standard error, unless the user wants none.
+    /// Prints a message on standard error, unless `quiet`.
     pub fn say(&self, message: impl std::fmt::Display) {
         if !self.quiet {
             super::output::note(&message);
         }
     }
 
-    /// Writes files into a folder, and names them on standard error.
+    /// Writes files into a folder, and prints their paths on standard error.
     pub fn write_files(&self, folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), CliError> {
         for path in files::write_files(folder, files)? {
             self.say(format_args!("wrote {}", path.display()));
@@ -72,7 +72,7 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file, and names it on standard error.
+    /// Writes a file, and prints its path on standard error.
     pub fn write(&self, path: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
@@ -80,14 +80,14 @@ impl Context {
         Ok(())
     }
 
-    /// Prints a table for reading, or as JSON.
+    /// Prints a table, as JSON if that was asked for.
     pub fn print(&self, table: &Table) -> Result<(), CliError> {
         let format = if self.json { Format::Json } else { Format::Table };
         Ok(super::output::table(table, format)?)
     }
 
-    /// Reads the study of a path, its folder or file. A bare name may also be that of a study of the project, or of the
-    /// study that comes with the program.
+    /// Reads a study by the path of its folder or file. A bare name may also be that of a study of the project, or of
+    /// the program's own study.
     pub fn study(&self, store: &Store, path: &Path) -> Result<Study, CliError> {
         let in_project = project_folder().map(|project| project.join("studies").join(path));
         let in_project = in_project.filter(|folder| !path.exists() && folder.is_dir());
@@ -103,8 +103,8 @@ impl Context {
         Ok(run::load_study(store, &path)?)
     }
 
-    /// Brings the stored ease of a study up to date with its file, if there is a file and the database may be written.
-    /// Returns the store and the name of the study.
+    /// Updates the stored ease of a study, if its file exists and the database may be written. Returns the store and
+    /// the name of the study.
     pub fn eased(&self, path: &Path) -> Result<(Store, String), CliError> {
         let mut store = self.store()?;
         if !path.exists() || self.readonly {
@@ -116,7 +116,7 @@ impl Context {
         Ok((store, study.name))
     }
 
-    /// Name of a study that is given by its folder, its file or its name.
+    /// Name of a study, given by its folder, its file or its name.
     pub fn study_name(&self, store: &Store, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();
         if name == PUBLISHED {
@@ -132,19 +132,19 @@ impl Context {
     }
 }
 
-/// Folder of the study that comes with the program, which a run makes: in the project, else beside the database.
+/// Folder for the study that comes with the program: in the project, else beside the database.
 pub fn quickstart(database: &Path) -> PathBuf {
     let home = project_folder().or_else(|| database.parent().map(Path::to_owned)).unwrap_or_default();
     home.join("studies").join(QUICKSTART)
 }
 
-/// The project: the nearest folder upwards that has a folder `studies`.
+/// Folder of the project: the nearest parent folder with a folder `studies`.
 pub fn project_folder() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
     here.ancestors().find(|folder| folder.join("studies").is_dir()).map(Path::to_owned)
 }
 
-/// Path of the default database: `db/toile.sqlite` of the project, or else in the user's data folder.
+/// Path of the default database: `db/toile.sqlite` of the project, else in the user's data folder.
 fn default_database() -> Result<PathBuf, CliError> {
     if let Some(project) = project_folder() {
         return Ok(project.join("db").join("toile.sqlite"));

@@ -1,4 +1,4 @@
-//! Runs in the background: a run that outlives its terminal, and the progress of one seen from another.
+//! Runs in the background: a run that outlives its terminal, and progress of a run as another terminal sees it.
 
 use std::collections::BTreeSet;
 use std::fs::OpenOptions;
@@ -16,19 +16,19 @@ use super::progress::Progress;
 use super::{End, Outcome, output};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, files, read};
 
-/// Time between two looks at the running jobs.
+/// Time between two checks of the running jobs.
 const LOOK: Duration = Duration::from_millis(250);
-/// Looks without a running job after which no process works on the study; one that starts needs some.
+/// Number of checks without a running job after which no process works on the study. A starting process needs a few.
 const PATIENCE: u32 = 60;
 
-/// Starts this command again without its `--detach`, in a process group of its own. Its output goes to a file.
+/// Starts this command again without `--detach`, in a process group of its own, with its output in a file.
 pub fn start(context: &Context, study: &str) -> Outcome {
     let log = log_file(&context.db, study);
     let io = |path: &Path| StudyError::io(path.to_owned());
     let out = OpenOptions::new().create(true).append(true).open(&log).map_err(io(&log))?;
     let errors = out.try_clone().map_err(io(&log))?;
     let program = std::env::current_exe()?;
-    // A terminal that closes ends the processes of its own group only.
+    // A terminal that closes ends only processes of its own group.
     let child = Command::new(&program)
         .args(std::env::args_os().skip(1).filter(|argument| argument != "--detach"))
         .stdin(Stdio::null())
@@ -47,8 +47,8 @@ pub fn start(context: &Context, study: &str) -> Outcome {
     Ok(End::Done)
 }
 
-/// Shows the progress of jobs of a study that other processes run, until none is left or no process works on them. An
-/// interrupt ends this command, not the run.
+/// Shows the progress of a study's jobs that other processes run, until none is left or no process works on them. An
+/// interrupt ends this command, but not the run.
 pub fn follow(context: &Context, store: &Store, study: &str) -> Outcome {
     let is_left = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register(SIGINT, is_left.clone())?;

@@ -1,4 +1,4 @@
-//! `toile fit`: the size to wear, and the ease of each size.
+//! `toile fit`: the size to wear, and the ease of all sizes.
 
 use super::answers::NO_EASE;
 use super::args::Fit;
@@ -59,7 +59,7 @@ fn table(card: &FitCard) -> Table {
     Table { columns, rows: card.levels().into_iter().map(row).collect() }
 }
 
-/// The levels of a size that its drape does not cover all round, in words.
+/// Levels that the drape of a size does not cover all round, in words.
 fn uncovered(card: &FitCard, size: &SizeSits) -> Vec<String> {
     let is_bare = |level: &&LevelSits| level.covered_deg.is_some();
     let words = |level: &LevelSits| {
@@ -69,7 +69,7 @@ fn uncovered(card: &FitCard, size: &SizeSits) -> Vec<String> {
     size.levels.iter().filter(is_bare).map(words).collect()
 }
 
-/// An ease in few letters. `!` marks a garment smaller than the body, `~` a level that is not covered all round.
+/// Ease in few letters. `!` marks a garment smaller than the body, `~` a level that the drape does not cover all round.
 fn short(level: &LevelSits) -> String {
     let mark = if level.ease_mm < 0.0 { "!" } else { "" };
     let by_mm = level.departure_mm();

@@ -45,7 +45,7 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
     Ok(if disagrees { End::CheckFailed } else { End::Done })
 }
 
-/// All tables with their titles.
+/// All tables, with titles.
 fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
     vec![
         ("coverage", coverage(found)),
@@ -89,7 +89,7 @@ fn text(text: impl Into<String>) -> Value {
     Value::Text(text.into())
 }
 
-/// Shares of people that each set fits, and each of its sizes.
+/// Shares of people whom each set and each of its sizes fits.
 fn coverage(found: &Grading) -> Table {
     let columns = ["sizes", "size", "sought_percent", "held_out_percent", "within", "worn_percent"];
     let all = |set: &SizeSet| {
@@ -121,7 +121,7 @@ fn levels(found: &Grading) -> Table {
     Table::new(columns, rows)
 }
 
-/// Shares of people whom both sets fit, by a girth.
+/// Shares of people whom both sets fit, by parts of a girth.
 fn parts(found: &Grading) -> Table {
     let (level, parts) = &found.parts;
     let girth = format!("{level}_mm");
@@ -133,12 +133,12 @@ fn parts(found: &Grading) -> Table {
     Table::new([girth.as_str(), "own fits_percent", "new fits_percent"], rows)
 }
 
-/// The new sizes.
+/// Sizes of the new set.
 fn new(found: &Grading) -> &[SizeShare] {
     found.sets.last().map_or(&[], |set| &set.sizes)
 }
 
-/// Changes of the base by each handle in each size, mm.
+/// Amounts of the handles in each size, relative to the base, mm.
 fn turns(found: &Grading) -> Table {
     let columns = std::iter::once("handle".to_owned()).chain(new(found).iter().map(|size| format!("{}_mm", size.size)));
     let row = |handle: &&'static str| {

@@ -5,7 +5,7 @@ use super::{End, Outcome};
 use results::{Check, checks};
 use store::{Status, Table, Value, read};
 
-/// Runs `toile doctor`: prints every check with its finding. Exit code 3 where one failed.
+/// Runs `toile doctor`: prints every check with its finding. Exit code 3 if one fails.
 pub fn doctor(context: &Context) -> Outcome {
     let found: Vec<Check> = checks(&context.db, context.readonly);
     let text = |text: &str| Value::Text(text.to_owned());

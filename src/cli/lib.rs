@@ -1,8 +1,8 @@
-//! The command line. Data goes to standard output, messages and progress go to standard error, and the exit code tells
-//! how the command ended.
+//! The command line. Data goes to standard output, messages and progress to standard error. The exit code says how the
+//! command ended.
 //!
 //! Arguments are parsed (`args`) and resolved (`context`) once. Each command is one function, which calls the crates
-//! below.
+//! below this one.
 
 mod alter;
 mod answers;
@@ -59,7 +59,7 @@ enum End {
     CheckFailed = 3,
     /// A job failed.
     JobFailed = 4,
-    /// A signal such as Ctrl-C ended it.
+    /// A signal such as Ctrl-C ended the command.
     Interrupted = 130,
 }
 
@@ -91,21 +91,21 @@ type Outcome = Result<End, CliError>;
 pub struct Workbench {
     /// Path of the database file.
     pub database: PathBuf,
-    /// True where it was named, so that commands have to name it too.
+    /// True where the database was named by the user, so that commands shown must name it too.
     pub is_database_named: bool,
     /// True where the database may only be read.
     pub readonly: bool,
-    /// True where colours are off.
+    /// True if colours are off.
     pub no_color: bool,
     /// Display of pictures: `auto`, `halfblocks` or `off`.
     pub images: String,
-    /// Folder of the study that comes with the program, which may not be written yet.
+    /// Folder of the study that comes with the program. It need not be written yet.
     pub quickstart: PathBuf,
 }
 
-/// The command line: every command with its arguments.
+/// Returns the command line: every command with its arguments.
 ///
-/// The possible values of an argument follow its help in the same line, so that the help of a command fits a screen.
+/// The possible values of an argument follow its help in the same line, so that a command's help fits a screen.
 #[must_use]
 pub fn command() -> clap::Command {
     compact(Arguments::command()).disable_help_subcommand(false)
@@ -115,7 +115,7 @@ fn compact(command: clap::Command) -> clap::Command {
     with_remarks_last(command).disable_help_subcommand(true).mut_args(with_values_in_line).mut_subcommands(compact)
 }
 
-/// Moves the help of a command beyond its summary below its arguments.
+/// Moves a command's long help, after its summary, below its arguments.
 fn with_remarks_last(command: clap::Command) -> clap::Command {
     let [summary, whole] = [command.get_about(), command.get_long_about()].map(|text| text.map(ToString::to_string));
     let Some((summary, whole)) = summary.zip(whole) else { return command };
@@ -133,13 +133,13 @@ fn with_values_in_line(argument: clap::Arg) -> clap::Arg {
     argument.help(help).hide_possible_values(true)
 }
 
-/// Reads the arguments (the first is the program's own name).
+/// Parses the arguments, of which the first is the program's own name.
 fn read(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches_mut(&mut command().try_get_matches_from(arguments)?)
 }
 
 /// Runs the program with its arguments, of which the first is its own name. Without a command it calls `workbench`,
-/// which this crate does not know.
+/// since this crate does not know the workbench.
 pub fn main(
     arguments: impl IntoIterator<Item = OsString>,
     workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
@@ -149,8 +149,8 @@ pub fn main(
         Ok(arguments) => arguments,
         Err(error) => {
             let error = args::without_environment(command(), error, &arguments);
-            // Help and version are data, the rest goes to standard error; clap knows which. A stream that cannot be
-            // written can only be ignored.
+            // Prints help and version on standard output, errors on standard error. A stream that cannot be written is
+            // ignored.
             let _ = error.print();
             return ExitCode::from(if error.use_stderr() { End::Unusable as u8 } else { End::Done as u8 });
         }

@@ -1,4 +1,4 @@
-//! Standard output: data only, as a table, CSV, JSON or Parquet. Everything else goes to standard error.
+//! Output: data on standard output as a table, CSV, JSON or Parquet; everything else on standard error.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -16,24 +16,24 @@ pub fn tell(message: &impl std::fmt::Display) {
     note(&format!("toile: {message}"));
 }
 
-/// Prints a message on standard error. Control characters from names and files are escaped, so that they cannot steer
-/// the terminal.
+/// Prints a message on standard error. Escapes control characters in names and file contents, which could steer the
+/// terminal.
 pub fn note(text: &impl std::fmt::Display) {
     eprintln!("{}", printable(&text.to_string()));
 }
 
-/// A text whose control characters are escaped, except line feeds and tabs.
+/// Text with escaped control characters, except line feeds and tabs.
 pub fn printable(text: &str) -> String {
     let is_plain = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_default().to_string() }).collect()
 }
 
-/// The format of a file to be written, by the ending of its name: one of those that are accepted.
+/// Format of a file to be written: that of the accepted endings which its name has.
 pub fn kind<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> Result<T, CliError> {
     files::kind_of(path, accepted).map_err(|error| CliError::Usage(error.to_string()))
 }
 
-/// The format of a file to be written: that of its ending, or the one that is asked for where it has no ending.
+/// Format of a file to be written: that of its ending, or `asked` for a name without ending.
 pub fn kind_or<T: Copy + PartialEq>(path: &Path, asked: Option<T>, accepted: &[(&str, T)]) -> Result<T, CliError> {
     let Some(asked) = asked else { return kind(path, accepted) };
     if path.extension().is_none() {
@@ -43,7 +43,7 @@ pub fn kind_or<T: Copy + PartialEq>(path: &Path, asked: Option<T>, accepted: &[(
     kind(path, &endings).map_err(|error| CliError::Usage(format!("--format contradicts the file's name: {error}")))
 }
 
-/// Refuses a folder whose name ends like the files that go into it, since it is probably meant as one of them.
+/// Refuses a folder whose name ends like the files for it: it is probably meant as a file.
 pub fn folder(path: &Path, endings: &[&str]) -> Result<(), CliError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     if path.is_dir() || !endings.iter().any(|ending| extension.eq_ignore_ascii_case(ending)) {
@@ -74,7 +74,7 @@ pub fn json(value: &impl serde::Serialize) -> io::Result<()> {
     text(&document(value)?)
 }
 
-/// A JSON document as text.
+/// JSON document as text.
 fn document(value: &impl serde::Serialize) -> io::Result<String> {
     let mut document = serde_json::to_string_pretty(value)?;
     document.push('\n');
@@ -86,7 +86,7 @@ pub fn table(table: &Table, format: Format) -> io::Result<()> {
     bytes(&encoded(table, format)?)
 }
 
-/// A table in a format.
+/// Bytes of a table in a format.
 pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     Ok(match format {
         Format::Table => pretty(table).into_bytes(),
@@ -96,14 +96,14 @@ pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
     })
 }
 
-/// A table for reading. Numbers stand to the right and have at most six significant digits.
+/// Table as text. Numbers are right-aligned and have at most six significant digits.
 pub fn pretty(table: &Table) -> String {
     let mut grid = Grid::new();
     grid.load_preset(presets::NOTHING);
     for line in [TableComponent::HeaderLines, TableComponent::MiddleHeaderIntersections] {
         grid.set_style(line, '─');
     }
-    // A terminal wraps wide tables to its width; a file or a pipe gets them whole.
+    // A terminal wraps wide tables to its width; a file or a pipe gets whole lines.
     let is_terminal = io::IsTerminal::is_terminal(&io::stdout());
     grid.set_content_arrangement(if is_terminal { ContentArrangement::Dynamic } else { ContentArrangement::Disabled });
     grid.set_header(&table.columns);
@@ -122,12 +122,12 @@ pub fn pretty(table: &Table) -> String {
     grid.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
-/// A number, rounded to a tenth.
+/// Number rounded to a tenth.
 pub fn tenths(number: f64) -> Value {
     Value::Real((number * 10.0).round() / 10.0)
 }
 
-/// A value for reading.
+/// Value as text for people.
 fn short(value: &Value) -> String {
     match value {
         Value::Real(number) => significant(*number, 6),
@@ -135,7 +135,7 @@ fn short(value: &Value) -> String {
     }
 }
 
-/// Rows as JSON objects, keys in order of the columns.
+/// Rows as JSON objects, with keys in the order of the columns.
 pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
     table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(Json::from)).collect()).collect()
 }

@@ -1,15 +1,15 @@
-//! Tables as Apache Parquet [Parquet format 2.10]: one row group with plain values that are not compressed, so that no
-//! package is needed. Every column may have nulls. A column of whole numbers is INT64, one of numbers is DOUBLE, and
-//! any other is UTF-8 text.
+//! Tables as Apache Parquet [Parquet format 2.10]: one row group of plain, uncompressed values, so that no package is
+//! needed. Every column may have nulls. A column of whole numbers is INT64, one of other numbers DOUBLE, any other
+//! UTF-8 text.
 
 use store::{Table, Value};
 
-/// First and last bytes of a file.
+/// First and last bytes of every file.
 const MAGIC: &[u8; 4] = b"PAR1";
-/// Rows of a page.
+/// Rows in a page.
 const PAGE: usize = 100_000;
 
-/// Physical types of Parquet, by their numbers in the format.
+/// Physical types of Parquet, with their numbers in the format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Int64 = 2,
@@ -17,7 +17,7 @@ enum Kind {
     ByteArray = 6,
 }
 
-/// A table as the bytes of a Parquet file.
+/// Returns a table as the bytes of a Parquet file.
 pub fn bytes(table: &Table) -> Vec<u8> {
     let mut file = MAGIC.to_vec();
     let mut schema = vec![root(table.columns.len())];
@@ -50,7 +50,7 @@ pub fn bytes(table: &Table) -> Vec<u8> {
     file
 }
 
-/// The narrowest type that holds all values of a column.
+/// Narrowest type for all values of a column.
 fn kind(values: &[&Value]) -> Kind {
     let mut kind = Kind::Int64;
     for value in values {
@@ -63,7 +63,7 @@ fn kind(values: &[&Value]) -> Kind {
     kind
 }
 
-/// Writes a page: its header, the definition levels of its values, and the values that are not null.
+/// Writes a page: header, definition levels, and the values that are not null.
 fn write_page(file: &mut Vec<u8>, values: &[&Value], kind: Kind) {
     let mut levels = Vec::new();
     for run in values.chunk_by(|a, b| (**a == Value::Null) == (**b == Value::Null)) {
@@ -100,7 +100,7 @@ fn write_page(file: &mut Vec<u8>, values: &[&Value], kind: Kind) {
     file.extend_from_slice(&data);
 }
 
-/// First element of the schema, with the number of columns.
+/// First element of the schema, which has the number of columns.
 fn root(columns: usize) -> Vec<u8> {
     let mut root = Struct::default();
     root.text(4, "schema");
@@ -108,7 +108,7 @@ fn root(columns: usize) -> Vec<u8> {
     root.end()
 }
 
-/// A column of the schema.
+/// Element of the schema for a column.
 fn element(name: &str, kind: Kind) -> Vec<u8> {
     let mut element = Struct::default();
     element.i32(1, kind as i32);
@@ -120,7 +120,7 @@ fn element(name: &str, kind: Kind) -> Vec<u8> {
     element.end()
 }
 
-/// Metadata of a column chunk: the place and size of its pages.
+/// Metadata of a column chunk: place and size of its pages.
 fn chunk(name: &str, kind: Kind, rows: usize, start: usize, length: usize) -> Vec<u8> {
     let mut about = Struct::default();
     about.i32(1, kind as i32);
@@ -145,7 +145,7 @@ struct Struct {
 }
 
 impl Struct {
-    /// Starts a field: its number as the distance from the last one, and its type.
+    /// Starts a field: number, as the difference from the last field's, and type.
     fn field(&mut self, number: u8, kind: u8) {
         self.bytes.push(((number - self.last) << 4) | kind);
         self.last = number;
@@ -190,7 +190,7 @@ impl Struct {
         }
     }
 
-    /// Starts a list, with the number of its items and their type.
+    /// Starts a list: number and type of its items.
     fn head(&mut self, number: u8, items: usize, kind: u8) {
         self.field(number, 9);
         if items < 15 {
@@ -201,7 +201,7 @@ impl Struct {
         }
     }
 
-    /// The bytes, with the mark that ends a struct.
+    /// Returns the bytes, ended by the mark for the end of a struct.
     fn end(mut self) -> Vec<u8> {
         self.bytes.push(0);
         self.bytes

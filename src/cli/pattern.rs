@@ -54,7 +54,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
     }
 }
 
-/// The drafted style of an argument.
+/// Drafted style that an argument names.
 pub fn model(style: DraftStyle) -> Model {
     match style {
         DraftStyle::Tshirt => Model::Tshirt,
@@ -64,7 +64,7 @@ pub fn model(style: DraftStyle) -> Model {
     }
 }
 
-/// Shows a proposal, and writes it as a seam file where that is asked. Its questions go to standard error.
+/// Prints a proposal, and writes it as a seam file if `output` is given. Questions go to standard error.
 fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: Option<&Path>) -> Outcome {
     let proposal = &proposed.proposal;
     if context.json {
@@ -85,7 +85,7 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
     Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
 }
 
-/// Edits a seam file in its place.
+/// Edits a seam file in place.
 fn seam(context: &Context, command: &SeamCommand) -> Outcome {
     let (home, step) = command.clone().step();
     let unit = home.unit.map(Unit::from);
@@ -115,7 +115,7 @@ fn style(files: &StyleFiles) -> Result<patterns::Style, CliError> {
     Ok(patterns::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(Unit::from))?)
 }
 
-/// Prints reports, as JSON or as a table. A file that cannot be read, or a refused piece, makes the exit code that of
+/// Prints reports as JSON or as a table. A file that cannot be read, or a piece that is refused, gives the exit code of
 /// unusable input.
 fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -> Table) -> Outcome {
     if context.json {
@@ -188,7 +188,7 @@ fn outcomes(reports: &[FileReport]) -> Table {
     Table::new(columns, reports.iter().map(row))
 }
 
-/// Checks a pattern with its seam file: makes everything that a simulation needs of it.
+/// Checks a pattern with its seam file, by making everything that a simulation needs from it.
 fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let is_study = |path: &Path| path.extension().is_some_and(|e| e == "toml") || path.join("study.toml").is_file();
     if is_study(&files.file) {
@@ -240,13 +240,13 @@ fn told(finding: &Finding) -> String {
 /// Prints a row for each size of a study.
 fn check_study(context: &Context, path: &Path) -> Outcome {
     if context.db.exists() && !context.readonly {
-        // A study names entries of the catalogue, so a database of an earlier version is migrated first.
+        // A study names entries of the catalogue, so opening the store migrates an older database first.
         context.store()?;
     }
     show_sizes(context, &seams::check_study(path, &context.db)?)
 }
 
-/// Prints a row for each size. A finding on any of them makes the check fail.
+/// Prints a row for each size. A finding on any size makes the check fail.
 fn show_sizes(context: &Context, checks: &[SizeCheck]) -> Outcome {
     if context.json {
         output::json(&checks)?;

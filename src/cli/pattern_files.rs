@@ -9,7 +9,7 @@ use spec::patterns::Unit;
 use wardrobe::seams::pattern_files::{self, Beside, Standard};
 use wardrobe::seams::{Asking, specification};
 
-/// Choices and tables that go with a pattern file, from the arguments.
+/// Size, units and tables that go with a pattern file, from the arguments.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
     Beside {
         size: files.size.as_deref(),
@@ -33,7 +33,7 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
     Ok(End::Done)
 }
 
-/// Format of a sheet with points of measure.
+/// Format of a sheet of points of measure.
 #[derive(Clone, Copy)]
 enum SheetFormat {
     Csv,
@@ -77,24 +77,24 @@ pub fn points_of_measure(
 enum PatternFormat {
     /// AAMA or ASTM DXF.
     Dxf,
-    /// GarmentCode.
+    /// GarmentCode JSON.
     Json,
 }
 
 /// Formats of patterns by the endings of files; SVG is written by `toile pattern sheet`.
 const PATTERNS: [(&str, PatternFormat); 2] = [("dxf", PatternFormat::Dxf), ("json", PatternFormat::Json)];
 
-/// Options of a pattern that is written.
+/// Options for writing a pattern.
 pub struct Written<'a> {
-    /// Seam file, for a format that holds seams.
+    /// Seam file, for formats that hold seams.
     pub seams: Option<&'a Path>,
     /// Standard of a DXF file.
     pub standard: Standard,
-    /// True where only the sample size is written, with a grade rule table beside it.
+    /// True to write the sample size and a grade rule table.
     pub with_rul: bool,
 }
 
-/// Writes a pattern in the format that the ending of the output names.
+/// Writes a pattern in the format of the output's ending.
 pub fn convert(
     context: &Context,
     path: &Path,

@@ -59,7 +59,7 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
     Ok(End::Done)
 }
 
-/// Reads a colour.
+/// Parses a colour.
 fn colour(text: &str) -> Result<Rgb, CliError> {
     Rgb::from_hex(text).ok_or_else(|| CliError::Usage(format!("{text} is no colour; accepted: #rrggbb, like #dcb094")))
 }
@@ -95,7 +95,7 @@ fn map(argument: MapArgument) -> Map {
     }
 }
 
-/// Writes a chart in the format that the ending of its file names.
+/// Writes a chart in the format of its file's ending.
 pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
     let bytes = match chart_format(file)? {
         ChartFormat::Svg => chart.svg().as_bytes().to_vec(),
@@ -112,12 +112,12 @@ pub enum ChartFormat {
     Png,
 }
 
-/// The format of a chart, by the ending of its file.
+/// Format of a chart, by the ending of its file.
 pub fn chart_format(file: &Path) -> Result<ChartFormat, CliError> {
     output::kind(file, &[("svg", ChartFormat::Svg), ("png", ChartFormat::Png)])
 }
 
-/// Runs `toile report`: writes the report of a study, and its PDF where that is asked for.
+/// Runs `toile report`: writes the report of a study, and its PDF if that is asked for.
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     arguments.output.as_deref().map(|folder| output::folder(folder, &["html", "pdf", "csv"])).transpose()?;
     let store = context.store()?;
@@ -131,10 +131,10 @@ pub fn report(context: &Context, arguments: &Report) -> Outcome {
     if arguments.pdf { print_page(context, &folder) } else { Ok(End::Done) }
 }
 
-/// Programs that print a page, by their names on different systems.
+/// Browsers that can print a page, by their names on different systems.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// Prints a report's page to a PDF file beside it, by the first browser that is installed.
+/// Prints a report's page to a PDF file beside it, by the first of the browsers that is installed.
 fn print_page(context: &Context, folder: &Path) -> Outcome {
     let missing = || {
         let names = BROWSERS.join(", ");
@@ -173,11 +173,11 @@ fn write_report(
     tell_report(context, &folder.join(PAGE))
 }
 
-/// Name of the report's page in its folder.
+/// Name of the report's first page.
 const PAGE: &str = "index.html";
 
-/// Writes a study's report, unless the present page was written from this database and is younger than the latest
-/// result, the study file and this program. Prints the path.
+/// Writes a study's report, unless the present page comes from this database and is newer than the latest result, the
+/// study file and this program. Prints its path.
 pub fn bring_report(context: &Context, store: &mut Store, study: &Study, since_ms: i64) -> Result<(), CliError> {
     let page = default_folder(context, &study.name).join(PAGE);
     let program = std::env::current_exe().ok().and_then(|path| modified_ms(&path));
@@ -201,7 +201,7 @@ fn modified_ms(path: &Path) -> Option<i64> {
     i64::try_from(modified.duration_since(UNIX_EPOCH).ok()?.as_millis()).ok()
 }
 
-/// Prints the path of a report's page, relative to the current folder where it lies within.
+/// Prints the path of a report's page, relative to the current folder if the page lies in it.
 fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
     let here = std::env::current_dir().unwrap_or_default();
     let page = page.strip_prefix(here).unwrap_or(page);

@@ -25,7 +25,7 @@ pub struct Progress {
     quiet: bool,
 }
 
-/// Bars of a terminal.
+/// Bars on a terminal.
 struct Bars {
     all: MultiProgress,
     total: ProgressBar,
@@ -71,7 +71,7 @@ impl Bars {
             self.all.remove(&bar);
         }
         self.total.inc(1);
-        // The line is also in the job's log; a terminal that went away need not have it.
+        // The line is also in the job's log, so it is not lost with the terminal.
         let _ = self.all.println(line);
     }
 }
@@ -118,7 +118,7 @@ impl Progress {
     }
 }
 
-/// The line about a job that ended.
+/// Line about a job that ended.
 fn ended(job: &JobRow) -> String {
     let what = label(&job.garment, &job.size, &job.subject);
     let took = job.wall_ms.map(|ms| format!(" ({:.1} s)", ms as f64 / 1e3)).unwrap_or_default();

@@ -6,11 +6,11 @@ use super::CliError;
 use super::output::printable;
 use wardrobe::seams::{Proposed, Question};
 
-/// Asks the questions that have choices and no answer yet, in order, until none is left. An empty line takes the answer
-/// that is marked.
+/// Asks the questions that have choices but no answer yet, in order, until none is left. An empty line takes the marked
+/// answer.
 ///
 /// # Errors
-/// When there is no terminal, or those of `proposed`.
+/// When there is no terminal; those of `proposed`.
 pub fn ask(
     mut answers: Vec<(usize, char)>,
     proposed: impl Fn(&[(usize, char)]) -> Result<Proposed, CliError>,

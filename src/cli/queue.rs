@@ -44,7 +44,7 @@ fn retry(context: &Context, store: &mut Store, jobs: &Jobs) -> Outcome {
     Ok(End::Done)
 }
 
-/// Jobs that are named one by one, and the current ones of a study or of a part of it.
+/// Jobs that are named, and the current jobs of a study or a part of it.
 fn ids(store: &Store, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
     let part = selection(&jobs.part);
     if jobs.study.is_none() && part != Selection::default() {
@@ -62,7 +62,7 @@ fn ids(store: &Store, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
     Ok(ids)
 }
 
-/// Jobs as a table.
+/// Table of jobs.
 fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyError> {
     if let Some(study) = study {
         read::study(store, study)?;
@@ -94,7 +94,7 @@ fn list(store: &Store, study: Option<&str>, all: bool) -> Result<Table, StudyErr
     Ok(Table::new(columns, rows))
 }
 
-/// A job's log as a table; times are seconds since it was queued.
+/// Table of a job's log, with times in seconds since the job was queued.
 fn log(store: &Store, id: JobId) -> Result<Table, StudyError> {
     let queued = read::job(store, id)?.queued_at_ms;
     let rows = read::log(store, id)?.into_iter().map(|line| {

@@ -28,7 +28,7 @@ pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     Ok(End::Done)
 }
 
-/// The answers as a table, with or without numbers and sentences.
+/// Table of the answers, with or without numbers and sentences.
 fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
     let text = |text: &str| Value::Text(text.to_owned());
     let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
@@ -65,7 +65,7 @@ fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
     Table::new(columns, answers.iter().map(row))
 }
 
-/// Every answer in words, then the garments over all fits and the rule.
+/// Text with every answer in words, then the answers for whole garments, and the rule.
 fn explained(store: &Store, study: &str, answers: &[&Answer]) -> Result<String, CliError> {
     let mut text = String::from(
         "\nEffects are EI of FEM-GS less EI of Hybrid-GS, mean over subjects (95 % bootstrap interval): below 0 FEM-GS is truer.\n",

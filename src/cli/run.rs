@@ -17,9 +17,9 @@ use sim::Stage;
 use spec::{JobSpec, Limits, Selection, Study};
 use store::{JobFilter, JobId, JobRow, Status, Store, StudyError, Table, Value, files, read, sql};
 
-/// Time between two looks at the running jobs.
+/// Time between two checks of the running jobs.
 const LOOK: Duration = Duration::from_millis(150);
-/// Time between two looks at a cluster.
+/// Time between two checks of a cluster.
 const SLURM_LOOK: Duration = Duration::from_secs(1);
 
 /// Runs `toile run`.
@@ -50,7 +50,7 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     }
     let workers = arguments.workers.map(usize::from);
     if arguments.detach {
-        // Queued here already, so that `--attach` finds its jobs at once.
+        // Queues the jobs before the detached run does, so that `--attach` finds them at once.
         enqueue::queue(&mut store, &study, &selection)?;
         return detached::start(context, &study.name);
     }
@@ -86,7 +86,7 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     Ok(if failed.is_empty() { End::Done } else { End::JobFailed })
 }
 
-/// The part of a study that flags name.
+/// Part of a study that flags select.
 pub fn selection(part: &StudyPart) -> Selection {
     Selection {
         simulators: part.sim.clone(),
@@ -96,11 +96,11 @@ pub fn selection(part: &StudyPart) -> Selection {
     }
 }
 
-/// A flag that the first Ctrl-C or request to end sets.
+/// Flag that the first Ctrl-C or request to end sets.
 fn interruption() -> Result<Arc<AtomicBool>, CliError> {
     let interrupted = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // A second signal ends at once, which does not harm the database.
+        // A second signal ends the program at once, which does not harm the database.
         signal_hook::flag::register_conditional_shutdown(signal, End::Interrupted as i32, interrupted.clone())?;
         signal_hook::flag::register(signal, interrupted.clone())?;
     }
@@ -122,8 +122,8 @@ fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -
     todo
 }
 
-/// Hands the study to Slurm and shows its progress until it ends. Returns true if it was interrupted: jobs of Slurm
-/// then go on, and the next run collects them.
+/// Hands the study to Slurm and shows its progress until it ends. Returns true if interrupted: Slurm's jobs then go on,
+/// and the next run collects their results.
 fn slurm(
     context: &Context,
     store: &mut Store,
@@ -153,7 +153,7 @@ fn slurm(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// Starts the run and shows its progress until it ends. Returns true if it was interrupted.
+/// Starts the run and shows its progress until it ends. Returns true if interrupted.
 pub fn work(
     context: &Context,
     store: &mut Store,
@@ -181,7 +181,7 @@ pub fn work(
     Ok(interrupted.load(Ordering::Relaxed))
 }
 
-/// The jobs of a plan, each with the reason why it would run or not.
+/// Table of the jobs in a plan, each with the reason why it would run or not.
 fn plan_table(planned: &[Planned]) -> Table {
     let columns = ["garment", "size", "subject", "sim", "repeat", "runs", "why"];
     let rows = planned.iter().map(|job| {
@@ -199,8 +199,8 @@ fn plan_table(planned: &[Planned]) -> Table {
     Table::new(columns, rows)
 }
 
-/// Prints the results: chi of every measurement, with a table for each garment, size and simulator as in the thesis. As
-/// JSON they are the rows of `v_metrics` with their `chi`.
+/// Prints the results: chi of every measurement, in a table for each garment, size and simulator as in the thesis. As
+/// JSON, prints the rows of `v_metrics` with their `chi`.
 fn summarise(context: &Context, store: &Store, jobs: &[JobRow]) -> Result<(), CliError> {
     let done: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result()).collect();
     if context.json {
@@ -232,7 +232,7 @@ fn summarise(context: &Context, store: &Store, jobs: &[JobRow]) -> Result<(), Cl
     Ok(())
 }
 
-/// A row for each measurement, and a summary. The columns are the pattern length and chi of each subject.
+/// Table with a row for each measurement, and a summary. Columns are the pattern length and chi of each subject.
 fn chi_table(store: &Store, jobs: &[&JobRow]) -> Result<Table, StudyError> {
     let mut columns = vec!["#".to_owned(), "measurement".to_owned(), "L2D mm".to_owned()];
     let mut rows: Vec<Vec<Value>> = Vec::new();
@@ -259,7 +259,7 @@ fn chi_table(store: &Store, jobs: &[&JobRow]) -> Result<Table, StudyError> {
     Ok(Table { columns, rows })
 }
 
-/// The columns of `v_metrics` and an array `chi` with those of `v_chi`.
+/// Columns of `v_metrics`, and an array `chi` with the columns of `v_chi`.
 fn result_json(store: &Store, job: &JobRow) -> Result<serde_json::Value, StudyError> {
     let rows = |view: &str| -> Result<Vec<serde_json::Map<String, serde_json::Value>>, StudyError> {
         Ok(output::rows(&sql::query(store, &format!("SELECT * FROM {view} WHERE job_id = {}", job.id))?))

@@ -1,4 +1,4 @@
-//! `toile run show|diff|rerun`: one result in full, two side by side, or one made again.
+//! `toile run show|diff|rerun`: one result in full, two side by side, or one computed again.
 
 use serde_json::{Value as Json, json};
 
@@ -120,7 +120,7 @@ fn rerun(context: &Context, id: JobId) -> Outcome {
     Ok(End::CheckFailed)
 }
 
-/// The numbers of a result with their names in SQL; `None` for one that its program did not compute.
+/// Metrics of a result with their names in SQL; `None` for a metric that its program did not compute.
 fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 13] {
     [
         ("n", Some(f64::from(m.n))),
@@ -139,7 +139,7 @@ fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 13] {
     ]
 }
 
-/// A number with at most six decimals.
+/// Number with at most six decimals.
 fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -150,7 +150,7 @@ fn two_columns(columns: [&str; 2], rows: Vec<(&str, String)>) -> Table {
     Table::new(columns, rows)
 }
 
-/// Measurements of two results: chi of both and their difference; `=` where no bit differs.
+/// Table of measurements in two results: both chi and their difference, `=` where all bits are equal.
 fn chi_table(pairs: &[ChiPair], names: &[String; 2]) -> Table {
     let columns = [&["#".to_owned(), "measurement".to_owned()][..], names, &["difference".to_owned()]].concat();
     let rows = pairs.iter().map(|pair| {

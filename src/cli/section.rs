@@ -50,13 +50,13 @@ pub fn section(context: &Context, arguments: &Section) -> Outcome {
     Ok(End::Done)
 }
 
-/// Results of a garment on a subject.
+/// Results of a garment on one subject, to be cut.
 struct Drapes<'a> {
     worn: &'a GarmentWorn,
     jobs: Vec<JobId>,
 }
 
-/// The results that are asked for of a garment on a subject, in the order of their sizes.
+/// Jobs of a garment on a subject that the arguments select, in the order of sizes.
 fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
     let simulator = arguments.sim.map(Simulator::from).or(worn.simulator);
     let Some(simulator) = simulator else { return Ok(Vec::new()) };
@@ -65,7 +65,7 @@ fn jobs(store: &Store, study: &str, worn: &GarmentWorn, arguments: &Section) -> 
     Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
 }
 
-/// Draws the one section that is asked for.
+/// Draws a section; the arguments must select exactly one.
 fn draw(context: &Context, store: &Store, cut: &[Drapes<'_>], at: &CutAt, file: &Path) -> Outcome {
     let mut drawn = Vec::new();
     for Drapes { worn, jobs } in cut {

@@ -1,4 +1,4 @@
-//! `toile pattern sew`: a picture of a garment while its seam file is edited.
+//! `toile pattern sew`: a picture of the sewn garment, updated while its seam file is edited.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,10 +17,10 @@ use spec::patterns::Unit;
 use store::StudyError;
 use wardrobe::seams::{self, Workpiece};
 
-/// Time between two looks at the seam file.
+/// Time between two checks of the seam file.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Runs `toile pattern sew`: sews a pattern, once or whenever its seam file has changed.
+/// Runs `toile pattern sew`: sews a pattern once, or whenever its seam file changes.
 pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     output::kind(&arguments.output, &[("png", ())])?;
     let is_left = Arc::new(AtomicBool::new(false));
@@ -56,7 +56,7 @@ pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
     }
 }
 
-/// The seam file, proposed where there is none yet; `None` where the pattern holds its seams.
+/// Path of the seam file, which is proposed where there is none; `None` for a pattern that holds its seams.
 fn seam_file(context: &Context, arguments: &SewFiles) -> Result<Option<PathBuf>, CliError> {
     let cut = &arguments.cut;
     let piece = Workpiece::open(&arguments.file, None, cut.size.as_deref(), cut.unit.map(Unit::from))?;
@@ -78,12 +78,12 @@ fn seam_file(context: &Context, arguments: &SewFiles) -> Result<Option<PathBuf>,
     Ok(Some(path))
 }
 
-/// The bytes of the seam file, which show whether it has changed.
+/// Bytes of the seam file, to tell if it has changed.
 fn stamp(seams: Option<&Path>) -> Option<Vec<u8>> {
     std::fs::read(seams?).ok()
 }
 
-/// Sews it once: writes the picture, prints the outcome and the open questions.
+/// Sews the garment once: writes the picture, prints the outcome and the open questions.
 fn sewn(
     context: &Context,
     arguments: &SewFiles,

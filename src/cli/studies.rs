@@ -1,4 +1,4 @@
-//! `toile study`: study files made, checked and exported, and representatives of populations.
+//! `toile study`: makes, checks and exports study files, and finds representatives of populations.
 
 use std::path::{Path, PathBuf};
 
@@ -83,8 +83,8 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     Ok(End::Done)
 }
 
-/// Adds the user's patterns to the catalogue as a style, named after the first of them. Returns its name, and prints
-/// the number of open questions.
+/// Adds the user's patterns to the catalogue as a style named after the first pattern. Returns the style's name, and
+/// prints the number of open questions.
 fn own_style(
     context: &Context,
     store: &mut Store,
@@ -112,7 +112,7 @@ fn own_style(
     Ok(Some(name))
 }
 
-/// Prints the representative of a study that is nearest to a person, and its results.
+/// Prints the study's representative that is nearest to a person, with its results.
 fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome {
     let store = context.store()?;
     let name = context.study_name(&store, study)?;

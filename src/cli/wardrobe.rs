@@ -13,11 +13,11 @@ use spec::patterns::Unit;
 use store::{Table, Value, files};
 use wardrobe::{Opened, Wardrobe};
 
-/// Name of the document beside the study.
+/// Name of the JSON file beside the study.
 const DOCUMENT: &str = "audit.json";
 
-/// Runs `toile audit garments`: makes the study, runs its jobs, and prints the outcomes. Exit code 3 where a drape has
-/// a fault.
+/// Runs `toile audit garments`: makes the study, runs its jobs, prints the outcomes. Exit code 3 if a drape has a
+/// fault.
 pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
     let folder = &arguments.output;
     output::folder(folder, &["toml", "json"])?;
@@ -88,13 +88,13 @@ fn jobs_table(all: &[Dressed]) -> Table {
     Table::new(columns, all.iter().map(row))
 }
 
-/// A number rounded to some decimals, or nothing.
+/// Number rounded to `decimals`; null for `None`.
 fn real(number: Option<f64>, decimals: i32) -> Value {
     let scale = 10_f64.powi(decimals);
     number.map_or(Value::Null, |number| Value::Real((number * scale).round() / scale))
 }
 
-/// Outcome of a job, in words.
+/// Outcome of a job in words.
 fn outcome(job: &Dressed) -> String {
     match (&job.refused, &job.faults[..]) {
         (Some(why), _) => format!("refused: {why}"),

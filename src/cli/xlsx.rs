@@ -5,10 +5,10 @@ use std::io;
 use rust_xlsxwriter::{Format, Workbook, XlsxError};
 use store::{Table, Value};
 
-/// Makes a workbook with a sheet for each table. The headings are bold and stay in view.
+/// Makes a workbook with a sheet for each table. Headings are bold and stay in view.
 ///
 /// # Errors
-/// When a table has more rows or longer texts than a sheet can hold.
+/// When a table has more rows, or longer texts, than a sheet can hold.
 pub fn bytes(sheets: &[(&str, &Table)]) -> io::Result<Vec<u8>> {
     written(sheets).map_err(io::Error::other)
 }
@@ -23,7 +23,7 @@ fn written(sheets: &[(&str, &Table)]) -> Result<Vec<u8>, XlsxError> {
 
 fn add(workbook: &mut Workbook, name: &str, table: &Table) -> Result<(), XlsxError> {
     let sheet = workbook.add_worksheet();
-    // A name that no sheet may have is no loss, since the file has it.
+    // A sheet may refuse a name; that is no loss, since the file has the name too.
     let _ = sheet.set_name(name);
     let bold = Format::new().set_bold();
     for (column, name) in (0..).zip(&table.columns) {

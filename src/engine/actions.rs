@@ -3,7 +3,7 @@
 use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, read};
 
-/// Cancels queued or running jobs; returns how many were.
+/// Cancels queued or running jobs; returns how many it cancelled.
 ///
 /// # Errors
 /// When the database is open read-only or a job does not exist.
@@ -11,8 +11,8 @@ pub fn cancel(store: &mut Store, ids: &[JobId]) -> Result<usize> {
     change(store, ids, &Event::Cancel, "cancelled")
 }
 
-/// Queues failed or cancelled jobs again, and those of which they need the result; returns how many were. A job with a
-/// result keeps it.
+/// Queues failed or cancelled jobs again, with the jobs whose results they need; returns the number of jobs queued. A
+/// job that has a result keeps it.
 ///
 /// # Errors
 /// When the database is open read-only or a job does not exist.
@@ -27,7 +27,7 @@ pub fn retry(store: &mut Store, ids: &[JobId]) -> Result<usize> {
     change(store, &all, &Event::Retry, "queued again")
 }
 
-/// Applies one event to several jobs, all or none.
+/// Applies one event to several jobs, all in one transaction. Returns the number of jobs that it applied to.
 fn change(store: &mut Store, ids: &[JobId], event: &Event<'_>, done: &str) -> Result<usize> {
     store::lightly(store.writer()?, |transaction| {
         let mut changed = 0;
@@ -55,7 +55,7 @@ pub fn set_priority(store: &mut Store, ids: &[JobId], priority: i64) -> Result<(
     })
 }
 
-/// Pauses a study: none of its jobs starts any more, and running ones go on.
+/// Pauses a study: its running jobs go on, and no other starts.
 ///
 /// # Errors
 /// When the database is open read-only or there is no such study.
@@ -63,7 +63,7 @@ pub fn pause(store: &mut Store, study: &str) -> Result<()> {
     set_paused(store, study, true)
 }
 
-/// Lets jobs of a paused study start again.
+/// Ends the pause of a study.
 ///
 /// # Errors
 /// When the database is open read-only or there is no such study.
@@ -79,7 +79,7 @@ fn set_paused(store: &mut Store, study: &str, paused: bool) -> Result<()> {
     })
 }
 
-/// Returns the reason for which a job of this status cannot be retried; `None` where it can.
+/// Reason why a job of this status cannot be retried; `None` where it can.
 #[must_use]
 pub fn why_no_retry(status: Status) -> Option<&'static str> {
     match status {

@@ -1,4 +1,4 @@
-//! Assessment of a drape on its body: cross sections, balance, folds and pressure, measured and written.
+//! Assessment of a drape on its body: cross sections, balance, folds and pressure, measured and stored.
 
 use rusqlite::{Transaction, params};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ use store::{InOrigin, JobId, Origin, Result};
 /// Square centimetres in a square metre.
 const CM2: f64 = 1e4;
 
-/// Body and cloth at a level.
+/// Girths, areas and gaps of body and cloth at a level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// Level of the body, such as `chest`.
@@ -34,7 +34,8 @@ pub struct Level {
     pub body_area_m2: f64,
     /// Area between skin and cloth, m2.
     pub air_m2: f64,
-    /// Gap in [`DIRECTIONS`] directions from the front towards the subject's right, m; `None` where there is no cloth.
+    /// Gap between skin and cloth, m, in [`DIRECTIONS`] directions from the front towards the subject's right; `None`
+    /// where there is no cloth.
     pub gaps_m: Vec<Option<f64>>,
 }
 
@@ -60,7 +61,7 @@ pub struct Pressing {
     pub region: String,
     /// Area under pressure, m2.
     pub area_m2: f64,
-    /// Mean over that area, kPa.
+    /// Mean pressure on that area, kPa.
     pub mean_kpa: f64,
     /// Pressure that 1 % of the area exceeds, kPa.
     pub most_kpa: f64,
@@ -75,15 +76,15 @@ pub struct Assessment {
     pub hang: Hang,
     /// Folds, the longest first.
     pub folds: Vec<Fold>,
-    /// Pressure by region, of FEM-GS only: it alone brings cloth and body into equilibrium.
+    /// Pressure by region. Empty for Hybrid-GS, which does not bring cloth and body into equilibrium.
     pub pressing: Vec<Pressing>,
-    /// Displacement of openings, of a drape that was carried into another pose.
+    /// Displacement of each opening, for a drape that was carried into another pose.
     #[serde(default)]
     pub drawn: Vec<Drawn>,
 }
 
 impl Assessment {
-    /// Measures the drape of a garment.
+    /// Assesses the drape of a garment.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area, or the body no surface.
@@ -122,13 +123,13 @@ impl Assessment {
         self.pressing.iter().map(|region| region.most_kpa).reduce(f64::max)
     }
 
-    /// Height of the hem in front less that behind, m.
+    /// Height of the hem in front minus its height behind, m.
     pub fn hem_front_over_back_m(&self) -> Option<f64> {
         self.hang.hem.and_then(|hem| Some(hem.front_m? - hem.back_m?))
     }
 }
 
-/// Balance of a drape.
+/// Measures the balance of a drape.
 pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let lines = style.hang_lines();
     let paths: Vec<&[PathPart]> =
@@ -140,7 +141,7 @@ pub fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     on_body::hang(&hem, &waist, &placed.flatten().collect::<Vec<_>>())
 }
 
-/// Writes the assessment of a drape.
+/// Stores the assessment of a drape.
 pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, assessment: &Assessment) -> Result<()> {
     let mut section = transaction.prepare_cached("INSERT INTO section VALUES (?, ?, ?, ?, ?, ?, ?)")?;
     let mut gap = transaction.prepare_cached("INSERT INTO section_gap VALUES (?, ?, ?, ?)")?;
@@ -177,17 +178,17 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, assessment: &Asses
     Ok(())
 }
 
-/// A quantity of a balance.
+/// A number of a balance.
 pub struct Quantity {
     /// Name of the quantity, such as `hem_front`.
     pub name: String,
-    /// Value in the unit.
+    /// Value, in `unit`.
     pub value: f64,
     /// `mm` or `deg`.
     pub unit: &'static str,
 }
 
-/// Quantities of a balance with their units: heights above the floor, differences of heights, angles.
+/// Numbers of a balance with their units: heights above the floor, differences of heights, angles.
 pub fn quantities(hang: &Hang) -> Vec<Quantity> {
     let height = |name: String, m: f64| Quantity { name, value: mm(m), unit: "mm" };
     let mut found = Vec::new();

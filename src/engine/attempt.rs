@@ -33,17 +33,17 @@ use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::{self, Question};
 
-/// Least shortfall of a girth that counts as a problem, mm.
+/// Shortfall of a garment's girth above which a trial reports a problem, mm.
 const SHORTFALL_MM: f64 = 5.0;
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
-/// A trial: one or more garments on one body.
+/// Request for a trial: one or more garments on one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     /// File of the body: a mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
     pub body: PathBuf,
-    /// Unit of the mesh, where it cannot be told from its height.
+    /// Unit of the mesh, where its height does not tell.
     pub body_unit: Option<LengthUnit>,
     /// Sex of the body, where known.
     pub sex: Option<Sex>,
@@ -53,16 +53,16 @@ pub struct Attempt {
     pub unit: Option<Unit>,
     /// Seam allowance of pieces without a sew line, m, where there is no seam file.
     pub allowance_m: f64,
-    /// Answers to the questions of a proposal: number and letter.
+    /// Answers to the questions of a proposal of seams: number of the question, letter of the answer.
     pub answers: Vec<(usize, char)>,
-    /// Simulator that drapes it.
+    /// Simulator that drapes the garments.
     pub simulator: Simulator,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
-    /// Number of simulations by FEM-GS. The first starts as the pieces are placed, each other one a little beside
-    /// that.
+    /// Number of simulations by FEM-GS. The first starts with the pieces as they are placed; the start of each other
+    /// one is varied slightly.
     pub repeat: u32,
-    /// Pose in which the body is dressed. Without one it is dressed as it stands.
+    /// Pose in which the body is dressed; `None` for the pose in which it is built or scanned.
     pub pose: Option<Pose>,
     /// Pose into which FEM-GS then carries the drape of a single garment.
     pub reach: Option<Pose>,
@@ -73,11 +73,11 @@ pub struct Attempt {
 pub struct AttemptLayer {
     /// Pattern: a DXF file, a folder of them, or a GarmentCode specification.
     pub pattern: PathBuf,
-    /// Seam file of the pattern. Without one a DXF pattern is sewn as proposed.
+    /// Seam file of the pattern; without it a DXF pattern is sewn as proposed.
     pub seams: Option<PathBuf>,
-    /// Size, where the pattern has several.
+    /// Name of the size, where the pattern has several.
     pub size: Option<String>,
-    /// Fabric of the library, or a TOML file of one.
+    /// Name of a fabric of the program, or a TOML file with one.
     pub fabric: String,
 }
 
@@ -94,12 +94,12 @@ pub struct TriedChi {
     pub l2d_mm: f64,
     pub l3d_mm: f64,
     pub chi: f64,
-    /// Range (greatest less least) of chi over the repeated simulations.
+    /// Greatest minus least chi of the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread: Option<f64>,
 }
 
-/// The ease of a trial at one level.
+/// Ease of a trial at one level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of `v_ease`, which db/schema.sql describes")]
 pub struct TriedEase {
@@ -143,7 +143,7 @@ pub struct TriedCloth {
     pub penetration_max_mm: f64,
     pub seam_gap_max_mm: f64,
     pub self_crossings: usize,
-    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    /// FEM-GS: principal stretch less 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
 }
 
@@ -161,30 +161,30 @@ pub struct Tried {
     #[serde(flatten)]
     pub cloth: TriedCloth,
     pub wall_ms: u64,
-    /// Greatest range of a chi over the repeated simulations.
+    /// Greatest [`TriedChi::chi_spread`] of all measurements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_spread_max: Option<f64>,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
-    /// Hybrid-GS: girths of garment and body; empty for the other simulator.
+    /// Girths of garment and body, by Hybrid-GS; empty for FEM-GS.
     pub gap: Vec<TriedGap>,
-    /// Changes in the pose that is reached.
+    /// Changes caused by the movement into the pose `reach`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reached>,
-    /// Faults of the drape; empty where it is good.
+    /// Faults of the drape; empty where it has none.
     pub problems: Vec<String>,
     /// Guesses that were made about the inputs.
     pub notes: Vec<String>,
-    /// Pictures and meshes by file name.
+    /// Pictures and meshes, by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Dresses a body in one garment, or in several over each other. `progress` is told the phase and the share that is
-/// done. Returns the result of each garment, the inner first; the files come with the last.
+/// Dresses a body in one garment, or in several on top of each other. `progress` receives the phase and the share done.
+/// Returns the result of each garment, the inmost first; the last holds the files of all.
 ///
 /// # Errors
-/// When an input cannot be used: the message says which would be accepted. A drape with faults is no error.
+/// When an input cannot be used: the message says what is accepted. A drape with faults is no error.
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Vec<Tried>> {
     let started = Instant::now();
     check(asked)?;
@@ -250,7 +250,7 @@ fn check(asked: &Attempt) -> Result<()> {
     Ok(())
 }
 
-/// Reads a garment as it is asked for, with notes on the guesses that were made about it.
+/// Reads a garment, with notes on the guesses made about it.
 fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
     let mut notes = Vec::new();
     let fabric = fabric(&layer.fabric)?;
@@ -260,7 +260,7 @@ fn garb(asked: &Attempt, layer: &AttemptLayer) -> Result<(Garb, Vec<String>)> {
 }
 
 impl Tried {
-    /// Result of a simulation, without the faults of its drape, notes and files.
+    /// Result of a simulation, still without problems, notes and files.
     fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
@@ -339,7 +339,7 @@ impl TriedGap {
     }
 }
 
-/// Enters the range of each chi over repeated simulations, and a problem for each that did not come to rest.
+/// Adds the range of each chi over repeated simulations, and a problem for each simulation that did not come to rest.
 fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     let others: Vec<_> = drapes.iter().map(|drape| measure::measure(garment, &drape.positions)).collect();
     let last = tried.chi.last().map(|row| row.stage);
@@ -354,7 +354,7 @@ fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
     }
 }
 
-/// Monitor that passes progress on to a function.
+/// Monitor that hands progress to a function.
 struct Told<'a>(&'a mut dyn FnMut(&str, f64));
 
 impl Monitor for Told<'_> {
@@ -363,10 +363,10 @@ impl Monitor for Told<'_> {
     }
 }
 
-/// Returns the fabric of a name in the library, or that of a TOML file.
+/// Fabric of the program by its name, or from a TOML file.
 ///
 /// # Errors
-/// When there is none of that name, or the file is wrong.
+/// When no fabric has the name, or the file is wrong.
 pub fn fabric(name: &str) -> Result<Fabric> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
@@ -378,7 +378,7 @@ pub fn fabric(name: &str) -> Result<Fabric> {
     library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
 }
 
-/// Returns the style of a layer: with its seam file, by its own stitches, or as proposed where the proposal is sure.
+/// Returns the style of a layer: sewn by its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Result<Style> {
     let size = layer.size.as_deref();
     if layer.seams.is_some() || SourceFile::read_pattern(&layer.pattern)?.holds_seams() {
@@ -401,7 +401,7 @@ fn style(asked: &Attempt, layer: &AttemptLayer, notes: &mut Vec<String>) -> Resu
     Ok(style)
 }
 
-/// Faults of a drape with the piece in which each is worst, since the numbers alone do not tell the place.
+/// Faults of a drape, each with the piece on which it is worst: numbers alone do not tell the place.
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
     let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
     let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
@@ -423,8 +423,8 @@ struct Dressed<'a> {
     drapes: &'a [Drape],
 }
 
-/// Four views of every stage as one picture each, and body and garments as meshes. Files of the last stage are called
-/// `stem`.
+/// One picture of four views for each stage, and meshes of body and garments. The names of the last stage's files begin
+/// with `stem`.
 fn files(stem: &str, simulator: Simulator, dressed: &Dressed<'_>) -> Result<Vec<(String, Vec<u8>)>> {
     let Dressed { body, garbs, drapes } = *dressed;
     let garments = garbs.iter().map(|garb| garb.meshes.finest()).collect::<Result<Vec<&Garment>>>()?;
@@ -458,7 +458,7 @@ fn files(stem: &str, simulator: Simulator, dressed: &Dressed<'_>) -> Result<Vec<
     Ok(files)
 }
 
-/// Material of a layer: of the inner one as in the drapes of its simulator, of each other one in a colour of its own.
+/// Material of a layer: the simulator's usual one for the inmost, another colour for each other layer.
 fn material(simulator: Simulator, number: usize) -> Material {
     match (number, simulator) {
         (0, Simulator::Fem) => Material::fem(),

@@ -1,4 +1,4 @@
-//! A dressed body moved from one pose into another, with the garment carried along.
+//! A dressed body moved from one pose into another, carrying its garment along.
 
 use body::{Body, Pose};
 use pattern::Garment;
@@ -8,27 +8,27 @@ use spec::Parameters;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// A drape that is to be carried into another pose of its body.
+/// A drape to be carried into another pose of its body.
 pub(crate) struct Carry<'a> {
-    /// Body as it stands upright.
+    /// Body in the pose in which it is built or scanned.
     pub upright: &'a Body,
     /// Pose of the drape, and pose to reach.
     pub poses: [Pose; 2],
-    /// Mesh of the garment that is draped.
+    /// Finest mesh of the garment, on which the drape is.
     pub garment: &'a Garment,
     /// Fabric of the garment.
     pub fabric: &'a Fabric,
     /// Drape in the first pose.
     pub drape: &'a Drape,
-    /// Parameters of FEM-GS that are not the default ones.
+    /// Parameters of FEM-GS that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
-/// A drape that was carried into another pose.
+/// A drape after it was carried into another pose.
 pub(crate) struct Carried {
     /// Body in all poses on the way.
     pub bodies: Vec<Body>,
-    /// Drape in the last of them.
+    /// Drape on the last of these bodies.
     pub drape: Drape,
 }
 

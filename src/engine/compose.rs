@@ -1,5 +1,4 @@
-//! A new study made of entries of the catalogue: a folder with a `study.toml` to read and edit, and the patterns
-//! beside it.
+//! New studies from entries of the catalogue: a folder with a `study.toml` to edit, and the patterns beside it.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -27,35 +26,35 @@ pub enum PatternSource {
 /// A size that a study may wear.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wearable {
-    /// Name of the style, in the catalogue or as it is drafted.
+    /// Name of the style, in the catalogue or of the draft.
     pub style: String,
     /// Name of the size within the style.
     pub size: String,
-    /// Source of its pattern and its seams.
+    /// Source of pattern and seams.
     pub source: PatternSource,
 }
 
-/// A new study as it is asked for.
+/// Request for a new study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewStudy {
     /// Name of the study and of its folder.
     pub name: String,
-    /// The folder of all studies.
+    /// Folder that holds all studies.
     pub folder: PathBuf,
     /// Names of subjects of the catalogue.
     pub subjects: Vec<String>,
-    /// Sizes that are worn; those of one style follow each other.
+    /// Sizes that are worn; those of one style are adjacent.
     pub sizes: Vec<Wearable>,
     /// Name of a fabric of the catalogue.
     pub fabric: String,
     /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
-    /// Fit that is intended for all garments; the usual one where it is not said.
+    /// Intended fit of all garments; `None` for the default.
     pub fit: Option<Intended>,
 }
 
-/// Returns the sizes that a new study may wear: those of the catalogue, and those of drafted styles whose names it
-/// does not have.
+/// Sizes that a new study may wear: those of the catalogue, and those of drafted styles whose names the catalogue does
+/// not have.
 #[must_use]
 pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     let of_catalogue = sizes.iter().map(|row| Wearable {
@@ -75,10 +74,10 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     of_catalogue.chain(drafted).collect()
 }
 
-/// Writes a new study into a folder of its own and queues its jobs, which then wait to be run. Returns its file.
+/// Writes a new study into a folder of its own and queues its jobs without running them. Returns the path of its file.
 ///
 /// # Errors
-/// When something is missing from it, its folder is there already, or a file cannot be written.
+/// When the study lacks something, its folder exists, or a file cannot be written.
 pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     store.writer()?;
     check(new)?;
@@ -94,7 +93,7 @@ pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// The files of a new study: its patterns, their seam files, `study.toml`.
+/// Files of a new study: patterns, seam files, `study.toml`.
 fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
     let mut files = Files::new();
     let mut garments = Vec::new();
@@ -119,7 +118,7 @@ fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(files.into_iter().collect())
 }
 
-/// Adds the files of a size, each once.
+/// Adds the files of a size that are not there yet.
 fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
     let mut add = |source: &SourceFile| place(files, "patterns", source);
     match wearable.source {
@@ -144,7 +143,7 @@ fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, f
     Ok(())
 }
 
-/// Refuses a study without something it needs.
+/// Refuses a study that lacks something.
 fn check(new: &NewStudy) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
     let is_name = !new.name.trim().is_empty() && !new.name.starts_with('.') && new.name.chars().all(is_plain);

@@ -1,4 +1,4 @@
-//! Ease of a garment on a body by the flat pattern, before anything is draped.
+//! Ease of a garment on a body by the flat pattern, before draping.
 
 use body::{Body, Dimension, Girths, Joint};
 use fit::{Cuts, Ease};
@@ -7,10 +7,10 @@ use pattern::Style;
 use pattern::pom::{Stand, WornLength};
 use pattern::style::PathPart;
 
-/// Distance of the forearm's girth below the elbow, m.
+/// Distance below the elbow at which the forearm's girth is measured, m.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
 
-/// Girth or length of a body at a level that garments have, m; `None` where no dimension belongs to the level.
+/// Girth or length of a body at a level of a garment, m; `None` where the body has no dimension for the level.
 pub fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     let dimension = match level {
         "neck" => Dimension::NeckGirth,
@@ -48,20 +48,20 @@ pub fn stand(body: &Body) -> Stand {
     }
 }
 
-/// Ease at every level that the garment covers, from the neck down. A level is measured along the line of the seam
-/// file, and without one along the line found from the roles of the pieces. The fit class is by default cuts: a
-/// study's own cuts classify it when it is read.
+/// Ease at every level that the garment covers, from the neck down. The pattern is measured along the line that the
+/// seam file gives for the level, else along a line found from the roles of the pieces. Fit classes use the default
+/// cuts; readers apply those of the study.
 pub fn on(style: &Style, body: &Body) -> Vec<Ease> {
     on_all(style, &[body]).pop().unwrap_or_default()
 }
 
-/// Returns [`on`] for several bodies. The roles of the pieces are found only once.
+/// Ease as by [`on`] for several bodies. The roles of the pieces are found only once.
 pub fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
     let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
     bodies.iter().zip(lengths_on(style, &stands)).map(|(body, lengths)| ease(&lengths, body)).collect()
 }
 
-/// Ease of a garment with these lengths on a body.
+/// Ease of a garment with these pattern lengths on a body.
 fn ease(lengths: &[Length], body: &Body) -> Vec<Ease> {
     let body_m = |level: &str| {
         let height_m = lengths.iter().find(|length| length.level == level).and_then(|length| length.height_m);
@@ -76,15 +76,13 @@ pub struct Length {
     pub level: String,
     /// Length of the pattern there, m.
     pub length_m: f64,
-    /// Height above the floor at which the body is measured, m, where that is another one than the height of the
-    /// level.
+    /// Height above the floor where the body is measured, m; `None` for the height of the level.
     pub height_m: Option<f64>,
-    /// Path on the pieces along which it is measured; of a girth that is measured by its half, that half.
+    /// Path on the pieces along which the length is measured; where half a girth is measured, the path of this half.
     pub path: Vec<PathPart>,
 }
 
-/// Returns the length of a style at every level that it covers of a body with these heights. Lines of the seam file
-/// come first.
+/// Length of a style at every level that it covers on a body with these heights. Lines of the seam file come first.
 pub fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
     lengths_on(style, std::slice::from_ref(stand)).pop().unwrap_or_default()
 }

@@ -1,4 +1,5 @@
-//! Keeps the queue in line with a study: a job for every cell whose inputs are new, with the reason for each.
+//! Keeps the queue in line with a study: a job for every cell (garment, size, subject, simulator, repeat) with new
+//! inputs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -15,23 +16,23 @@ use store::queue::{self, Event};
 use store::{JobId, Result, Status, Store, StudyError, columns, now_ms, read};
 use wardrobe::catalogue::revision::{self, By};
 
-/// Reason for which a job runs, or need not run.
+/// Reason why a job runs, or need not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// Its cell has no earlier job to compare with.
+    /// The cell has no earlier job.
     New,
-    /// An input changed since the latest earlier job of the same cell.
+    /// An input differs from the latest earlier job of the cell.
     Changed {
-        /// The latest earlier job of that cell.
+        /// That earlier job.
         since: JobId,
-        /// Inputs that differ from that job's.
+        /// Inputs that differ.
         changes: Vec<Change>,
     },
-    /// Queued or running already.
+    /// The job is queued or running already.
     Waiting,
-    /// Failed or cancelled earlier with the same inputs.
+    /// The job failed or was cancelled before, with the same inputs.
     Again(Status),
-    /// Has a result of the same inputs.
+    /// The job has a result for the same inputs.
     UpToDate(Status),
 }
 
@@ -65,9 +66,9 @@ pub struct Planned {
     pub id: JobId,
     /// Specification of the job.
     pub spec: JobSpec,
-    /// Reason for which it runs, or need not run.
+    /// Reason why the job runs, or need not run.
     pub why: Why,
-    /// True if it was the current job of its cell before.
+    /// True if the job was the current one of its cell before.
     pub was_current: bool,
 }
 
@@ -82,13 +83,13 @@ pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<
     Ok(planned)
 }
 
-/// Stores a study and queues those of its jobs that are to be run. Failed and cancelled ones are queued again. Cells
-/// that the study no longer has lose their current job.
+/// Stores a study and queues those of its jobs that have to run, with those that failed or were cancelled. Cells that
+/// the study no longer has lose their current job.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let all = spec::jobs(study);
     each_size_has_its_key(&all)?;
-    // Before it is said what becomes of each job: one that was given up for the processes that died over it is wanted anew
-    // by whoever starts a run.
+    // Comes first: it may give up a job whose processes died too often, and who starts a run wants that job queued
+    // again.
     queue::take_over(transaction, &mut Watch::default())?;
     let study_id = store_study(transaction, study)?;
     retire(transaction, study_id, &all)?;
@@ -98,7 +99,7 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
     Ok(planned)
 }
 
-/// Checks that no two sizes have the same inputs, so that none is given the result of another.
+/// Checks that no two sizes have the same inputs, since one would then get the result of the other.
 fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
     let mut size_of: BTreeMap<String, &String> = BTreeMap::new();
     for spec in specs {
@@ -112,7 +113,7 @@ fn each_size_has_its_key(specs: &[JobSpec]) -> Result<()> {
     Ok(())
 }
 
-/// Makes jobs that are to be run wait for the jobs of the same run that their garments come after.
+/// Makes each job that has to run wait for the jobs of the same run which its garment comes `after`.
 fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
         return Ok(());
@@ -142,13 +143,13 @@ fn home_of(study: &Study) -> PathBuf {
     study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
 }
 
-/// Path of the study file that the results of a study are kept for.
+/// Path of the study file whose results are stored under this name.
 fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
     let path = connection.query_row("SELECT path FROM study WHERE name = ?", [name], |row| row.get::<_, String>(0));
     Ok(path.optional()?.map(PathBuf::from))
 }
 
-/// Keeps the results of a study for its file in a new place from now on.
+/// Gives the stored results of a study to the file at its present place.
 ///
 /// # Errors
 /// When the database is open read-only.
@@ -158,7 +159,7 @@ pub fn move_home(store: &mut Store, study: &Study) -> Result<()> {
     Ok(())
 }
 
-/// Brings the study's own row and the order of its axes up to date.
+/// Updates the study's own row and the order of its axes.
 pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Result<i64> {
     let path = home_of(study);
     if let Some(stored) = stored_home(transaction, &study.name)?.filter(|stored| *stored != path && stored.exists()) {
@@ -219,7 +220,7 @@ fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) ->
     Ok(())
 }
 
-/// Takes jobs and eases of cells that a study no longer has out of the study. Their results stay in the database.
+/// Removes cells that a study no longer has from its jobs and eases. Their results stay in the database.
 fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
     let cells: BTreeSet<Cell> = specs.iter().map(Cell::new).collect();
     let current: Vec<(JobId, Cell)> = transaction
@@ -270,7 +271,7 @@ impl Cell {
     }
 }
 
-/// Finds or inserts the job of a specification and makes it the current one of its cell.
+/// Finds or inserts the job of a specification and makes it the current job of its cell.
 fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: JobSpec) -> Result<Planned> {
     let hash = spec.inputs.hash();
     let same = transaction
@@ -317,7 +318,7 @@ fn latest_of_cell(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) 
     Ok(transaction.prepare_cached(sql)?.query_row(cell, |row| row.get(0).map(JobId)).optional()?)
 }
 
-/// Makes a job of earlier inputs its cell's current one.
+/// Makes a job of earlier inputs the current job of its cell again.
 fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>) -> Result<()> {
     if let Some(old) = current.filter(|&old| old != id) {
         supersede(transaction, old)?;
@@ -326,7 +327,7 @@ fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>
     Ok(())
 }
 
-/// Stores the limits of a job as its study has them now.
+/// Stores the limits that a job's study sets now.
 fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
     let Limits { time_s, memory_mb } = spec.schedule.limits;
     let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
@@ -335,7 +336,7 @@ fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Resul
     Ok(())
 }
 
-/// Takes a job out of its cell and cancels it if it has not ended; no other job waits for it any more.
+/// Removes a job from its cell, and cancels it unless it has ended. No other job waits for it any more.
 fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
     transaction.prepare_cached("DELETE FROM job_need WHERE needs = ?")?.execute([id.0])?;
     transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
@@ -381,8 +382,7 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
     Ok(id)
 }
 
-/// Returns the reason for which a job was not found in the cache: the inputs that differ from the latest earlier job
-/// of its cell.
+/// Reason why a job had no result yet: the inputs that differ from the latest earlier job of its cell.
 ///
 /// # Errors
 /// When there is no such job.
@@ -397,7 +397,7 @@ pub fn why(store: &Store, id: JobId) -> Result<Why> {
     Ok(Why::Changed { since, changes })
 }
 
-/// The inputs of a job, by name.
+/// Inputs of a job, by name.
 ///
 /// # Errors
 /// When the database cannot be read.

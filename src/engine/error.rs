@@ -1,4 +1,4 @@
-//! Refusals of the engine: inputs that it cannot work on, and failures of processes that it starts.
+//! Errors of the engine: inputs that it cannot use, and processes that failed.
 
 use std::path::PathBuf;
 use std::process::ExitStatus;
@@ -6,13 +6,13 @@ use std::process::ExitStatus;
 use pattern::propose::Unwearable;
 use store::{Origin, StudyError};
 
-/// A refusal of the engine.
+/// An error of the engine.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EngineError {
-    /// Repeats of a trial by another simulator than FEM-GS.
+    /// Repeats of a trial by a simulator other than FEM-GS.
     #[error("--repeat is for --sim fem: only that starts from a place that can be varied")]
     RepeatWithoutFem,
-    /// A movement in a trial of an outfit, or by another simulator than FEM-GS.
+    /// A movement in a trial of an outfit, or by a simulator other than FEM-GS.
     #[error("--reach is for one garment and --sim fem: friction carries it along")]
     ReachWithoutFem,
     /// Repeats of a trial of an outfit.
@@ -38,13 +38,13 @@ pub(crate) enum EngineError {
     /// A garment without a measurement.
     #[error("nothing to measure")]
     NothingToMeasure,
-    /// A mesh with another number of measurements than its pattern.
+    /// A mesh whose number of measurements differs from that of the pattern.
     #[error(
         "{meshed} measurements on the mesh, {flat} in the flat pattern: the mesh is not that of this pattern and size, a \
          fault of Toile; nothing is stored"
     )]
     OtherCount { meshed: usize, flat: usize },
-    /// A mesh with another measurement than its pattern.
+    /// A mesh with a measurement that differs from that of the pattern.
     #[error(
         "`{meshed}` is {meshed_mm:.2} mm on the mesh, `{flat}` {flat_mm:.2} mm in the flat pattern: the mesh is not that of \
          this pattern and size, a fault of Toile; nothing is stored"
@@ -56,13 +56,13 @@ pub(crate) enum EngineError {
     /// A file that is neither a job file nor a result file, as `kind` names it.
     #[error("{}: this is no {kind} file: {reason}", file.display())]
     OtherFile { kind: Origin, file: PathBuf, reason: serde_json::Error },
-    /// A job or result file of another layout.
+    /// A job or result file whose layout has another version.
     #[error("{}: format {found}; accepted: {accepted}", file.display())]
     Format { kind: Origin, file: PathBuf, found: u32, accepted: u32 },
-    /// A job or result file that does not hold what its layout says.
+    /// A job or result file that does not fit its layout.
     #[error("{}: {reason}", file.display())]
     Content { kind: Origin, file: PathBuf, reason: serde_json::Error },
-    /// A result file whose job was changed.
+    /// A result file whose job changed after it was written.
     #[error("{}: its inputs are not those it was made from", file.display())]
     OtherInputs { file: PathBuf },
     /// A result file of a job that is not in the queue.
@@ -72,7 +72,7 @@ pub(crate) enum EngineError {
         file.display()
     )]
     UnknownJob { file: PathBuf, study: String, garment: String, size: String, subject: String },
-    /// A memory limit that the system does not set.
+    /// A memory limit that the system refuses to set.
     #[error("memory_limit_mb = {megabytes}: {reason}")]
     MemoryLimit { megabytes: u32, reason: rustix::io::Errno },
     /// A job that reached its time limit.
@@ -87,19 +87,19 @@ pub(crate) enum EngineError {
     /// A panic of a stage, with its message.
     #[error("{0}")]
     Panic(String),
-    /// A result that the schema refuses.
+    /// A result that the database schema refuses.
     #[error("the result cannot be stored: {0}")]
     Unstorable(rusqlite::Error),
     /// A program of Slurm that failed.
     #[error("{program}: {message}")]
     SlurmProgram { program: &'static str, message: String },
-    /// Arrays of which Slurm does not tell anything any more.
+    /// Arrays of which Slurm no longer knows anything.
     #[error(
         "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
          start again to go on waiting, nothing is submitted twice"
     )]
     SlurmSilent { why: String, arrays: String },
-    /// A job that Slurm ended without a result each time.
+    /// A job that Slurm ended without a result at every try.
     #[error("{} was submitted {tries} times and has no result; {why}", file.display())]
     SlurmGaveUp { file: PathBuf, tries: u32, why: String },
 }

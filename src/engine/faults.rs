@@ -1,6 +1,6 @@
 //! Faults of a drape.
 
-/// Greatest penetration into the body that is no fault, mm.
+/// Deepest penetration into the body that is no fault, mm.
 const PENETRATION_MM: f64 = 0.5;
 
 /// A fault of a drape.

@@ -14,19 +14,19 @@ use sim::{self, Distortion, Drape, Monitor};
 use spec::Parameters;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Greatest difference of two lengths that count as equal, m.
+/// Greatest difference between lengths that count as equal, m.
 const SAME_LENGTH_M: f64 = 1e-6;
 
 /// A garment and the body that is to wear it.
 #[derive(Clone, Copy)]
 pub struct Fitting<'a> {
-    /// Body that wears it.
+    /// Body that is dressed.
     pub wearer: Wearer<'a>,
-    /// Garment that is worn.
+    /// Garment that the body wears.
     pub garb: &'a Garb,
-    /// Simulator that drapes it.
+    /// Simulator that drapes the garment.
     pub simulator: Simulator,
-    /// The simulator's parameters that are not the default ones.
+    /// Parameters of the simulator that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
@@ -45,10 +45,10 @@ impl Fitting<'_> {
         drape.map_err(StudyError::sim)
     }
 
-    /// Measures a drape. The products that it was made of are left to the caller to name.
+    /// Measures a drape. The caller fills in [`Outcome::used`].
     ///
     /// # Errors
-    /// When the garment has no measurement, or its mesh has other lengths than the pattern.
+    /// When the garment has no measurement, or a length of its mesh differs from the pattern.
     pub fn outcome(&self, drape: &Drape) -> Result<Outcome> {
         let (body, garb) = (self.wearer.body, self.garb);
         let garment = garb.meshes.finest()?;
@@ -56,7 +56,7 @@ impl Fitting<'_> {
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis).ok_or(EngineError::NothingToMeasure)?;
         let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
-        // Hybrid-GS sets a length unless the study leaves it free; FEM-GS sets none.
+        // Hybrid-GS sets every measurement that the study does not list as uncontrolled; FEM-GS sets none.
         let left_free = match self.simulator {
             Simulator::Fem => None,
             Simulator::Hybrid => Some(self.parameters.hybrid()?.uncontrolled),
@@ -103,8 +103,7 @@ impl Fitting<'_> {
         })
     }
 
-    /// Points of measure, flat and on a drape. A draped length is the flat one times the stretch of the path along
-    /// which it is taken.
+    /// Points of measure, flat and draped. The draped length is the flat one times the stretch of its path.
     fn points(&self, garment: &Garment, drape: &Drape) -> Vec<MeasuredPoint> {
         let points = self.garb.style.points_of_measure();
         let paths: Vec<&[PathPart]> = points.iter().map(|found| found.path.as_slice()).collect();
@@ -117,7 +116,7 @@ impl Fitting<'_> {
         measured.collect()
     }
 
-    /// Ratio of the draped to the flat length of paths of the style; `None` of a path that lies on no cloth.
+    /// Draped length divided by flat length for paths of the style; `None` for a path that lies on no cloth.
     fn stretches(&self, garment: &Garment, drape: &Drape, paths: &[&[PathPart]]) -> Vec<Option<f64>> {
         let style = &self.garb.style;
         let draped_m = |runs: &Vec<MaterialLine>| -> f64 {
@@ -130,11 +129,11 @@ impl Fitting<'_> {
         paths.iter().zip(style.laid(garment, paths)).map(stretch).collect()
     }
 
-    /// Ease of a drape at every level that the style covers, m. The flat length at a level is multiplied by the
-    /// stretch of the path along which it is taken.
+    /// Ease of a drape at every level that the style covers, m. The draped girth is the flat one times the stretch of
+    /// the path along which it is measured.
     ///
     /// # Errors
-    /// When there is no mesh.
+    /// When the garment has no mesh.
     pub fn eases_on(&self, drape: &Drape) -> Result<Vec<(String, f64)>> {
         let (body, garb) = (self.wearer.body, self.garb);
         let lengths = ease::lengths(&garb.style, &ease::stand(body));
@@ -148,7 +147,7 @@ impl Fitting<'_> {
     }
 }
 
-/// Checks that a mesh has the lengths of its pattern: it may come from the cache, under a key that is wrong.
+/// Checks that a mesh has the lengths of its pattern, since a mesh from the cache may be that of another pattern.
 pub(crate) fn check_lengths(garment: &Garment, style: &Style) -> std::result::Result<(), EngineError> {
     let (meshed, flat) = (&garment.measurements, &style.measurements);
     if meshed.len() != flat.len() {
@@ -168,13 +167,13 @@ pub(crate) fn check_lengths(garment: &Garment, style: &Style) -> std::result::Re
     }
 }
 
-/// Warning for a garment whose distortion by FEM-GS is beyond the limit.
+/// Warning for a garment that FEM-GS distorts beyond the limit.
 fn distorted(distortion: &Distortion, limit: f64) -> Option<String> {
     (distortion.stretch > limit)
         .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit))
 }
 
-/// Warning for a garment that would slide off.
+/// Warning for a garment that had to be held up, by this force, N.
 fn braced(force_n: f64) -> String {
     format!(
         "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \

@@ -1,7 +1,7 @@
-//! Jobs as files: handed out to be run on any machine, and their results merged.
+//! Jobs as files: handed out to run on any machine, and their results merged.
 //!
-//! A job file holds all inputs of a job, a result file all of its outputs. Neither needs a database. Results are
-//! merged in one transaction, and to merge them again changes nothing.
+//! A job file holds all inputs of a job, a result file all of its outputs. Neither needs a database. Results are merged
+//! in one transaction, and merging them again changes nothing.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -27,20 +27,20 @@ use store::{Access, InOrigin, JobId, Origin, Result, Status, Store, StudyError, 
 pub struct HandedOut {
     /// The job as it was queued.
     pub job: Planned,
-    /// Its file; `None` where it need not run.
+    /// Path of its job file; `None` where it need not run.
     pub file: Option<PathBuf>,
 }
 
-/// Jobs by what merging did with their results.
+/// Jobs, sorted by what merging did with their results.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// Jobs whose result is stored now.
+    /// Jobs whose result was stored.
     pub stored: Vec<JobId>,
-    /// Jobs that failed elsewhere and are now marked as failed here.
+    /// Jobs that failed elsewhere and are now marked as failed.
     pub failed: Vec<JobId>,
-    /// Jobs whose result was stored here before.
+    /// Jobs that had a result here before.
     pub known: Vec<JobId>,
-    /// Jobs that a worker of this database runs now. Its result will be the same.
+    /// Jobs that a worker of this database is running, with the same result to come.
     pub running: Vec<JobId>,
 }
 
@@ -49,11 +49,11 @@ pub struct Merged {
 pub struct Ran {
     /// The result file.
     pub file: PathBuf,
-    /// Reason for which the job failed, if it did.
+    /// Reason for the failure, if the job failed.
     pub error: Option<String>,
 }
 
-/// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file name.
+/// Queues a study and writes a file for each job that has to run. The same job always gets the same file name.
 ///
 /// # Errors
 /// When the database is open read-only, a selection names what the study does not have, or a file cannot be written.
@@ -66,7 +66,8 @@ pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder:
     for job in planned {
         let mut file = None;
         if job.why.will_run() {
-            // Cells may share all inputs, as variants of a sweep do where one simulator does not know the parameter.
+            // Cells may share all inputs, such as variants of a sweep over a parameter that one simulator does not
+            // have.
             let path = folder.join(format!("{}-{}{JOB}", job.id, &job.spec.inputs.hash()[..16]));
             let (study, spec) = (study.name.clone(), job.spec.clone());
             write_json(&path, &JobFile { format: FORMAT, study, provenance: provenance.clone(), spec })?;
@@ -77,7 +78,7 @@ pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder:
     Ok(handed)
 }
 
-/// Merges result files, and those in folders, in one transaction. A job that has a result here keeps it.
+/// Merges result files, given singly or as folders, in one transaction. A job that has a result here keeps it.
 ///
 /// # Errors
 /// When the database is open read-only, or a file is no result of a job of this database: nothing is then stored.
@@ -100,9 +101,9 @@ pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
     Ok(merged)
 }
 
-/// Runs a job file within its limits and writes its result to `output`, or beside the job file. A job that fails has a
-/// result that says why. With a database the products of the stages are kept there, the process ends with the one that
-/// started it, and it prints its progress on standard output.
+/// Runs a job file within its limits and writes its result to `output`, or beside the job file. The result of a job
+/// that fails is the reason. With `database` the process belongs to a run: it keeps products there, ends with its
+/// parent, and prints progress on standard output.
 ///
 /// # Errors
 /// When the job file cannot be read, or the result cannot be written.
@@ -116,7 +117,7 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     let scratch = folder.path().join("job.sqlite");
     let connection = store::open(&scratch, Access::Create)?;
     let began = Instant::now();
-    // Versions of the stages are this program's: a result of other ones is refused where it is merged.
+    // Takes the versions of this program's stages; merging refuses a result of other versions.
     let spec = job.spec.with_inputs();
     let clock = Clock::start(&spec.schedule.limits);
     let mut teller = Teller { clock, is_heard: database.is_some(), last: None };
@@ -142,7 +143,7 @@ pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> R
     Ok(Ran { file, error })
 }
 
-/// All products that the stages stored.
+/// All stored products of stages.
 fn products(connection: &Connection) -> Result<Vec<Product>> {
     let mut statement = connection.prepare("SELECT hash, kind, bytes FROM artefact ORDER BY hash")?;
     let product = |row: &rusqlite::Row<'_>| {
@@ -202,7 +203,7 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
     Ok(result.study)
 }
 
-/// Stores those products that the database does not have.
+/// Stores the products that the database does not have yet.
 fn take_products(transaction: &Transaction<'_>, products: &[Product]) -> Result<()> {
     let sql = "INSERT OR IGNORE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
     let mut statement = transaction.prepare_cached(sql)?;

@@ -1,5 +1,5 @@
-//! Jobs with limits, each in a process of its own. The system enforces the memory limit, and the process is killed
-//! when its time is over. Other jobs of the run do not notice.
+//! Jobs with limits, each in a process of its own, so that other jobs of the run are not affected. The system enforces
+//! the memory limit; this process kills a job whose time is over.
 
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;
@@ -18,12 +18,12 @@ use sim::{Monitor, Progress};
 use spec::{JobSpec, Limits};
 use store::{Result, StudyError};
 
-/// Time between two checks of a process.
+/// Time between two checks of a job's process.
 const LOOK: Duration = Duration::from_millis(50);
-/// Messages of an allocation that failed.
+/// Parts of messages that report a failed allocation.
 const NO_MEMORY: [&str; 3] = ["memory allocation of", "out of memory", "Cannot allocate memory"];
 
-/// Executor that runs jobs with limits in processes of their own, and all others in this one.
+/// Executor that gives jobs with limits a process of their own, and runs all others in this one.
 pub(crate) struct Isolated {
     database: PathBuf,
     pipeline: std::sync::Arc<Pipeline>,
@@ -54,7 +54,7 @@ impl Executor for Isolated {
     }
 }
 
-/// Starts this program on a job file, in a process group of its own: signals of the terminal are for the run.
+/// Starts this program on a job file, in a process group of its own so that the terminal's signals reach only the run.
 fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
     let mut command = Command::new(&program);
@@ -63,8 +63,8 @@ fn start(job: &Path, result: &Path, database: &Path) -> Result<Child> {
     command.spawn().map_err(StudyError::io(program))
 }
 
-/// Waits for a process to end, and kills it when its time is over or the run is cancelled. Returns its exit status,
-/// and its standard error.
+/// Waits for a process to end, and kills it when its time is over or the run is cancelled. Returns its exit status and
+/// standard error.
 fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result<Exit> {
     let (out, mut errors) = (child.stdout.take(), child.stderr.take());
     let latest: Mutex<Option<Progress>> = Mutex::new(None);
@@ -79,7 +79,7 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
         });
         let said = scope.spawn(move || {
             let mut bytes = Vec::new();
-            // What it said before the pipe broke is all there is.
+            // Text before a broken pipe is kept.
             let _ = errors.as_mut().map(|errors| errors.read_to_end(&mut bytes));
             String::from_utf8_lossy(&bytes).into_owned()
         });
@@ -102,7 +102,7 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
             thread::sleep(LOOK);
         };
         if ended.is_err() {
-            // It may have ended just now.
+            // Fails where the process has just ended, which is fine.
             let _ = child.kill();
             let _ = child.wait();
         }
@@ -127,7 +127,7 @@ impl Exit {
     }
 }
 
-/// Error of a job with a memory limit whose message tells of a failed allocation.
+/// Error of a job with a memory limit whose process reported a failed allocation.
 fn out_of_memory(said: &str, limits: &Limits) -> Option<EngineError> {
     let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
     Some(EngineError::OutOfMemory { megabytes })

@@ -1,4 +1,4 @@
-//! Files of jobs and of their results.
+//! Files that hold jobs and results of jobs.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::outcome::{Outcome, Provenance};
 use spec::JobSpec;
 use store::{InOrigin, Origin, Result, StudyError};
 
-/// Version of the layout of the files; raised when it changes.
+/// Version of the layout of these files.
 pub(crate) const FORMAT: u32 = 1;
 /// File name ending of a job file.
 pub(crate) const JOB: &str = ".job.json";
@@ -46,7 +46,7 @@ pub(crate) struct Product {
     pub packed: String,
 }
 
-/// Writes a job file for a process that this one starts. The provenance is left out: this process knows it.
+/// Writes a job file for a child process. Leaves out the provenance, which the parent knows.
 pub(crate) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
     let (study, provenance) = (String::new(), Provenance::default());
     write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
@@ -58,13 +58,13 @@ pub(crate) fn read_outcome(path: &Path) -> Result<Outcome> {
     result.outcome.map_err(|message| StudyError::Elsewhere { message })
 }
 
-/// Path of the result of a job file.
+/// Path of the result that belongs to a job file.
 pub(crate) fn result_of(job: &Path) -> PathBuf {
     let name = job.file_name().unwrap_or_default().to_string_lossy().into_owned();
     job.with_file_name(format!("{}{RESULT}", name.strip_suffix(JOB).unwrap_or(&name)))
 }
 
-/// Result files of a folder, by name.
+/// Result files in a folder, by name.
 pub(crate) fn results_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(StudyError::io(folder))? {
@@ -93,7 +93,7 @@ pub(crate) fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, kind: Origin)
     Ok(serde_json::from_slice(&bytes).map_err(|reason| EngineError::Content { kind, file: file(), reason })?)
 }
 
-/// Writes a file atomically: whenever the program ends, it is there as a whole or not at all.
+/// Writes a file atomically: after a crash the whole file is there, or none of it.
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     let bytes = serde_json::to_vec(value).origin(Origin::Store)?;
     let part = path.with_file_name(format!(".{}.part", path.file_name().unwrap_or_default().to_string_lossy()));

@@ -1,4 +1,4 @@
-//! Layers of an outfit: draped together, and each measured on the layers beneath it.
+//! Layers of an outfit: draped together, then each measured on the layers beneath it.
 
 use crate::error::EngineError;
 use crate::fitting::Fitting;
@@ -11,22 +11,22 @@ use sim::{Drape, Monitor};
 use spec::{Inputs, Outfit, Parameters};
 use store::{Result, StudyError};
 
-/// Drapes of all layers, the inmost first, as the cache keeps them.
+/// Drapes of all layers, the inmost first, as a product of the cache.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct Drapes(pub Vec<Drape>);
 
 store::json_artefact!(Drapes);
 
-/// Garments over each other on one body, the inmost first: a clothing ensemble.
+/// Garments on top of each other on one body, the inmost first.
 #[derive(Clone, Copy)]
 pub(crate) struct Ensemble<'a> {
     /// Body that is dressed.
     pub wearer: Wearer<'a>,
-    /// Its garments.
+    /// Garments of the ensemble.
     pub garbs: &'a [Garb],
-    /// Simulator that drapes them.
+    /// Simulator that drapes all garments.
     pub simulator: Simulator,
-    /// The simulator's parameters that are not the default ones.
+    /// Parameters of the simulator that differ from their defaults.
     pub parameters: &'a Parameters,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Ensemble<'a> {
         self.garbs.iter().map(|garb| Layer { garments: &garb.meshes.0, fabric: &garb.fabric }).collect()
     }
 
-    /// One of the garments on a body by itself.
+    /// One garment on a body by itself.
     fn fitting<'b>(&self, wearer: Wearer<'b>, garb: &'b Garb) -> Fitting<'b>
     where
         'a: 'b,
@@ -57,10 +57,10 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Measures the drape of a layer on what lies under it.
+    /// Measures the drape of a layer on the body and the layers beneath it.
     ///
     /// # Errors
-    /// When the garment has no measurement, or what lies under it bounds no solid.
+    /// When the garment has no measurement, or the surface beneath it is not closed.
     pub fn outcome(&self, number: usize, drapes: &[Drape]) -> Result<Outcome> {
         let garb = &self.garbs[number];
         if number == 0 {
@@ -73,7 +73,7 @@ impl<'a> Ensemble<'a> {
     }
 }
 
-/// Inputs under which the drapes of an outfit are kept in the cache.
+/// Inputs whose hash keys the drapes of an outfit in the cache.
 pub(crate) fn inputs(outfit: &Outfit) -> Inputs {
     let mut inputs = Inputs::default();
     inputs.set("outfit.id", outfit.id());

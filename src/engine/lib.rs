@@ -1,5 +1,5 @@
-//! The engine: jobs are queued, claimed and worked on. `pipeline` turns one job into one result; `workers` claim
-//! jobs; `isolated` gives a job with limits a process of its own; [`handout`] and [`slurm`] let other machines work.
+//! The engine: jobs are queued, claimed and worked on. `pipeline` turns one job into one result; `workers` claim jobs;
+//! `isolated` runs a job with limits in a process of its own; [`handout`] and [`slurm`] let other machines work.
 //!
 //! # Examples
 //! ```

@@ -1,4 +1,4 @@
-//! Outcome of a job, and the transaction that stores all of it.
+//! Outcome of a job, and the transaction that stores the whole of it.
 
 use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
@@ -19,17 +19,17 @@ use store::queue::{self, Event};
 /// One measurement of a result.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measured {
-    /// Stage at which it was taken.
+    /// Stage at which the length was taken.
     pub stage: Stage,
     /// Name of the measurement in the style.
     pub name: String,
-    /// Loop or length.
+    /// Closed girth or open length.
     pub kind: MeasurementKind,
-    /// True if it runs along an edge that is in no seam.
+    /// True if the measurement runs along an edge that is in no seam.
     pub is_free_edge: bool,
-    /// True if the simulator restores its length by construction.
+    /// True if the simulator sets the length to that of the pattern by construction.
     pub is_controlled: bool,
-    /// Its number, with its lengths in the pattern and on the drape.
+    /// Number of the measurement, with its lengths in the pattern and on the drape.
     pub chi: Chi,
 }
 
@@ -40,27 +40,27 @@ pub struct MeasuredPoint {
     pub point: String,
     /// Length flat on the pieces, m.
     pub flat_m: f64,
-    /// Length on the drape, m; of a girth that is measured by its half, of that half. `None` of a distance that runs
-    /// across no cloth.
+    /// Length on the drape, m; where half a girth is measured, of this half. `None` for a distance that runs across no
+    /// cloth.
     pub draped_m: Option<f64>,
 }
 
-/// Outcome of a simulation, measured.
+/// Outcome of a simulation, with all that is measured on its drape.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
     /// True if the residual reached its tolerance with all seams closed.
     pub converged: bool,
-    /// All measurements, at every stage that the simulator distinguishes.
+    /// Measurements at every stage that the simulator tells apart.
     pub measured: Vec<Measured>,
     /// Summary of the measurements of the last stage.
     pub metrics: Metrics,
     /// Vertices of the welded mesh.
     pub vertices: usize,
-    /// Triangles of the mesh that was draped.
+    /// Triangles of the welded mesh.
     pub faces: usize,
-    /// Iterations over all mesh levels.
+    /// Iterations, summed over all mesh levels.
     pub iterations: u32,
-    /// Rms residual force over the mean vertex weight.
+    /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
     /// Deepest penetration into the body, m.
     pub penetration_max_m: f64,
@@ -72,7 +72,7 @@ pub struct Outcome {
     pub history: Vec<Step>,
     /// Ease at each fit level.
     pub eases: Vec<Ease>,
-    /// Its points of measure.
+    /// Points of measure of the style.
     #[serde(default)]
     pub points: Vec<MeasuredPoint>,
     /// Assessment of the drape on its body.
@@ -80,15 +80,15 @@ pub struct Outcome {
     pub worn: Assessment,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
-    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    /// FEM-GS: principal stretch less 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
     /// Warnings for the reader, as sentences; they go to the job's log.
     pub warnings: Vec<String>,
-    /// Products of the stages that were used.
+    /// Products of stages that the job used.
     pub used: Vec<Used>,
 }
 
-/// Turns a specification into an outcome. The pipeline does so; tests use closures.
+/// Turns the specification of a job into its outcome. Implemented by the pipeline, and by closures in tests.
 pub trait Executor: Sync {
     /// Runs one job. Not converging is an [`Outcome`], not an error.
     ///
@@ -106,7 +106,7 @@ impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F
 /// Provenance of results, the same for all jobs of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Provenance {
-    /// Commit of the repository in which the study file lies, and true if it has uncommitted changes.
+    /// Commit of the repository that holds the study file, and true if it has uncommitted changes.
     pub git: Option<(String, bool)>,
     /// Host name of the machine.
     pub machine: String,
@@ -115,7 +115,7 @@ pub(crate) struct Provenance {
 }
 
 impl Provenance {
-    /// Asks git for the commit of a study's folder. Without a repository or without git there is none.
+    /// Provenance of a study in a folder, with the commit that git names. No commit without a repository or git.
     pub fn of(folder: &std::path::Path) -> Self {
         let git = |arguments: &[&str]| {
             let output = std::process::Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
@@ -133,8 +133,8 @@ impl Provenance {
     }
 }
 
-/// Ends a job with its outcome, in one transaction. Returns its new state, or `None` if `owner` no longer holds the
-/// job: it was cancelled or taken over meanwhile.
+/// Ends a job with its outcome, in one transaction. Returns the new state, or `None` if `owner` no longer holds the
+/// job, which was cancelled or taken over meanwhile.
 pub(crate) fn finish(
     connection: &mut Connection,
     id: JobId,
@@ -149,7 +149,7 @@ pub(crate) fn finish(
     Ok(status)
 }
 
-/// As [`finish`], within a transaction.
+/// Does the work of [`finish`] within a transaction.
 pub(crate) fn finish_in(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -269,7 +269,7 @@ fn write_points(transaction: &Transaction<'_>, id: JobId, points: &[MeasuredPoin
     Ok(())
 }
 
-/// Writes the girths of garment and body at each level, of Hybrid-GS.
+/// Stores the girths of garment and body at each level, by Hybrid-GS.
 fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
         "INSERT INTO gap (job_id, level, height_mm, body_girth_mm, garment_girth_mm) VALUES (?, ?, ?, ?, ?)",
@@ -282,14 +282,14 @@ fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]
     Ok(())
 }
 
-/// Writes the ease of a size on a subject, for a study.
+/// Stores the ease of a size on a subject of a study.
 pub(crate) fn write_ease(
     transaction: &Transaction<'_>,
     study_id: i64,
     [garment, size, subject]: [&str; 3],
     eases: &[Ease],
 ) -> Result<()> {
-    // A level that an earlier version found, or another seam file stated, is gone.
+    // Removes levels that an earlier version found or an earlier seam file stated.
     transaction
         .prepare_cached("DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?")?
         .execute(params![study_id, garment, size, subject])?;

@@ -1,4 +1,4 @@
-//! A job in a process of its own, which keeps to its limits and prints its progress on standard output, line by line.
+//! A job in a process of its own, which keeps to its limits and prints its progress as lines on standard output.
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use store::Result;
 const LINES: Duration = Duration::from_millis(200);
 /// Names of the simulators' phases.
 const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
-/// Clock of a job with a time limit.
+/// Clock that measures a job's time against its limit.
 pub(crate) struct Clock {
     began: Instant,
     limit_s: Option<f64>,
@@ -31,7 +31,7 @@ impl Clock {
         self.limit_s.is_some_and(|limit_s| self.began.elapsed().as_secs_f64() > limit_s)
     }
 
-    /// Error of a job whose time limit has passed.
+    /// Error of a job whose time is over.
     pub fn error(&self) -> EngineError {
         EngineError::OutOfTime { limit_s: self.limit_s.unwrap_or_default() }
     }
@@ -48,16 +48,16 @@ pub(crate) fn keep_to(limits: &Limits) -> Result<()> {
     Ok(set.map_err(|reason| EngineError::MemoryLimit { megabytes, reason })?)
 }
 
-/// Makes this process end with the one that started it.
+/// Makes this process end when its parent ends.
 pub(crate) fn end_with_parent() {
-    // Where the system cannot, it ends with its job.
+    // Where the system cannot do this, the process ends with its job.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
 
-/// Monitor of a job in a process of its own: checks its time, and prints progress for the process that started it.
+/// Monitor of a job in a process of its own: checks its time, and prints progress for the parent.
 pub(crate) struct Teller {
     pub clock: Clock,
-    /// True if the process that started this one reads the lines.
+    /// True if a parent reads the lines.
     pub is_heard: bool,
     pub last: Option<Instant>,
 }
@@ -70,7 +70,7 @@ impl Monitor for Teller {
         self.last = Some(Instant::now());
         let Progress { phase, fraction, step } = *progress;
         if let Ok(line) = serde_json::to_string(&Line { phase: phase.to_owned(), fraction, step }) {
-            // Nobody may listen any more.
+            // The parent may have gone.
             let _ = std::io::Write::write_all(&mut std::io::stdout().lock(), format!("{line}\n").as_bytes());
         }
     }

@@ -1,5 +1,4 @@
-//! The pipeline of a job: body, distance field, garment meshes, simulation and measuring, each stage through the
-//! cache.
+//! The pipeline of a job: body, distance field, garment meshes, simulation and measuring, each stage through the cache.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,19 +16,19 @@ use spec::{JobSpec, Outfit, Person, versions};
 use store::cache::{Cache, Used};
 use store::{InOrigin, Origin, Result, StageKind};
 
-/// The stages of one database.
+/// Stages with the cache of one database.
 pub struct Pipeline {
     cache: Cache,
 }
 
 impl Pipeline {
-    /// Creates stages whose products are kept in a database.
+    /// Creates stages that keep their products in a database.
     #[must_use]
     pub fn new(database: &Path) -> Self {
         Self::over(Cache::new(database.to_owned()))
     }
 
-    /// Creates stages over a cache.
+    /// Creates stages that use a cache.
     pub fn over(cache: Cache) -> Self {
         Self { cache }
     }
@@ -62,7 +61,7 @@ impl Pipeline {
         })
     }
 
-    /// Drape of a garment that is put on as `before` says and carried into the pose of `spec`.
+    /// Drape of a garment that is put on in the pose of `before` and carried into the pose of `spec`.
     fn carried(&self, spec: &JobSpec, before: &JobSpec, monitor: &mut dyn Monitor) -> Result<Drape> {
         let (drape, _) = self.drape(before, monitor)?;
         let upright = Person { pose: None, ..spec.person.clone() }.body()?;
@@ -78,8 +77,8 @@ impl Pipeline {
         Ok(carry.run(monitor)?.drape)
     }
 
-    /// Outcome of a layer of an outfit. The first layer that is asked for drapes them all, and the others find the
-    /// drapes in the cache.
+    /// Outcome of a layer of an outfit. The first layer to run drapes all of them; the others find their drapes in the
+    /// cache.
     fn layer(&self, spec: &JobSpec, outfit: &Outfit, monitor: &mut dyn Monitor) -> Result<Outcome> {
         let (model, used_body) = self.model(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
@@ -100,8 +99,8 @@ impl Pipeline {
         Ok(Outcome { used, ..ensemble.outcome(outfit.layer, &all.0)? })
     }
 
-    /// Body of a subject, for its ease. A scan comes through the cache; a body of measurements is built faster than it
-    /// is read.
+    /// Body of a subject, for its ease. A scan goes through the cache; a body from measurements is built faster than
+    /// read.
     ///
     /// # Errors
     /// When the body cannot be built.

@@ -1,4 +1,4 @@
-//! Effect of a movement on a garment: the drape is carried from its own pose into another, and measured in both.
+//! Effect of a movement on a garment: its drape is carried from one pose into another and measured in both.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use sim::{Drape, Monitor};
 use spec::Parameters;
 use store::{InOrigin, Origin, Result};
 
-/// Share of the vertices of a piece that its greatest tension leaves out, since single vertices say little.
+/// Share of a piece's vertices whose tensions are left out, the greatest first: single vertices say little.
 const LEFT_OUT: f64 = 0.01;
 
 /// Displacement of an opening into the garment.
@@ -26,7 +26,7 @@ pub struct ReachedOpening {
     pub drawn_most_mm: f64,
 }
 
-/// A quantity before and after the movement, of a piece of the garment or of a region of the body.
+/// A quantity before and after the movement, for a piece of the garment or a region of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns say it: a place, and the quantity there in both poses")]
 pub struct ReachedAt {
@@ -35,24 +35,24 @@ pub struct ReachedAt {
     pub after: f64,
 }
 
-/// A garment in the pose that was reached.
+/// Changes of a garment by a movement, and its state in the pose reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// Name of that pose.
+    /// Name of the pose reached.
     pub pose: String,
-    /// Hem, cuffs, neckline and other closed free edges.
+    /// Displacements of hem, cuffs, neckline and other closed free edges.
     pub opening: Vec<ReachedOpening>,
     /// Tension in warp or weft that 1 % of each piece exceeds, N/m.
     pub tension_n_m: Vec<ReachedAt>,
     /// Pressure that 1 % of the pressed area of each region of the body exceeds, kPa.
     pub pressure_kpa: Vec<ReachedAt>,
-    /// Rms force over mean vertex weight.
+    /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
     /// Deepest point inside the body, mm.
     pub penetration_max_mm: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
-    /// Faults of the drape; empty where it is good.
+    /// Faults of the drape; empty where it has none.
     pub problems: Vec<String>,
 }
 
@@ -62,11 +62,11 @@ pub(crate) struct Moved {
     pub reached: Reached,
     /// Body in the pose that was reached.
     pub body: Body,
-    /// Drape in that pose.
+    /// Drape in the pose that was reached.
     pub drape: Drape,
 }
 
-/// Carries a drape of a garment from one pose of its body into another, and measures both.
+/// Carries the drape of a garment from one pose of its body into another, and measures it in both.
 ///
 /// # Errors
 /// As [`Carry::run`].
@@ -104,7 +104,7 @@ pub(crate) fn moved(
     Ok(Moved { reached, body: last.clone(), drape: after })
 }
 
-/// Loads of a drape on cloth and body, by place.
+/// Greatest loads of a drape: on the cloth by piece, on the body by region.
 struct Loads {
     tension_n_m: Vec<(String, f64)>,
     pressure_kpa: Vec<(String, f64)>,
@@ -127,7 +127,7 @@ fn loads(body: &Body, garb: &Garb, drape: &Drape) -> Result<Loads> {
     })
 }
 
-/// Pairs a quantity before and after by place. At a place that one of them lacks it counts as 0.
+/// Pairs the values before and after at each place; a missing value counts as 0.
 fn paired(before: Vec<(String, f64)>, after: &[(String, f64)]) -> Vec<ReachedAt> {
     let value_at = |values: &[(String, f64)], place: &str| {
         values.iter().find(|(known, _)| known == place).map_or(0.0, |(_, value)| *value)

@@ -1,4 +1,4 @@
-//! Starts runs of a study: it is checked, queued, and worked on in the background.
+//! Runs of a study: it is checked and queued, and then worked on in the background.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -21,19 +21,19 @@ use wardrobe::catalogue;
 /// Options of a run.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
-    /// Selection among the jobs of the study.
+    /// Jobs of the study that take part.
     pub selection: Selection,
-    /// Number of worker threads, which run one simulation each; by default that of the cores.
+    /// Number of worker threads, with one simulation each; `None` for the number of cores.
     pub workers: Option<usize>,
-    /// View through which the run may be watched.
+    /// Exchange through which a screen watches the run.
     pub live: Arc<Live>,
 }
 
-/// A run in the background. Dropping it stops it: running jobs go back into the queue.
+/// A run in the background. Dropping it stops the run: running jobs go back into the queue.
 pub struct Run {
     /// Name of the study.
     pub study: String,
-    /// Its jobs, with the reason for each.
+    /// Jobs of the study, each with its reason.
     pub planned: Arc<Vec<Planned>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<Result<()>>>,
@@ -51,7 +51,7 @@ impl Run {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    /// Waits for the workers.
+    /// Waits until the workers are done.
     ///
     /// # Errors
     /// When the database failed; failed jobs are not errors here.
@@ -71,15 +71,15 @@ impl Run {
 impl Drop for Run {
     fn drop(&mut self) {
         self.stop();
-        // An error was for whoever joins; here nobody listens.
+        // Only [`Run::join`] reports an error.
         let _ = self.thread.take().map(JoinHandle::join);
     }
 }
 
-/// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
+/// Reads and checks a study, by its file or folder, and the patterns and seam files that it names.
 ///
 /// # Errors
-/// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
+/// All problems of the study file at once; where there are none, all problems of the patterns.
 pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
     let study = Study::load(path, &catalogue::known(Some(&store.reader))?)?;
     check_patterns(&study)?;
@@ -105,13 +105,13 @@ pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<V
 pub fn start(store: &mut Store, study: &Study, options: &RunOptions) -> Result<Run> {
     let pipeline = Arc::new(Pipeline::new(store.path()));
     let (database, of_study, stages) = (store.path().to_owned(), study.clone(), pipeline.clone());
-    // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
+    // Ease is stored long before the first drape. An error here is ignored: the jobs meet it too, and report it.
     let aside = move || drop(store_ease(&database, &of_study, &stages));
     let executor = Arc::new(Isolated::new(store.path(), pipeline));
     launch(store, study, options, executor, aside)
 }
 
-/// Finds the ease of every size of a study on every subject, and stores it.
+/// Computes the ease of every size of a study on every subject, and stores it.
 ///
 /// # Errors
 /// When the database is open read-only, or a body or a pattern cannot be made.
@@ -120,7 +120,7 @@ pub fn update_ease(store: &mut Store, study: &Study) -> Result<()> {
     store_ease(store.path(), study, &Pipeline::new(store.path()))
 }
 
-/// [`start`] with any executor.
+/// Starts a run as [`start`] does, with any executor.
 ///
 /// # Errors
 /// When the database is open read-only or a selection names what the study does not have.
@@ -149,12 +149,12 @@ fn launch(
     let (database, jobs, stopped) = (store.path().to_owned(), planned.clone(), stop.clone());
     let live = options.live.clone();
     let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
-    // What was the study's before needs nothing beside it: all of that was found with its results.
+    // If all jobs had their results before, ease is stored as well, and only the evidence may be missing.
     let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
     let name = study.name.clone();
     let work = move || {
         if is_settled {
-            // A run that was killed may not have come to judge its last results.
+            // A run that was killed may have stored results without judging them.
             return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
         }
         let provenance = Provenance::of(&folder);
@@ -171,7 +171,7 @@ fn launch(
 /// Number of subjects whose eases are stored in one transaction.
 const TOGETHER: usize = 100;
 
-/// Finds the ease of every size of a study on every subject, and stores it. A subject's body is built once for all
+/// Computes the ease of every size of a study on every subject, and stores it. Builds each subject's body once for all
 /// garments.
 fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
     let mut connection = store::open(database, Access::Write)?;

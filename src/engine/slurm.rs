@@ -1,7 +1,7 @@
-//! A study on a Slurm cluster: its jobs as job arrays, whose results are merged as they come.
+//! A study on a Slurm cluster: its jobs run as job arrays, and their results are merged as they come.
 //!
 //! All state that must outlive this program lies in one folder that all nodes see: job files, result files, and the
-//! numbers of the arrays that were submitted. A run that is started again continues from there.
+//! numbers of submitted arrays. A run that is started again continues from there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,16 +15,16 @@ use crate::job_files::result_of;
 use spec::{Selection, Study};
 use store::{JobId, Result, Store, StudyError};
 
-/// Tasks of one array. Slurm's default limit is 1001.
+/// Most tasks in one array. Slurm's default limit is 1001.
 const ARRAY: usize = 1000;
-/// Times a task is submitted before it is given up.
+/// Number of times that a task is submitted before the run gives it up.
 const TRIES: u32 = 3;
 /// File with the numbers of the arrays that were submitted.
 const SUBMITTED: &str = "submitted";
 
-/// Time for which a cluster may keep silent before a run gives up: a controller restarts in less.
+/// Time without an answer of Slurm after which a run gives up. A restart of the controller takes less.
 const SILENCE: Duration = Duration::from_secs(600);
-/// Slurm's message on jobs that ended long ago.
+/// Part of Slurm's message about jobs that ended long ago.
 const FORGOTTEN: &str = "Invalid job id";
 
 /// States of a task that has not ended.
@@ -45,13 +45,13 @@ const ACTIVE: [&str; 9] = [
 pub struct SlurmOptions {
     /// Folder that all nodes see.
     pub folder: PathBuf,
-    /// Greatest number of tasks at once; without one Slurm decides.
+    /// Greatest number of tasks at once; `None` lets Slurm decide.
     pub tasks: Option<usize>,
     /// More options of `sbatch`: `--time=10`, `--mem=2G`, `--partition=short`.
     pub sbatch: Vec<String>,
 }
 
-/// A study on its way through Slurm.
+/// A study that runs on Slurm.
 pub struct SlurmRun {
     /// Jobs of the study, with the reason for each.
     pub planned: Vec<Planned>,
@@ -61,38 +61,38 @@ pub struct SlurmRun {
     open: BTreeMap<JobId, OpenJob>,
     /// Arrays that were submitted.
     arrays: Vec<String>,
-    /// Time since which Slurm does not answer about the arrays.
+    /// Time since which Slurm does not answer about the arrays; `None` while it answers.
     silent_since: Option<Instant>,
 }
 
 /// A job without a result.
 struct OpenJob {
-    /// Its job file.
+    /// Path of the job file.
     file: PathBuf,
-    /// Number of times it was submitted.
+    /// Number of times that the job was submitted.
     tries: u32,
 }
 
-/// State of the arrays at Slurm.
+/// State of the submitted arrays at Slurm.
 #[derive(Debug, PartialEq, Eq)]
 enum Activity {
-    /// Slurm works on at least one of them.
+    /// Slurm works on at least one array.
     Active,
-    /// All have ended.
+    /// All arrays have ended.
     Ended,
     /// Slurm does not answer, with the reason.
     Unknown(String),
 }
 
 impl Activity {
-    /// Reads states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
+    /// Reads the states that Slurm prints, one a line, such as `RUNNING` or `CANCELLED by 1000`.
     fn of(states: &str) -> Self {
         let is_active = |line: &str| line.split_whitespace().next().is_some_and(|state| ACTIVE.contains(&state));
         if states.lines().any(is_active) { Self::Active } else { Self::Ended }
     }
 }
 
-/// Hands the jobs of a study to Slurm, by files. [`SlurmRun::step`] submits them.
+/// Writes job files for a study. [`SlurmRun::step`] submits them.
 ///
 /// # Errors
 /// As [`handout::hand_out`].
@@ -120,13 +120,13 @@ pub fn start_slurm(
 }
 
 impl SlurmRun {
-    /// Merges results, and submits jobs that have none and that Slurm does not work on. Returns true once all jobs
-    /// have ended. To be called about once a second.
+    /// Merges results, and submits jobs that have no result and are not at Slurm. Returns true once all jobs have
+    /// ended. Meant to be called about once a second.
     ///
     /// # Errors
     /// When Slurm cannot be asked, or a job was given up.
     pub fn step(&mut self, store: &mut Store) -> Result<bool> {
-        // Asked before the results are looked for: a task that ends in between is then found in the next step.
+        // Before the search for results: a task that ends in between is then found in the next step.
         let activity = self.activity();
         self.merge(store)?;
         if self.open.is_empty() {
@@ -141,7 +141,7 @@ impl SlurmRun {
         Ok(false)
     }
 
-    /// Goes on waiting while Slurm does not answer, up to [`SILENCE`].
+    /// Goes on while Slurm does not answer, up to [`SILENCE`]; then fails.
     fn wait_for_an_answer(&mut self, why: &str) -> Result<()> {
         let since = self.silent_since.get_or_insert_with(Instant::now);
         if since.elapsed() < SILENCE {
@@ -177,15 +177,15 @@ impl SlurmRun {
         for id in stored.iter().chain(&failed).chain(&known).chain(&running) {
             self.open.remove(id);
         }
-        // They are in the database now.
+        // The results are in the database now.
         for file in there {
             std::fs::remove_file(&file).map_err(StudyError::io(&file))?;
         }
         Ok(())
     }
 
-    /// State of the arrays: asked of the queue, else of the accounting, else of each array. A queue that does not
-    /// answer tells nothing of them, and to submit them again would run them twice.
+    /// State of the arrays, from `squeue`, else from `sacct`, else from `scontrol` for each array. No answer does not
+    /// mean that the arrays have ended: submitting them again could run them twice.
     fn activity(&self) -> Activity {
         if self.arrays.is_empty() {
             return Activity::Ended;
@@ -207,7 +207,7 @@ impl SlurmRun {
         if !shown.is_empty() {
             return Activity::of(&shown.join("\n"));
         }
-        // Ended jobs are forgotten after some minutes.
+        // Slurm forgets ended jobs after some minutes.
         if silent.contains(FORGOTTEN) { Activity::Ended } else { Activity::Unknown(silent) }
     }
 
@@ -239,7 +239,7 @@ impl SlurmRun {
                 quoted(&list)
             );
             let answer = slurm("sbatch", &arguments, Some(&script))?;
-            // NUMBER, or NUMBER;CLUSTER.
+            // The answer is NUMBER, or NUMBER;CLUSTER.
             self.arrays.extend(answer.trim().split(';').next().map(str::to_owned));
         }
         let file = folder.join(SUBMITTED);
@@ -255,7 +255,7 @@ impl SlurmRun {
     }
 }
 
-/// State of the last task of an array as Slurm tells it: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
+/// State of an array's last task in Slurm's words: `JobState=FAILED Reason=NonZeroExitCode ExitCode=1:0`.
 fn last_words(array: &str) -> String {
     let text = slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None);
     let text = text.unwrap_or_default();
@@ -265,7 +265,7 @@ fn last_words(array: &str) -> String {
     words.join(" ")
 }
 
-/// States of the tasks of an array, one a line, as `scontrol` shows them.
+/// States of an array's tasks, one a line, from `scontrol`.
 fn states_of(array: &str) -> Option<String> {
     let text =
         slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None).ok()?;

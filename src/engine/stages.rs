@@ -9,7 +9,7 @@ use sim::Fabric;
 use spec::{Inputs, JobSpec, Person, patterns, subject_inputs, versions};
 use store::{InOrigin, Origin, Result};
 
-/// Inputs of a subject's body, the same as among the inputs of any job on it.
+/// Inputs that decide a subject's body; the jobs on that subject have the same ones.
 pub fn body_inputs(name: &str, person: &Person) -> Inputs {
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, person);
@@ -19,10 +19,10 @@ pub fn body_inputs(name: &str, person: &Person) -> Inputs {
     inputs
 }
 
-/// A body, as the cache keeps it.
+/// A body, as a product of the cache.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Model {
-    /// The mannequin.
+    /// Mannequin.
     pub body: Body,
 }
 
@@ -31,7 +31,7 @@ pub struct Model {
 pub struct Meshes(pub Vec<Garment>);
 
 impl Meshes {
-    /// Meshes a style at all levels, the finest with edges of this length, m.
+    /// Meshes a style at all levels. `edge_length_m` is that of the finest, m.
     ///
     /// # Errors
     /// When a piece cannot be meshed.
@@ -41,7 +41,7 @@ impl Meshes {
         Ok(Self(meshes.collect::<Result<_>>()?))
     }
 
-    /// Returns the finest mesh, which results are measured on.
+    /// Returns the finest mesh, on which results are measured.
     ///
     /// # Errors
     /// When there is no mesh.
@@ -52,7 +52,7 @@ impl Meshes {
 
 store::json_artefact!(Model, Meshes);
 
-/// A garment that is ready to be worn.
+/// A garment that is ready to be draped.
 #[derive(Clone)]
 pub struct Garb {
     /// Style of its size.
@@ -64,7 +64,7 @@ pub struct Garb {
 }
 
 impl Garb {
-    /// Reads the style of a job's garment, which has these meshes.
+    /// Reads the style of a job's garment and adds its meshes.
     ///
     /// # Errors
     /// When the pattern cannot be read or sewn.

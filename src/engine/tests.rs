@@ -196,7 +196,7 @@ fn a_study_of_the_same_name_in_another_folder_is_refused_until_it_is_said_to_hav
     assert!(told.contains("study `tops`") && told.contains("--moved"), "{told}");
     enqueue::move_home(&mut bench.store, &study_in(1)).expect("writable");
     enqueue::queue(&mut bench.store, &study_in(1), &all).expect("it has moved");
-    // A folder that is gone has moved, too.
+    // A folder that is gone counts as moved.
     std::fs::remove_file(folders[1].path().join("study.toml")).expect("writable");
     enqueue::queue(&mut bench.store, &study_in(0), &all).expect("nothing is there any more");
 }
@@ -328,7 +328,7 @@ fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
         DELETE FROM history; DELETE FROM provenance; DELETE FROM job_artefact",
         )
         .expect("valid");
-    // A process of this machine that has ended: same boot, a number that is no process's.
+    // The owner is a dead process of this machine: same boot, a number that no process has.
     let dead = store::owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
     let transaction = store::write(&mut connection).expect("idle");
     queue::apply(&transaction, JobId(1), &Event::Claim(&dead), None).expect("queued").expect("queued");

@@ -1,8 +1,9 @@
-//! Runs jobs: worker threads claim, execute and finish them, and one pump tells the database of their progress.
+//! Worker threads that claim, run and finish jobs, and one thread (the pump) that writes their progress to the
+//! database.
 //!
 //! Workers touch the database only to claim and to finish. The pump renews heartbeats and progress a few times a
-//! second. It notices when a job is no longer held by this process, so that cancelling from another process reaches a
-//! running simulation. Results do not depend on the number of workers: a job knows nothing of the others.
+//! second. It also notices a job that this process no longer holds, so that another process can cancel a running
+//! simulation. Results do not depend on the number of workers: no job sees another.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -24,7 +25,7 @@ use spec::JobSpec;
 use store::owner::{Owner, Watch};
 use store::{Access, JobId, JobProgress, Live as LiveView, Result, StudyError, evidence, now_ms, queue};
 
-/// Time between two rounds of the pump, and between two claims of a worker that waits for jobs of others.
+/// Time between two rounds of the pump, and between two tries of a worker to claim a job.
 const TICK: Duration = Duration::from_millis(200);
 
 /// A job that a worker runs.
@@ -35,7 +36,8 @@ struct Live {
     lost: AtomicBool,
 }
 
-/// Least time between two judgements of a study's evidence while results come, as a multiple of the time of one.
+/// Least time between two judgements of the evidence while results come, divided by the time that one takes: judging
+/// takes less than 5 % of a run.
 const JUDGED_SHARE: u32 = 20;
 
 /// One run of the planned jobs by this process.
@@ -52,7 +54,7 @@ struct Run<'a> {
     watch: Mutex<Watch>,
     live: Mutex<BTreeMap<JobId, Arc<Live>>>,
     busy_workers: AtomicUsize,
-    /// True if a job has ended since the evidence was judged.
+    /// True if a job has ended since the evidence was last judged.
     has_news: AtomicBool,
 }
 
@@ -64,8 +66,8 @@ pub(crate) struct Work<'a> {
     pub jobs: &'a [Planned],
 }
 
-/// Runs jobs until none of them is queued or running any more, or until `stop`. Jobs of other processes are waited
-/// for. On `stop`, running jobs go back into the queue.
+/// Runs jobs until none of them is queued or running, or until `stop`. Waits for those that other processes run. On
+/// `stop`, running jobs go back into the queue.
 ///
 /// # Errors
 /// When the database fails: the run stops, and its jobs stay queued. A job that fails is no error here.
@@ -109,7 +111,7 @@ pub(crate) fn run(
 }
 
 impl Run<'_> {
-    /// Claims and runs jobs until none is left. A failing database stops the other workers too.
+    /// Claims and runs jobs until none is left. An error of the database stops the other workers too.
     fn work(&self) -> Result<()> {
         let result = store::open(self.database, Access::Write).and_then(|mut connection| self.work_on(&mut connection));
         if result.is_err() {
@@ -135,8 +137,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Runs one claimed job and stores its outcome. A panic of a stage fails the job. A failing database does not: the
-    /// job goes back into the queue, if that can still be written, and the run ends.
+    /// Runs one claimed job and stores its outcome. A panic of a stage fails the job. An error of the database does
+    /// not: the job goes back into the queue, if that can still be written, and the run ends.
     fn execute(&self, connection: &mut Connection, id: JobId) -> Result<()> {
         let live = Arc::new(Live::default());
         lock(&self.live).insert(id, live.clone());
@@ -146,7 +148,7 @@ impl Run<'_> {
             .unwrap_or_else(|panic| Err(EngineError::Panic(panic_text(&*panic)).into()));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
-                // Where it cannot be written, the end of this process puts the job back.
+                // If this fails too, the next run puts the job back, since this owner is dead.
                 let _ = self.finish(connection, id, &Err(StudyError::Interrupted));
                 Err(error)
             }
@@ -157,7 +159,7 @@ impl Run<'_> {
         written
     }
 
-    /// Stores the outcome of a job. A result that the schema refuses, such as one that is not a number, fails the job.
+    /// Stores the outcome of a job. The job fails if the schema refuses the result, for example a NaN.
     fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
         let (spec, owner) = (self.specs[&id], self.owner.as_str());
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
@@ -169,7 +171,7 @@ impl Run<'_> {
         }
     }
 
-    /// Tells the database of the progress of running jobs, until the workers are done.
+    /// Writes the progress of running jobs to the database until the workers are done.
     fn pump(&self) -> Result<()> {
         let mut connection = store::open(self.database, Access::Volatile)?;
         let mut next_judged = Instant::now();
@@ -189,7 +191,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Renews heartbeats and progress of running jobs; marks those that this process no longer holds.
+    /// Renews heartbeats and progress of running jobs; marks jobs that this process no longer holds.
     fn report(&self, connection: &mut Connection, live: &[(JobId, Arc<Live>)]) -> Result<()> {
         let transaction = store::write(connection)?;
         for (id, live) in live {
@@ -208,7 +210,7 @@ impl Run<'_> {
     }
 }
 
-/// True if SQLite refused a value, rather than failed to write.
+/// True if SQLite refused a value, false if it failed to write.
 fn is_constraint(error: &rusqlite::Error) -> bool {
     error.sqlite_error_code() == Some(rusqlite::ErrorCode::ConstraintViolation)
 }
@@ -255,7 +257,7 @@ impl Monitor for Reporter<'_> {
     }
 }
 
-/// Locks a mutex. Its data is a plain value, which is whole even after a panic elsewhere.
+/// Locks a mutex. Its data is a plain value, so it is whole even after a panic of another thread.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

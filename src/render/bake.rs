@@ -1,5 +1,5 @@
 //! Light that does not depend on the camera, computed once for a scene: ambient occlusion of each vertex, and the
-//! shadow on the floor. Both come from shadow maps in directions all around the sphere.
+//! shadow on the floor. Both come from shadow maps in directions all around.
 
 use super::camera::Projection;
 use super::floor::Floor;
@@ -12,7 +12,7 @@ const PAIRS: usize = 32;
 /// Samples along a side of each shadow map.
 const MAP: usize = 400;
 
-/// Shadow map of two opposite directions: depths of the first and the last surface along one of them.
+/// Shadow map of a direction and its opposite: depths of the first and the last surface along the direction.
 struct TwoSided {
     projection: Projection,
     near: Vec<f32>,
@@ -26,8 +26,7 @@ impl TwoSided {
         let mut far = vec![f32::NEG_INFINITY; MAP * MAP];
         let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
         for triangle in 0..scene.triangles.len() {
-            // Skin recedes here as it does in the picture, so that cloth that has sunk into it a little is not in its
-            // shadow.
+            // Skin recedes here as in the picture, so that it does not shade cloth that has sunk into it a little.
             let recede = scene.recede(triangle);
             cover(scene.corners(triangle, &projected), MAP, MAP, |sample, depth| {
                 near[sample] = near[sample].min(depth + recede);
@@ -37,7 +36,7 @@ impl TwoSided {
         Self { projection, near, far }
     }
 
-    /// True if a point is lit from the direction (`along`), or from its opposite (not `along`).
+    /// True if a point is lit from the direction (`along`) or from its opposite (not `along`).
     fn open(&self, point: &Vector3<f32>, along: bool, bias: f32) -> bool {
         let [x, y, depth] = self.projection.project(point);
         if x < 0.0 || y < 0.0 || x >= MAP as f32 || y >= MAP as f32 {
@@ -48,7 +47,7 @@ impl TwoSided {
     }
 }
 
-/// Unit vectors that are evenly distributed on the upper hemisphere (a Fibonacci spiral).
+/// Unit vectors, evenly distributed over the upper hemisphere (a Fibonacci spiral).
 fn directions() -> impl Iterator<Item = Vector3<f32>> {
     let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
     (0..PAIRS).map(move |i| {
@@ -75,8 +74,8 @@ impl Scene {
             let map = TwoSided::new(self, towards);
             for (vertex, (position, normal)) in self.positions.iter().zip(&self.normals).enumerate() {
                 let cosine = normal.dot(&towards);
-                // The direction lights the front side where the normal points to it, and else the back side. Its
-                // opposite does the reverse.
+                // The direction lights the front side of a surface whose normal points towards it, else the back side;
+                // its opposite lights the other side.
                 for along in [true, false] {
                     let side = usize::from((cosine > 0.0) != along);
                     let outward = if side == 0 { *normal } else { -normal };

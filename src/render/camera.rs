@@ -43,7 +43,7 @@ impl View {
     }
 }
 
-/// Common frame of the pictures of a comparison: the point at their centre, and the height that they show.
+/// Common frame of pictures that are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// World point at the picture's centre, m.
@@ -53,9 +53,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Smallest frame with a margin that contains all meshes in every view, for pictures of an aspect ratio (width over
-    /// height). Without vertices it shows the surroundings of the origin. Given every subject of a study it gives one
-    /// scale for all, and given a garment alone a close view.
+    /// Smallest frame, with a margin, that contains all meshes in every view. `aspect` is the pictures' width divided
+    /// by their height. Given every subject of a study it makes one scale for all; given a garment alone, a close view.
+    /// Without vertices it shows the surroundings of the origin.
     #[must_use]
     pub fn enclosing<'a>(meshes: impl IntoIterator<Item = &'a TriMesh>, aspect: f64) -> Self {
         let meshes: Vec<&TriMesh> = meshes.into_iter().collect();
@@ -76,7 +76,7 @@ impl Frame {
 /// An orthographic camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Frame that it shows.
+    /// Frame that the camera shows.
     pub frame: Frame,
     /// Angle about `z` from the front towards the subject's right, degrees.
     pub azimuth_deg: f64,
@@ -123,8 +123,7 @@ impl Projection {
         }
     }
 
-    /// Projection along parallel light from the direction `towards`, which covers a ball with a square of `size`
-    /// samples.
+    /// Projection along parallel light from the direction `towards`: a square of `size` samples covers a ball.
     pub fn of_light(towards: Vector3<f32>, centre: Vector3<f32>, radius: f32, size: usize) -> Self {
         let helper = if towards.z.abs() > 0.9 { Vector3::x() } else { Vector3::z() };
         let right = helper.cross(&towards).normalize();
@@ -132,7 +131,7 @@ impl Projection {
         Self { axes: [right, towards.cross(&right), towards], centre, per_m: half / radius, half: [half, half] }
     }
 
-    /// Sample coordinates (x right, y down) and the distance behind the centre plane, m.
+    /// Converts a world point to samples (x right, y down) and to its distance behind the centre plane, m.
     pub fn project(&self, point: &Vector3<f32>) -> [f32; 3] {
         let d = point - self.centre;
         [

@@ -1,5 +1,4 @@
-//! Colours: sRGB for input and output, linear light for shading, and colour maps that are distinguishable with colour
-//! vision deficiencies.
+//! Colours: sRGB for input and output, linear light for shading, colour maps for readers with any colour vision.
 
 /// A colour in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +11,7 @@ impl Rgb {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 
-    /// Parses `rrggbb`, with or without a `#`; `None` where it is no colour.
+    /// Parses `rrggbb`, with or without a `#`; `None` for any other text.
     #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let hex = text.strip_prefix('#').unwrap_or(text);
@@ -51,7 +50,7 @@ fn encode(v: f32) -> f32 {
     if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Conversion of linear light to 8-bit sRGB by a table.
+/// Table that converts linear light to 8-bit sRGB.
 pub(super) struct Encoder(Vec<u8>);
 
 impl Encoder {
@@ -109,7 +108,7 @@ impl ColourMap {
         }
     }
 
-    /// Colour at `t`, 0 to 1; the end colours beyond.
+    /// Colour at `t`, from 0 to 1; beyond, the colour of the nearer end.
     #[must_use]
     pub fn at(self, t: f64) -> Rgb {
         let stops = self.stops();
@@ -121,7 +120,7 @@ impl ColourMap {
     }
 }
 
-/// Mapping of values to colours. It is fixed for a whole study, so that its pictures are comparable.
+/// Mapping of values to colours, the same for a whole study so that its pictures are comparable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     /// Colour map.
@@ -130,14 +129,14 @@ pub struct Scale {
     pub low: f64,
     /// Value of the last colour.
     pub high: f64,
-    /// Quantity (`stretch along the warp`).
+    /// Quantity, such as `stretch along the warp`.
     pub label: String,
-    /// Unit in the legend; empty for a ratio.
+    /// Unit in the legend; empty for a quantity without one.
     pub unit: String,
 }
 
 impl Scale {
-    /// Diverging scale around `centre`, by `reach` to both sides.
+    /// Diverging scale from `centre - reach` to `centre + reach`.
     #[must_use]
     pub fn diverging(centre: f64, reach: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         let (low, high) = (centre - reach, centre + reach);
@@ -156,7 +155,7 @@ impl Scale {
         Self { map: ColourMap::Sequential, low, high, label: label.into(), unit: unit.into() }
     }
 
-    /// Colour of a value; a mid grey where it is not a number.
+    /// Colour of a value; mid grey for NaN.
     #[must_use]
     pub fn colour(&self, value: f64) -> Rgb {
         let t = (value - self.low) / (self.high - self.low);

@@ -25,7 +25,7 @@ impl Floor {
         Self { z, low: [centre.x - radius, centre.y - radius], cell, openness: vec![0.0; CELLS * CELLS] }
     }
 
-    /// Smooths the steps that single directions leave, and fades the shadow out before the border.
+    /// Smooths the traces of single light directions, and fades the shadow out towards the border.
     pub fn soften(&mut self) {
         for _ in 0..8 {
             let before = self.openness.clone();

@@ -17,7 +17,7 @@ pub struct Cell {
 const INK: &str = "#22262b";
 const PAPER: Rgba<u8> = Rgba([255, 255, 255, 255]);
 
-/// Arranges pictures in rows of `columns`, each with its label below it, and a title above all (none if empty).
+/// Arranges pictures in rows of `columns`, each above its label, below a title unless `title` is empty.
 ///
 /// # Errors
 /// [`RenderError::Size`] where there is nothing to show or the sheet would be too large.
@@ -47,8 +47,8 @@ pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<Rgba
     Ok(sheet)
 }
 
-/// Takes pictures of a scene in all four views, each `width` by `height` pixels, and arranges them in a row, as a PNG
-/// file. `camera` gives the camera of a view.
+/// Takes pictures of a scene in all four views, each `width` by `height` pixels, and arranges them in a row. `camera`
+/// gives the camera of each view. Returns a PNG file.
 ///
 /// # Errors
 /// [`RenderError::Size`] where the sheet would be too large.
@@ -79,10 +79,10 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Draws the legend of a scale into the lower left corner of a picture: a colour bar with five ticks, its label and
-/// unit.
+/// Draws the legend of a scale into the lower left corner of a picture: colour bar, five ticks, label and unit.
 ///
-/// None in practice; [`RenderError::Svg`] would be a fault of the drawing itself.
+/// # Errors
+/// [`RenderError::Svg`], only by a fault of this function's own drawing.
 pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderError> {
     let text = f64::from((picture.width() / 45).clamp(10, 24));
     let (bar_width, bar_height) = (text * 1.1, text * 13.0);

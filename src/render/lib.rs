@@ -1,8 +1,8 @@
 //! Pictures of meshes without a GPU or a display (GRM in [T 3.6]): a z-buffer, soft light, and scales of colours.
 //!
-//! A [`Scene`] is built once from its layers (body, cloth) and lit once for all views. [`render`] then takes a picture
-//! from a [`Camera`]. All cameras of one [`Frame`] share their scale. Left and right are those that a viewer sees: from
-//! the front, the subject's right is at the left of the picture.
+//! A [`Scene`] is built from its layers (body, cloth) and lit once for all views. [`render`] then takes a picture from
+//! a [`Camera`]; cameras with the same [`Frame`] have the same scale. Left and right are the viewer's: from the front,
+//! the subject's right is at the left of the picture.
 
 mod bake;
 mod camera;
@@ -31,7 +31,7 @@ pub use weave::Weave;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
-/// Reason for which a picture could not be made.
+/// Reason why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// A triangle refers to a vertex that does not exist.
@@ -43,7 +43,7 @@ pub enum RenderError {
         triangle: usize,
         /// Vertex that the triangle refers to.
         vertex: usize,
-        /// Number of them.
+        /// Number of vertices of the mesh.
         vertices: usize,
     },
     /// A position is not finite.
@@ -63,7 +63,7 @@ pub enum RenderError {
         layer: usize,
         /// Number of values, texture coordinates or texture numbers given.
         found: usize,
-        /// Vertices or triangles of the mesh.
+        /// Number that the mesh needs: that of its vertices or triangles.
         needed: usize,
     },
     /// A triangle refers to a texture that does not exist.
@@ -71,7 +71,7 @@ pub enum RenderError {
     NoSuchTexture {
         /// Index of the layer.
         layer: usize,
-        /// Number of its textures.
+        /// Number of textures of the layer.
         textures: usize,
     },
     /// The scene has no such layer.
@@ -79,7 +79,7 @@ pub enum RenderError {
     NoSuchLayer {
         /// Index that was given.
         layer: usize,
-        /// Number of them.
+        /// Number of layers of the scene.
         layers: usize,
     },
     /// The size of a picture is out of range.
@@ -141,8 +141,7 @@ pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, Ren
     Ok(bytes)
 }
 
-/// Encodes a picture as a JPEG file of quality 85, with a quarter of the size of the PNG file. Transparency becomes
-/// white.
+/// Encodes a picture as a JPEG file of quality 85, about a quarter as large as PNG. Transparency becomes white.
 ///
 /// # Errors
 /// [`RenderError::Encode`] for an empty picture.

@@ -1,11 +1,10 @@
 //! Rasterisation of triangles on a grid of samples.
 
-/// Margin by which a triangle covers samples beyond its edges, as a share of its height. It closes pinholes from
-/// rounding.
+/// Margin by which a triangle covers samples beyond its edges, as a share of its height: closes pinholes from rounding.
 pub(super) const RIM: f32 = 1e-4;
 
 /// Calls `plot(sample, depth)` for every sample whose centre a triangle covers. Samples are numbered row by row,
-/// `width` to a row.
+/// `width` in each.
 ///
 /// Corners are `[x, y, depth]` in samples, in either orientation. Samples on a shared edge may be covered twice, which
 /// a depth test absorbs.
@@ -48,5 +47,5 @@ pub(super) fn weights(corners: [[f32; 3]; 3], x: f32, y: f32) -> [f32; 3] {
     [1.0 - wb - wc, wb, wc]
 }
 
-/// Index that stands for no triangle, or for no supersampled pixel.
+/// Index that means no triangle, or no supersampled pixel.
 pub(super) const NOTHING: u32 = u32::MAX;

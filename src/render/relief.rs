@@ -1,21 +1,20 @@
 //! Relief shading from the depth buffer: hollows are darkened and crests lightened a little, so that folds are visible
 //! even in flat light.
-//!
-//! Each pixel is compared with pairs of opposite neighbours. The mean depth of a pair cancels any slope, so that only
-//! curvature remains. A pair that reaches over an edge to another surface does not count, so that edges have no halo.
+//! Each pixel is compared with pairs of opposite neighbours. The mean depth of a pair cancels any slope, so only
+//! curvature remains. A pair with a neighbour on another surface does not count, so edges have no halo.
 
-/// Distance of the neighbours (m) and share of the light that a full hollow takes, for wrinkles and for folds. No
-/// distance is shorter than the edges of a usual mesh, whose facets would show.
+/// Distance of the neighbours, m, and share of the light that a full hollow takes: for wrinkles, and for folds.
+/// Distances shorter than the edges of a usual mesh would show its facets.
 const RINGS: [(f32, f32); 2] = [(0.016, 0.20), (0.030, 0.30)];
 /// Pairs of opposite neighbours on each ring.
 const PAIRS: usize = 12;
-/// Depth of a hollow that has half of the full effect, as a share of the distance of the neighbours.
+/// Depth of a hollow with half of the full effect, divided by the distance of the neighbours.
 const FULL: f32 = 0.2;
-/// Difference in depth above which a neighbour belongs to another surface, as a multiple of the distance.
+/// Difference in depth above which a neighbour belongs to another surface, divided by the distance of the neighbours.
 const REACH: f32 = 3.0;
 
-/// Factor of the light of each pixel, around 1. `depth` is in metres, infinite where there is nothing; `per_m` is in
-/// pixels per metre.
+/// Factor for the light of each pixel, around 1. `depth` is in m, infinite where there is no surface; `per_m` in pixels
+/// per metre.
 pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     let mut gain = vec![1.0_f32; depth.len()];
     for (distance, strength) in RINGS {
@@ -36,9 +35,9 @@ struct Ring<'a> {
     width: usize,
     /// Distance of the neighbours, m.
     distance: f32,
-    /// Offsets of half of them, in pixels; the other half is opposite.
+    /// Offsets of half of the neighbours, pixels; the other half is opposite.
     offsets: [(isize, isize); PAIRS],
-    /// Distance from the border of the picture within which some neighbours are outside, pixels.
+    /// Distance from the picture's border within which some neighbours lie outside, pixels.
     border: usize,
 }
 
@@ -49,7 +48,7 @@ impl<'a> Ring<'a> {
             let (sin, cos) = (std::f32::consts::PI * (k as f32 + 0.5) / PAIRS as f32).sin_cos();
             ((radius * cos).round() as isize, (radius * sin).round() as isize)
         });
-        // Where pixels are larger than the distance, the neighbours are farther away than asked.
+        // Where a pixel is larger than the distance, neighbours are one pixel away.
         Self { depth, width, distance: distance.max(1.0 / per_m), offsets, border: radius.ceil() as usize }
     }
 
@@ -78,7 +77,7 @@ impl<'a> Ring<'a> {
         mean / (1.0 + mean.abs())
     }
 
-    /// Contribution of two opposite neighbours with the depths `a` and `b`.
+    /// Contribution of two opposite neighbours at the depths `a` and `b`.
     fn pair(&self, pixel: usize, a: f32, b: f32) -> f32 {
         let (a, b) = (a - self.depth[pixel], b - self.depth[pixel]);
         let apart = a.abs().max(b.abs()) / (REACH * self.distance);
@@ -86,8 +85,8 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Weight of a pair whose neighbours are at a share of the reach. It decreases over the second half, so that no line
-/// appears where pairs cease to count.
+/// Weight of a pair whose neighbours are at a share of the reach. It falls to 0 over the second half of the reach, so
+/// that no line appears where pairs cease to count.
 fn weight_of(apart: f32) -> f32 {
     (2.0 - 2.0 * apart).min(1.0)
 }

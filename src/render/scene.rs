@@ -12,24 +12,24 @@ use std::collections::BTreeMap;
 /// Appearance of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Colour of the side its normals point to.
+    /// Colour of the side to which normals point.
     pub front: Rgb,
     /// Colour of the other side.
     pub back: Rgb,
-    /// Distance by which it is drawn behind its true place, m. Skin recedes behind cloth that lies on it.
+    /// Distance by which the surface is drawn behind its true place, m: skin recedes behind cloth that lies on it.
     pub recede_m: f64,
-    /// True if the lines along which its pieces meet are drawn.
+    /// True if the lines where pieces meet are drawn.
     pub seams: bool,
 }
 
 impl Material {
-    /// A matt dress form.
+    /// Matt dress form.
     #[must_use]
     pub fn form() -> Self {
         Self::body(Rgb(0xd8, 0xd1, 0xc8))
     }
 
-    /// A dress form under a map: a neutral mid grey, darker than cloth whose value is near the middle of its scale.
+    /// Dress form under a map: a neutral mid grey, darker than cloth whose value is near the middle of its scale.
     #[must_use]
     pub fn form_under_map() -> Self {
         Self::body(Rgb(0x8e, 0x92, 0x98))
@@ -53,32 +53,32 @@ impl Material {
         Self { front, back: Rgb(dull(front.0), dull(front.1), dull(front.2)), recede_m: 0.0, seams: true }
     }
 
-    /// Results of FEM-GS: green.
+    /// Cloth draped by FEM-GS: green.
     #[must_use]
     pub fn fem() -> Self {
         Self::cloth(Rgb(0x62, 0xb3, 0x8c))
     }
 
-    /// A garment below the one that is shown: the grey of undyed linen.
+    /// Garment below the one that is shown: the grey of undyed linen.
     #[must_use]
     pub fn under() -> Self {
         Self::cloth(Rgb(0xc4, 0xbd, 0xae))
     }
 
-    /// Hybrid-GS after pop-up: yellow.
+    /// Cloth of Hybrid-GS after pop-up: yellow.
     #[must_use]
     pub fn popup() -> Self {
         Self::cloth(Rgb(0xea, 0xbe, 0x4c))
     }
 
-    /// Hybrid-GS after draping: blue.
+    /// Cloth of Hybrid-GS after draping: blue.
     #[must_use]
     pub fn hybrid() -> Self {
         Self::cloth(Rgb(0x5f, 0x97, 0xd0))
     }
 }
 
-/// Values for each vertex (interpolated) or for each triangle (constant).
+/// Values of vertices (interpolated) or of triangles (constant).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// One value for each vertex.
@@ -87,10 +87,10 @@ pub enum Values {
     Triangles(Vec<f64>),
 }
 
-/// Paint of the outer side of a layer.
+/// Paint on the front side of a layer.
 #[derive(Clone, Debug)]
 pub enum Paint {
-    /// The colour of its material.
+    /// The front colour of the material.
     Plain,
     /// Values with the scale that colours them.
     Field(Values, Scale),
@@ -98,7 +98,7 @@ pub enum Paint {
     Printed(Print),
 }
 
-/// Textures on a layer. A garment may be cut from several cloths.
+/// Textures on a layer, which may be cut from several cloths.
 #[derive(Clone, Debug)]
 pub struct Print {
     /// One texture for each cloth.
@@ -112,11 +112,11 @@ pub struct Print {
 /// A mesh with its appearance.
 #[derive(Clone, Debug)]
 pub struct Layer<'a> {
-    /// The surface, m. The paint is on the side to which its normals point.
+    /// Surface, m; paint is on the side to which its normals point.
     pub mesh: &'a TriMesh,
     /// Colours of both sides and other properties of the drawing.
     pub material: Material,
-    /// Paint of its outer side.
+    /// Paint of the layer's front side.
     pub paint: Paint,
 }
 
@@ -143,8 +143,8 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Group of a triangle within which colours are continuous: the triangle itself where values are constant on
-    /// triangles, and its cloth where textures are printed.
+    /// Group of triangles over which colours are continuous: a single triangle where values are constant on triangles,
+    /// a cloth where textures are printed.
     pub fn parts(&self, triangle: usize) -> usize {
         let own = triangle - self.first_triangle;
         match &self.paint {
@@ -158,7 +158,7 @@ impl Look {
 /// An edge with its triangles.
 pub(super) struct Edge {
     pub ends: [u32; 2],
-    /// The triangles. The second is [`NOTHING`] at a border, and where more than two triangles meet.
+    /// The two triangles. The second is [`NOTHING`] at a border, and where more than two meet.
     pub faces: [u32; 2],
 }
 
@@ -172,9 +172,9 @@ pub struct Scene {
     pub(super) looks: Vec<Look>,
     /// Distinct edges.
     pub(super) edges: Vec<Edge>,
-    /// Ends of the segments of seam lines.
+    /// Vertices at the ends of each segment of the seam lines.
     pub(super) seams: Vec<[usize; 2]>,
-    /// Share of the sky that each vertex sees from its front and its back side, 0 to 1.
+    /// Share of the sky that each vertex sees from its front and from its back, 0 to 1.
     pub(super) openness: Vec<[f32; 2]>,
     pub(super) floor: Floor,
     pub(super) centre: Vector3<f32>,
@@ -185,6 +185,7 @@ impl Scene {
     /// Joins the layers and computes the light that reaches each vertex from all around (about 0.1 s for a dressed
     /// body).
     ///
+    /// # Errors
     /// When a triangle refers to a missing vertex, a position is not finite, or a field does not fit its mesh.
     pub fn new(layers: Vec<Layer<'_>>) -> Result<Self, RenderError> {
         let mut scene = Self {
@@ -214,10 +215,11 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Gives a layer another appearance. The light, which takes longest, is computed again only where the layer recedes
-    /// by another distance.
+    /// Gives a layer another appearance. Light is computed again, which takes longest, only if the layer recedes by
+    /// another distance.
     ///
-    /// When a field or texture does not fit the mesh of the layer, or there is no such layer.
+    /// # Errors
+    /// When a field or texture does not fit the mesh of the layer, or the scene has no such layer.
     pub fn paint(&mut self, layer: usize, material: Material, paint: Paint) -> Result<(), RenderError> {
         let next = self.looks.get(layer + 1).map(|look| [look.first_vertex, look.first_triangle]);
         let [vertices, triangles] = next.unwrap_or([self.positions.len(), self.triangles.len()]);
@@ -250,7 +252,7 @@ impl Scene {
         self.looks.push(Look { material: layer.material, paint: layer.paint, first_vertex, first_triangle });
     }
 
-    /// Corners of a triangle among projected vertices.
+    /// Corners of a triangle, from the projected vertices.
     pub(super) fn corners(&self, triangle: usize, projected: &[[f32; 3]]) -> [[f32; 3]; 3] {
         let [a, b, c] = self.triangles[triangle];
         [projected[a], projected[b], projected[c]]
@@ -289,14 +291,14 @@ fn check_paint(layer: usize, paint: &Paint, vertices: usize, triangles: usize) -
     if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer, found, needed }) }
 }
 
-/// First vertex at the place of each vertex, to 0.01 mm: the two sides of a sewn seam are one surface.
+/// First of the vertices at the place of each vertex, to 0.01 mm, since the two sides of a sewn seam are one surface.
 fn twins(positions: &[V3]) -> Vec<usize> {
     let mut first_at = BTreeMap::new();
     let place = |p: &V3| [p.x, p.y, p.z].map(|c| (c * 1e5).round() as i64);
     positions.iter().enumerate().map(|(i, p)| *first_at.entry(place(p)).or_insert(i)).collect()
 }
 
-/// Vertex normals that are continuous across seams. Surfaces that touch back to back keep their own.
+/// Vertex normals that are continuous across seams. Surfaces that touch back to back keep their own normals.
 fn seamless_normals(mesh: &TriMesh, twins: &[usize]) -> Vec<Vector3<f32>> {
     let own = mesh.vertex_normals();
     let mut shared = vec![V3::zeros(); own.len()];
@@ -329,7 +331,7 @@ fn edges(mesh: &TriMesh) -> Vec<Edge> {
     sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
 }
 
-/// Edges along which borders coincide: seams between pieces.
+/// Edges where two borders coincide: seams between pieces.
 fn seam_lines(edges: &[Edge], twins: &[usize]) -> Vec<[usize; 2]> {
     let ends = |edge: &Edge| {
         let [a, b] = edge.ends.map(|v| twins[v as usize]);

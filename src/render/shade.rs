@@ -11,17 +11,17 @@ use super::visible::{Fine, SAMPLES, Visible, offset};
 use image::RgbaImage;
 use nalgebra::{Vector2, Vector3};
 
-/// Samples along a side of the shadow map of the key light.
+/// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
 /// Number of samples of the shadow map for one point (percentage-closer filtering).
 const TAPS: usize = 32;
-/// Number of outermost samples, which are evaluated first.
+/// Number of these samples, the outermost, that are evaluated first.
 const RIM: usize = 8;
-/// Radius of the samples in the map, in map samples: the width of the soft edge of a shadow.
+/// Radius of the disc of these samples, in samples of the map: half the width of a shadow's soft edge.
 const SOFT: f32 = 9.0;
-/// Brightness of the wrong side of printed cloth.
+/// Brightness of the wrong side of printed cloth, relative to the print.
 const WRONG_SIDE: f32 = 0.6;
-/// Number of steps of a tabulated scale of colours.
+/// Number of steps of a tabulated colour scale.
 const RAMP: usize = 1024;
 
 /// Offset of a sample of the shadow map from a point, in map samples.
@@ -67,10 +67,11 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     shoot(scene, camera, (width, height), 255)
 }
 
-/// Takes a picture as [`render`] does, transparent where there is no mesh. The colours there are still those of
+/// Takes a picture as [`render`] does, transparent where there is no mesh. Transparent pixels keep the colours of
 /// backdrop and floor.
 ///
-/// As [`render`].
+/// # Errors
+/// Those of [`render`].
 pub fn cutout(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
     shoot(scene, camera, (width, height), 0)
 }
@@ -151,7 +152,7 @@ struct Studio<'a> {
     lights: [Vector3<f32>; 3],
     /// Front and back colour of each layer.
     colours: Vec<[Colour; 2]>,
-    /// Tabulated scale of each layer ([`ramp`]); empty where it has none.
+    /// Tabulated colour scale of each layer ([`ramp`]); empty for a layer without a scale.
     ramps: Vec<Vec<Colour>>,
     backdrop: [Colour; 2],
 }
@@ -187,7 +188,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// Colour of a supersampled pixel. Each triangle in it is shaded once, at the mean of the samples that it covers.
+    /// Colour of a supersampled pixel. Each of its triangles is shaded once, at the mean of the samples that it covers.
     fn blend(&self, fine: &Fine, [left, top]: [f32; 2], gain: f32) -> Colour {
         let mut colour = Colour::zeros();
         let mut done = [false; SAMPLES];
@@ -209,12 +210,12 @@ impl<'a> Studio<'a> {
         colour
     }
 
-    /// Colour at a place of the picture: of a triangle, or of the ground where there is none.
+    /// Colour at a point of the picture: of a triangle, or of the ground where there is none.
     fn seen(&self, triangle: u32, x: f32, y: f32, gain: f32) -> Colour {
         if triangle == NOTHING { self.ground(x, y) } else { self.surface(triangle as usize, x, y) * gain }
     }
 
-    /// Colour of backdrop and floor: one seamless light sheet, with the shadow of the subject.
+    /// Colour of backdrop and floor, which are one seamless light sheet with the shadow of the subject.
     fn ground(&self, x: f32, y: f32) -> Colour {
         let t = y / self.size[1] as f32;
         let viewer = self.projection.axes[2];
@@ -247,11 +248,11 @@ impl<'a> Studio<'a> {
             // Light from outside shines through cloth, so the inside of a garment is dark, but not black.
             lit += albedo * (0.16 * openness(0));
         }
-        // A colour that encodes a value must stay readable in the shade, so half of it is emissive.
+        // A colour that encodes a value must stay readable in shade, so half of it does not depend on light.
         if coded { lit * 0.5 + albedo * 0.42 } else { lit }
     }
 
-    /// Light of sky, key, fill and rim light from a matt surface.
+    /// Light of sky, key, fill and rim light that a matt surface reflects.
     fn lit(&self, albedo: &Colour, normal: &Vector3<f32>, open: f32, shadow: f32) -> Colour {
         let cosine = |light: usize| normal.dot(&self.lights[light]).max(0.0);
         let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
@@ -264,8 +265,7 @@ impl<'a> Studio<'a> {
         albedo.component_mul(&matt.add_scalar(0.26 * edge)).add_scalar(0.04 * edge)
     }
 
-    /// Span of a pixel in the texture: the root mean square change of the texture coordinates from one pixel to the
-    /// next.
+    /// Root mean square change of the texture coordinates from one pixel to the next.
     fn texture_span(&self, triangle: usize, places: &[Vector2<f32>; 3]) -> f32 {
         let [a, b, c] = self.scene.corners(triangle, &self.projected);
         let (x1, y1, x2, y2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
@@ -305,7 +305,7 @@ fn linear(colour: Rgb) -> Colour {
     Colour::from(colour.linear())
 }
 
-/// Tabulated colours of a scale: first the one for undefined values, then those from its low end to its high end.
+/// Tabulated colours of a scale: the one of NaN, then those from the low end to the high end.
 fn ramp(paint: &Paint) -> Vec<Colour> {
     let Paint::Field(_, scale) = paint else { return vec![] };
     let step = |k: usize| linear(scale.map.at(k as f64 / RAMP as f64));

@@ -1,4 +1,4 @@
-//! Rasterisation of SVG drawings, with embedded fonts, so that the result does not depend on the fonts of the machine.
+//! Rasterisation of SVG drawings with embedded fonts, so that pictures do not depend on the fonts of the machine.
 
 use super::RenderError;
 use image::RgbaImage;
@@ -21,7 +21,7 @@ fn fonts() -> Arc<fontdb::Database> {
 /// Rasterises an SVG drawing at `scale` pixels per unit, on a transparent ground.
 ///
 /// # Errors
-/// [`RenderError::Svg`] where it is not SVG, [`RenderError::Size`] where it has no size or is too large.
+/// [`RenderError::Svg`] where the text is no SVG, [`RenderError::Size`] where the drawing has no size or is too large.
 pub fn rasterise_svg(svg: &str, scale: f32) -> Result<RgbaImage, RenderError> {
     let options = usvg::Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Default::default() };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|e| RenderError::Svg(e.to_string()))?;

@@ -9,10 +9,10 @@ use std::ops::Range;
 /// Mapping of the pattern plane to texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mapping {
-    /// The picture once on each piece: `u = (x - x_min) / R`, `v = (y - y_min) / R`, with the longer side `R` of the
-    /// bounding box of the piece [T 3.5-3.9].
+    /// Picture once on each piece: `u = (x - x_min) / R`, `v = (y - y_min) / R`, where `R` is the longer side of the
+    /// piece's bounding box [T 3.5-3.9].
     Piece,
-    /// The fabric as it is woven: repeats of a length in metres, `v` along the grain, the same on every piece.
+    /// Fabric as it is woven: repeats of a fixed size, `v` along the grain, the same on every piece.
     Fabric {
         /// Length of one repeat across and along the grain, m.
         repeat_m: [f64; 2],
@@ -21,8 +21,8 @@ pub enum Mapping {
 
 /// Texture coordinates of every vertex of a pattern.
 ///
-/// `rest` are the vertices in the planes of their pieces, m. Each piece is given by its range of vertices, the unit
-/// vector of its grain and its mapping. Vertices of no piece keep `(0, 0)`.
+/// `rest` has the vertices in the planes of their pieces, m. A piece is its range of vertices, the unit vector of its
+/// grain and its mapping. Vertices of no piece keep `(0, 0)`.
 #[must_use]
 pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2, Mapping)]) -> Vec<V2> {
     let mut coordinates = vec![V2::zeros(); rest.len()];
@@ -43,8 +43,8 @@ pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2, Mapping)]) 
     coordinates
 }
 
-/// A picture that repeats in both directions, stored at every halving of its size (a mipmap), so that it does not alias
-/// when it is small.
+/// A picture that repeats in both directions, stored in halved sizes too (a mipmap) so that it does not alias when it
+/// is small.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     levels: Vec<Level>,
@@ -60,7 +60,7 @@ struct Level {
 }
 
 impl Texture {
-    /// Makes a texture of a picture of one repeat; an empty picture gives white.
+    /// Makes a texture from a picture of one repeat; an empty picture gives white.
     #[must_use]
     pub fn new(picture: &RgbaImage) -> Self {
         let (width, height) = (picture.width().max(1) as usize, picture.height().max(1) as usize);
@@ -73,8 +73,8 @@ impl Texture {
         Self { levels }
     }
 
-    /// A woven check: bands of a colour in both directions on a light ground, one band to a repeat. It shows the grain
-    /// and every distortion of the cloth.
+    /// Woven check: in both directions one band of a colour in each repeat, on a light ground. It shows the grain and
+    /// every distortion of the cloth.
     #[must_use]
     pub fn gingham(colour: Rgb) -> Self {
         const SIDE: u32 = 64;
@@ -89,15 +89,15 @@ impl Texture {
         }))
     }
 
-    /// Height of a repeat over its width.
+    /// Height of a repeat divided by its width.
     #[must_use]
     pub fn aspect(&self) -> f64 {
         self.levels[0].height as f64 / self.levels[0].width as f64
     }
 
-    /// Linear colour at texture coordinates, for a sample of the picture that spans `span` of a repeat.
+    /// Linear colour at texture coordinates, averaged over `span` of a repeat.
     pub(super) fn at(&self, u: f32, v: f32, span: f32) -> Vector3<f32> {
-        // Somewhat coarser than the pixel, since finer texels would alias with the pixels.
+        // Somewhat coarser than a pixel, since finer texels would alias.
         let texels = 1.6 * span * self.levels[0].width.max(self.levels[0].height) as f32;
         let place = texels.max(1.0).log2().min((self.levels.len() - 1) as f32);
         let (finer, share) = (place as usize, place.fract());
@@ -110,7 +110,7 @@ impl Texture {
 }
 
 impl Level {
-    /// Level of half the size; `None` at a single texel.
+    /// Level of half the size; `None` for a single texel.
     fn half(&self) -> Option<Self> {
         if self.width == 1 && self.height == 1 {
             return None;
@@ -122,7 +122,7 @@ impl Level {
         Some(Self { width, height, texels })
     }
 
-    /// Bilinear interpolation of the four texels around a place; `v` points up in the picture.
+    /// Bilinear interpolation between the four nearest texels; `v` points up in the picture.
     fn at(&self, u: f32, v: f32) -> Vector3<f32> {
         let place = |t: f32, n: usize| {
             let t = (t - t.floor()) * n as f32 - 0.5;

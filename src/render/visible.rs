@@ -1,9 +1,8 @@
 //! Visible surface of each pixel: one sample at its centre, and nine where an outline, a seam or the edge of a layer
 //! passes through it.
 //!
-//! Within a smooth surface nine samples would have one colour. The colour can change within a pixel at a contour, which
-//! is an edge between a triangle that faces the viewer and one that does not. It can also change at the border of a
-//! mesh, at a seam line or where layers meet. So only those pixels are supersampled.
+//! A pixel needs nine samples only where its colour can change. That is at a contour (an edge between a triangle that
+//! faces the viewer and one that does not), at a border of a mesh, at a seam line, and where layers meet.
 
 use super::raster::{NOTHING, RIM, cover};
 use super::scene::{Edge, Scene};
@@ -12,14 +11,14 @@ use super::scene::{Edge, Scene};
 const FINE: usize = 3;
 /// Samples of a supersampled pixel.
 pub(super) const SAMPLES: usize = FINE * FINE;
-/// Depth behind the visible surface at which a seam line is still drawn, m. Skin and cloth lie on each other.
+/// Depth behind the visible surface at which a seam line is still drawn, m, since skin and cloth lie on each other.
 const SEAM_DEPTH: f32 = 0.006;
 
 /// A supersampled pixel: the visible triangle of each sample, row by row.
 #[derive(Clone)]
 pub(super) struct Fine {
     depth: [f32; SAMPLES],
-    /// Triangle, `NOTHING` where there is none.
+    /// Triangle of each sample; `NOTHING` where there is none.
     pub triangle: [u32; SAMPLES],
     /// True for each sample on a seam line.
     pub stitched: [bool; SAMPLES],
@@ -34,11 +33,11 @@ impl Fine {
 pub(super) struct Visible {
     width: usize,
     height: usize,
-    /// Depth at the centre of each pixel behind the centre plane, m; infinite where there is nothing.
+    /// Depth at the centre of each pixel, m, behind the centre plane; infinite where there is no surface.
     pub depth: Vec<f32>,
-    /// Triangle at the centre of each pixel, `NOTHING` where there is none.
+    /// Triangle at the centre of each pixel; `NOTHING` where there is none.
     pub triangle: Vec<u32>,
-    /// Index of each pixel in `fine`; `NOTHING` for most.
+    /// Index of each pixel in `fine`; `NOTHING` for a pixel with one sample.
     place: Vec<u32>,
     fine: Vec<Fine>,
 }
@@ -79,7 +78,7 @@ impl Visible {
         visible
     }
 
-    /// Samples of a pixel, if it is supersampled.
+    /// Samples of a pixel; `None` where it is not supersampled.
     pub fn closer(&self, pixel: usize) -> Option<&Fine> {
         self.fine.get(self.place[pixel] as usize)
     }
@@ -97,8 +96,8 @@ impl Visible {
         inside.then(|| y as usize * self.width + x as usize)
     }
 
-    /// Marks pixels whose neighbour to the right or below shows another layer, or another group of a layer that is not
-    /// continuous.
+    /// Marks pixels whose neighbour to the right or below shows another layer, or another group of a layer with groups
+    /// (`Look::parts`).
     fn mark_layers(&mut self, scene: &Scene) {
         let differ = |a: u32, b: u32| {
             a != b
@@ -152,7 +151,7 @@ impl Visible {
         rows.flat_map(|row| &self.depth[row * self.width..][columns.clone()]).fold(f32::NEG_INFINITY, |a, &b| a.max(b))
     }
 
-    /// Calls `visit(self, pixel, sample, depth)` along every seam line, which is two samples wide.
+    /// Calls `visit(self, pixel, sample, depth)` along every seam line, which is drawn two samples wide.
     fn along_seams(
         &mut self,
         scene: &Scene,

@@ -11,23 +11,23 @@ use super::colour::{Encoder, Rgb};
 pub enum Weave {
     /// Plain weave: one over, one under.
     Plain,
-    /// Twill 3/1: three over, one under, shifted by one with each pick. Denim has its diagonals.
+    /// Twill 3/1: three over, one under, shifted by one yarn with each pick, which makes the diagonals of denim.
     Twill,
     /// Face side of a single jersey: columns of V-shaped loops.
     Jersey,
-    /// Rib 1x1: columns of the face and the back in turn, the latter sunken.
+    /// Rib 1x1: face and back columns in turn, the back ones sunken.
     Rib,
 }
 
-/// Density of a yarn, kg/m3: cotton of 1.1 cm3/g [Peirce 1937].
+/// Density of a yarn, kg/m3: cotton with a specific volume of 1.1 cm3/g [Peirce 1937].
 const YARN_DENSITY: f64 = 909.0;
 /// Texels across a yarn of a weave.
 const YARN: u32 = 16;
 /// Texels across a loop of a knit.
 const LOOP: u32 = 40;
-/// Width and height of a loop in diameters of its yarn, for a close jersey [Peirce 1947].
+/// Width and height of a loop divided by the diameter of its yarn, for a close jersey [Peirce 1947].
 const LOOP_DIAMETERS: [f64; 2] = [4.0, 3.46];
-/// Length of yarn in a loop, in diameters of the yarn [Peirce 1947].
+/// Length of yarn in a loop divided by the diameter of the yarn [Peirce 1947].
 const LOOP_YARN_DIAMETERS: f64 = 16.66;
 
 impl Weave {
@@ -47,9 +47,9 @@ impl Weave {
 
     /// Length of one repeat across and along the grain, m, for a cloth of an areal density and a thickness.
     ///
-    /// In a weave two yarns lie on each other, so the diameter of each is half of the thickness. Their spacing follows
-    /// from the weight of both sets of yarns [Peirce 1937], and is at least a diameter. The loops of a knit follow from
-    /// its weight alone: they are as close as the yarns allow [Peirce 1947].
+    /// In a weave two yarns lie on each other, so each has half the thickness as its diameter. Their spacing follows
+    /// from the weight of both sets of yarns [Peirce 1937], and is at least a diameter. In a knit the loops are as
+    /// close as the yarns allow, so their size follows from the weight alone [Peirce 1947].
     #[must_use]
     pub fn repeat_m(self, density_kg_m2: f64, thickness_m: f64) -> [f64; 2] {
         let yarn_kg_m = |diameter: f64| YARN_DENSITY * std::f64::consts::PI * diameter * diameter / 4.0;
@@ -62,7 +62,7 @@ impl Weave {
             }
             Self::Jersey | Self::Rib => {
                 let [width, height] = LOOP_DIAMETERS;
-                // Mass of a loop over its area, for a yarn of 1 m in diameter.
+                // Mass of a loop divided by its area, kg/m2, for a yarn of 1 m in diameter.
                 let density_of_one = LOOP_YARN_DIAMETERS * yarn_kg_m(1.0) / (width * height);
                 let diameter = density_kg_m2 / density_of_one;
                 let columns = if self == Self::Rib { 2.0 } else { 1.0 };
@@ -71,7 +71,7 @@ impl Weave {
         }
     }
 
-    /// Number of yarns in a repeat in each direction; for a knit, of columns of loops.
+    /// Number of yarns in a repeat in each direction; for a knit, number of columns of loops.
     fn yarns(self) -> u32 {
         match self {
             Self::Plain | Self::Rib => 2,
@@ -80,8 +80,8 @@ impl Weave {
         }
     }
 
-    /// Draws one repeat, with `v` (up in the picture) along the grain. Its mean brightness is that of the colours of
-    /// its yarns.
+    /// Draws one repeat, with `v` (up in the picture) along the grain. Its mean brightness is that of the yarns'
+    /// colours.
     #[must_use]
     pub fn picture(self, warp: Rgb, weft: Rgb) -> RgbaImage {
         let (width, height) = match self {
@@ -108,7 +108,7 @@ impl Weave {
         })
     }
 
-    /// Yarn on top at a place of the repeat (0 the warp, 1 the weft), and the light that it reflects.
+    /// Yarn on top at a point of the repeat (0 warp, 1 weft), and the share of light that it reflects.
     fn woven(self, u: f32, v: f32) -> (usize, f32) {
         let n = self.yarns() as f32;
         let (x, y) = (u * n, v * n);
@@ -118,7 +118,7 @@ impl Weave {
             _ => (end + pick).is_multiple_of(2),
         };
         let above = is_warp(end, pick);
-        // Along the upper yarn: whether it is also on top at the next crossing and at the one before.
+        // True if the upper yarn is also on top at the next crossing along it, or the one before.
         let same = |step: u32| {
             let next = if above { is_warp(end, pick + step) } else { is_warp(end + step, pick) };
             next == above
@@ -131,13 +131,13 @@ impl Weave {
         (usize::from(!above), (0.25 + 0.75 * round) * (0.35 + 0.65 * arched))
     }
 
-    /// Light that a knit reflects at a place of the repeat.
+    /// Share of light that a knit reflects at a point of the repeat.
     fn knitted(self, u: f32, v: f32) -> f32 {
         let columns = self.yarns() as f32;
         let x = u * columns;
         let is_back = self == Self::Rib && x >= 1.0;
         let (x, mut light) = (x.fract() - 0.5, 0.12_f32);
-        // Loops of the rows below and above extend into this one.
+        // Loops of the rows below and above reach into this row.
         for row in [-1.0, 0.0, 1.0] {
             let t = v - row + 0.25;
             if (0.0..=1.5).contains(&t) {
@@ -148,7 +148,7 @@ impl Weave {
     }
 }
 
-/// Light from the legs of a loop that extends from height 0 to 1.5 rows. The legs part as they rise, and dip at both
+/// Light from the legs of a loop that reaches from height 0 to 1.5 rows. The legs part as they rise, and dip at both
 /// ends.
 fn leg(x: f32, t: f32) -> f32 {
     let middle = 0.06 + 0.26 * (PI / 2.0 * (t / 1.2).min(1.0)).sin();
@@ -180,7 +180,7 @@ mod tests {
         // A jersey of 187 g/m2: yarn of 0.218 mm, 11.5 columns and 13.3 rows a centimetre.
         check(Weave::Jersey, 0.187, 0.41e-3, 0.871, 0.754);
         check(Weave::Rib, 0.187, 0.41e-3, 1.743, 0.754);
-        // So heavy for its thickness that the yarns would overlap: they touch instead.
+        // So heavy for this thickness that the yarns would overlap; they touch instead.
         check(Weave::Plain, 2.0, 0.4e-3, 0.4, 0.4);
     }
 

@@ -1,4 +1,4 @@
-//! Data of a report: plain values, lengths in metres, times in seconds. The page formats them.
+//! Data of a report: plain values, with lengths in metres and times in seconds. The pages format them.
 
 use fit::measure::{Chi, Metrics, metrics};
 use fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
@@ -18,8 +18,7 @@ pub struct ReportData {
     pub made: String,
     /// Recommended simulator for every garment and fit class.
     pub verdicts: Vec<Verdict>,
-    /// Findings of the audit, such as exclusions and mismatches of inputs. Failed and unconverged runs need not be
-    /// listed.
+    /// Findings of the audit, such as exclusions and mismatches of inputs. The page adds failed and unconverged runs.
     pub audit: Vec<AuditNote>,
     /// Program version, git commit, machine, seeds and solver parameters, in the order of the page.
     pub provenance: Vec<Fact>,
@@ -43,7 +42,7 @@ pub struct ReportData {
     pub runs: Vec<TryOn>,
     /// Cases that both simulators draped.
     pub pairs: Vec<Pair>,
-    /// Statistics of these cases.
+    /// Statistics of these cases; `None` without cases.
     pub evidence: Option<Evidence>,
     /// Methods, one paragraph each.
     pub methods: Vec<String>,
@@ -66,17 +65,17 @@ pub struct Verdict {
     pub basis: Basis,
     /// Finding of the study.
     pub finding: Finding,
-    /// Mean EI of FEM-GS less that of Hybrid-GS, if both ran.
+    /// Mean EI of FEM-GS less that of Hybrid-GS; `None` unless both ran.
     pub effect: Option<f64>,
-    /// Ends of its confidence interval, for two subjects or more.
+    /// Ends of the confidence interval of that mean; `None` for fewer than two subjects.
     pub interval: Option<(f64, f64)>,
-    /// p of the sign-flip test after Holm's correction, if there are enough subjects.
+    /// p of the sign-flip test after Holm's correction; `None` for too few subjects.
     pub p_holm: Option<f64>,
     /// Number of subjects.
     pub subjects: usize,
     /// One sentence of explanation.
     pub reason: String,
-    /// Evidence that would settle or reverse it.
+    /// Evidence that would settle or reverse the recommendation.
     pub would_settle: String,
 }
 
@@ -136,29 +135,29 @@ pub struct Fact {
 pub struct FabricFacts {
     /// Name of the fabric, as the study has it.
     pub name: String,
-    /// Its properties with units.
+    /// Properties with their units.
     pub facts: Vec<Fact>,
-    /// Source of the properties.
+    /// Publication or measurement that the properties come from.
     pub source: String,
 }
 
 /// A column of the subject table.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Name of the measurement in ISO 8559-1.
+    /// Name of the measurement as in ISO 8559-1.
     pub name: String,
-    /// Unit of the values (`mm`, `kg`), which are shown unchanged.
+    /// Unit of the column's values (`mm`, `kg`), which the page does not convert.
     pub unit: String,
-    /// Number of decimals of its values.
+    /// Number of decimals of the values.
     pub decimals: usize,
 }
 
-/// The subjects and their measurements.
+/// Subjects and their measurements.
 #[derive(Clone, Debug, Default)]
 pub struct SubjectTable {
-    /// Measurements.
+    /// Columns, one for each measurement.
     pub columns: Vec<Column>,
-    /// Subjects.
+    /// Rows, one for each subject.
     pub rows: Vec<Subject>,
 }
 
@@ -169,7 +168,7 @@ pub struct Subject {
     pub name: String,
     /// Words about the subject (sex, source of the body).
     pub note: String,
-    /// A value for each column; `None` if it is not known.
+    /// A value for each column; `None` where it is not known.
     pub values: Vec<Option<f64>>,
 }
 
@@ -180,7 +179,7 @@ pub struct Drawing {
     pub garment: String,
     /// Name of the size that is drawn.
     pub size: String,
-    /// Drawing as SVG. It is shown as a picture, so that no script in it runs.
+    /// Drawing as SVG. The page shows it as a picture, so that no script in it runs.
     pub svg: String,
 }
 
@@ -193,7 +192,7 @@ pub struct EaseMatrix {
     pub sizes: Vec<String>,
     /// Subjects, one to a column.
     pub subjects: Vec<String>,
-    /// Deciding ease by size, then subject; `None` if a girth is not known.
+    /// Ease that decides the fit, by size and then subject; `None` where a girth is not known.
     pub cells: Vec<Vec<Option<Ease>>>,
 }
 
@@ -208,13 +207,13 @@ pub struct SizeTip {
     pub size: String,
     /// Reason for that size, in words.
     pub reason: String,
-    /// Tension at each level in the FEM-GS drape of that size, if there is one.
+    /// Tension at each level in the FEM-GS drape of that size; empty without a drape.
     pub tension: String,
-    /// Picture of it that a customer should see.
+    /// Picture of that size that a customer should see.
     pub shown: String,
 }
 
-/// Data of the fit report besides the runs.
+/// Data of the fit report, besides the runs.
 #[derive(Clone, Debug, Default)]
 pub struct FitData {
     /// Fit of each garment on each subject.
@@ -236,13 +235,13 @@ pub struct FitSheet {
     pub subject: String,
     /// Intended fit; empty if there is none.
     pub intended: String,
-    /// Recommended size, and its worst deviation.
+    /// Recommended size with its worst deviation, in words.
     pub verdict: String,
-    /// Balance and pressure of the recommended size, in words; empty without its drape.
+    /// Balance and pressure of the recommended size, in words; empty where it has no drape.
     pub drape: String,
-    /// The recommended size and its neighbours, in order.
+    /// Recommended size and its neighbours, from the smallest.
     pub sizes: Vec<FitSize>,
-    /// Simulator of the measured drapes, if there are any.
+    /// Simulator of the drapes that are measured; `None` without a drape.
     pub simulator: Option<Simulator>,
     /// Tables of ease by level, balance and pressure, and points of measure.
     pub tables: Vec<FitTable>,
@@ -257,9 +256,9 @@ pub struct FitSize {
     pub size: String,
     /// True for the recommended size.
     pub is_to_wear: bool,
-    /// True if it fits. If the recommended size does not, none does.
+    /// True if the size fits. Where the recommended size does not fit, no size does.
     pub fits: bool,
-    /// Its worst deviation.
+    /// Worst deviation of the size, in words.
     pub words: String,
 }
 
@@ -268,7 +267,7 @@ pub struct FitSize {
 pub struct FitTable {
     /// Content of the table, with the unit.
     pub caption: String,
-    /// Headings of its columns, except that of the names.
+    /// Headings of the columns after that of the row names.
     pub columns: Vec<String>,
     /// Rows, from the top; each has a cell for every column.
     pub rows: Vec<FitRow>,
@@ -279,18 +278,18 @@ pub struct FitTable {
 pub struct FitRow {
     /// Subject of the row, such as a level of the body.
     pub name: String,
-    /// A cell for each column.
+    /// Cells, one for each column.
     pub cells: Vec<FitCell>,
 }
 
 /// A cell of a table of a fit sheet.
 #[derive(Clone, Debug, Default)]
 pub struct FitCell {
-    /// The number as text, in the unit of the table.
+    /// Number as text, in the unit of the table.
     pub text: String,
     /// Remark on the number.
     pub note: String,
-    /// Position relative to its target, if it has one.
+    /// Position relative to the target; `None` without a target.
     pub verdict: Option<FitVerdict>,
 }
 
@@ -308,41 +307,41 @@ pub enum FitVerdict {
 /// Outcome of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Residual within tolerance, seams closed.
+    /// Residual within tolerance, all seams closed.
     Converged,
-    /// Stopped before convergence, and measured nevertheless.
+    /// Stopped before convergence, but measured.
     NotConverged,
     /// No result, for this reason.
     Failed(String),
-    /// Published numbers; the course of the computation is not known.
+    /// Published numbers, of a computation whose course is not known.
     Printed,
 }
 
 /// One measurement of one run.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// Name (`neck girth`).
+    /// Name, such as `neck girth`.
     pub name: String,
-    /// Number, pattern and garment length.
+    /// Number, pattern length and draped length.
     pub chi: Chi,
     /// True for a closed girth, false for an open length.
     pub closed: bool,
-    /// True if it lies on a free edge, to which nothing is sewn.
+    /// True if the measurement lies on a free edge, to which nothing is sewn.
     pub free_edge: bool,
-    /// True if the simulator restores its length by construction.
+    /// True if the simulator sets the length to that of the pattern by construction.
     pub controlled: bool,
-    /// Value of chi in the thesis for the same case, if there is one.
+    /// Chi that the thesis prints for the same case, if any.
     pub published_chi: Option<f64>,
-    /// Printed value of chi, if it is not the ratio of the lengths printed beside it.
+    /// Printed chi, where it is not the ratio of the lengths printed beside it.
     pub misprint: Option<f64>,
 }
 
 /// A picture file.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Bytes of a PNG or JPEG file, recognised by its first bytes.
+    /// Bytes of a PNG or JPEG file; its first bytes tell which.
     pub bytes: Vec<u8>,
-    /// Address of the full-size file relative to the page; empty if there is none.
+    /// Address of the full-size file relative to the page; empty without one.
     pub file: String,
     /// Alternative text.
     pub alt: String,
@@ -350,12 +349,12 @@ pub struct Picture {
     pub caption: String,
 }
 
-/// A picture of a scalar field. The page puts its legend below it.
+/// A picture of a scalar field. The page draws the legend below it.
 #[derive(Clone, Debug)]
 pub struct FieldMap {
-    /// The picture, without a legend of its own.
+    /// Picture without a legend.
     pub picture: Picture,
-    /// Scale of its colours.
+    /// Scale of the picture's colours.
     pub scale: Scale,
 }
 
@@ -364,62 +363,62 @@ pub struct FieldMap {
 pub struct TryOn {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the garment without the seed of its start. Runs that differ in the seed alone are repeats.
+    /// Name of the garment without the seed of its start: runs that differ only in the seed are repeats of one case.
     pub case: String,
-    /// Number of the run among several with the same inputs, from 1.
+    /// Number of the run among those with the same inputs, from 1.
     pub repeat: u32,
     /// Name of the size, such as `M`.
     pub size: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator that draped it.
+    /// Simulator that draped the garment.
     pub simulator: Simulator,
     /// Name of the fabric, as the study has it.
     pub fabric: String,
     /// Outcome of the run.
     pub outcome: Outcome,
-    /// Ease that decides its fit class.
+    /// Ease that decides the fit class; `None` where it is not known.
     pub ease: Option<Ease>,
-    /// Its measurements; empty when it failed.
+    /// Measurements; empty for a failed run.
     pub measured: Vec<Measured>,
     /// Number of vertices after sewing.
     pub vertices: usize,
     /// Number of triangles of the draped mesh.
     pub faces: usize,
-    /// Number of iterations over all mesh levels.
+    /// Number of iterations, summed over all mesh levels.
     pub iterations: u32,
-    /// Final root mean square residual over the mean weight of a vertex.
+    /// Final root mean square residual force divided by the mean weight of a vertex.
     pub residual: f64,
     /// Residual by iteration.
     pub residuals: Vec<(u32, f64)>,
-    /// Deepest penetration, m.
+    /// Deepest penetration into the body, m.
     pub penetration_max_m: f64,
     /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
     /// Wall time, s.
     pub wall_s: f64,
-    /// Front, side, back, quarter.
+    /// Pictures from the front, side, back and quarter.
     pub views: Vec<Picture>,
-    /// Strain, gap or other maps.
+    /// Maps of strain, gap and other fields.
     pub maps: Vec<FieldMap>,
 }
 
 impl TryOn {
-    /// E, SD and EI over the measurements that `keep` selects; `None` if there are none.
+    /// E, SD and EI of the measurements that `keep` selects; `None` if it selects none.
     #[must_use]
     pub fn metrics(&self, keep: impl Fn(&Measured) -> bool) -> Option<Metrics> {
         let chis: Vec<Chi> = self.measured.iter().filter(|m| keep(m)).map(|m| m.chi.clone()).collect();
         metrics(&chis)
     }
 
-    /// Returns its measurement with a number.
+    /// Returns the measurement of a number.
     #[must_use]
     pub fn measurement(&self, no: u32) -> Option<&Measured> {
         self.measured.iter().find(|m| m.chi.no == no)
     }
 }
 
-/// Measurements that any of the runs has, in the order of their numbers, each as the first run describes it.
+/// Measurements that any of the runs has, by number, each as the first run describes it.
 pub(super) fn measurements<'a>(runs: &[&'a TryOn]) -> Vec<&'a Measured> {
     let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
     all.sort_by_key(|m| m.chi.no);
@@ -430,7 +429,7 @@ pub(super) fn measurements<'a>(runs: &[&'a TryOn]) -> Vec<&'a Measured> {
 /// A file beside the page.
 #[derive(Clone, Debug)]
 pub struct RawLink {
-    /// Its relative address.
+    /// Address of the file, relative to the page.
     pub href: String,
     /// Content of the file.
     pub label: String,

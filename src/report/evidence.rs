@@ -1,5 +1,5 @@
-//! Section of the page on the evidence from cases that both simulators draped: statistics, differences with intervals,
-//! crossovers, and sensitivity to single measurements.
+//! Section of the page on the cases that both simulators draped: statistics, differences with intervals, crossovers,
+//! and sensitivity to single measurements.
 
 use super::ReportError;
 use super::chart::{Chart, Difference, crossover_chart, difference_chart};
@@ -13,7 +13,7 @@ pub(super) struct EvidencePart {
     /// Chart of means with intervals, for every answer and garment.
     pub differences: Option<Chart>,
     pub crossovers: Vec<Crossing>,
-    /// A chart for each garment: the difference without each measurement in turn.
+    /// Charts, one for each garment, of the difference with each measurement left out in turn.
     pub without: Vec<Chart>,
     /// Differences without free edges and without controlled measurements.
     pub told_apart: Vec<ToldApart>,
@@ -24,7 +24,7 @@ pub(super) struct EvidencePart {
 /// A row of statistics.
 pub(super) struct Statistic {
     pub name: String,
-    /// Style class of its fit; empty for all fits together.
+    /// Style class of the fit; empty for all fits together.
     pub class: &'static str,
     pub fit: String,
     pub cells: Vec<String>,
@@ -36,7 +36,7 @@ pub(super) struct Crossing {
     pub words: String,
 }
 
-/// A garment with all measurements, or without some.
+/// Differences of a garment, with all measurements or without some.
 pub(super) struct ToldApart {
     pub name: String,
     pub what: String,
@@ -127,7 +127,7 @@ fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
     Ok(if rows.is_empty() { None } else { Some(difference_chart(&data.title, "differences", &rows, None)?) })
 }
 
-/// Charts of all garments together, then of each, if there are several.
+/// Charts for all garments together and, if there are several, for each.
 fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
     let garments = super::text::distinct(data.pairs.iter().map(|pair| pair.garment.as_str()));
     let each = if garments.len() > 1 { garments } else { vec![] };
@@ -148,7 +148,7 @@ fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
     Ok(all)
 }
 
-/// Chart of the difference of a garment without each measurement in turn.
+/// Chart of a garment's difference with each measurement left out in turn.
 fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, ReportError> {
     let row =
         |rest: &fit::Without| Difference { label: format!("without {}", rest.what), mean: rest.mean, interval: None };
@@ -157,7 +157,7 @@ fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, Repor
     Ok(if rows.is_empty() { None } else { Some(difference_chart(name, "without", &rows, whole)?) })
 }
 
-/// Rows of a garment with all measurements, then without free edges and without controlled ones.
+/// Rows of a garment: with all measurements, without free edges, without controlled measurements.
 fn told(name: &str, analysis: &Analysis) -> Vec<ToldApart> {
     let row = |what: String, mean: f64, [fem, hybrid]: [usize; 2]| ToldApart {
         name: name.to_owned(),

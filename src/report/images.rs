@@ -8,9 +8,9 @@ use super::text::number;
 
 /// A picture embedded in the page.
 pub(super) struct Image {
-    /// Address of the picture, which is a data URL.
+    /// Address of the picture: a data URL.
     pub address: String,
-    /// The full-size file beside the page; empty where there is none.
+    /// Full-size file beside the page; empty without one.
     pub file: String,
     pub alt: String,
     pub caption: String,
@@ -63,7 +63,7 @@ impl MapImage {
     }
 }
 
-/// Data URL of a file of a media type.
+/// Data URL of bytes of a media type.
 pub(super) fn address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }

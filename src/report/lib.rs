@@ -1,9 +1,9 @@
 //! Report of a study: self-contained HTML pages, and their charts.
 //!
-//! [`ReportData`] holds plain values, and [`files`] turns them into pages. A page refers to no other machine: pictures
-//! and pattern drawings are embedded. The fit report has one script, that of its viewer. The page that compares
-//! simulators has none. Pictures are best given as JPEG ([`render::jpeg`]): six runs with five pictures each stay below
-//! 3 MB. Charts are SVG in the page, and [`Chart::png`] gives the same as a file.
+//! [`ReportData`] holds plain values, and [`files`] turns them into pages. A page needs no network: pictures and
+//! pattern drawings are embedded. The fit report has one script, its viewer; the page that compares simulators has
+//! none. JPEG ([`render::jpeg`]) suits pictures best: six runs with five pictures each stay below 3 MB. Charts are SVG
+//! in the page, and [`Chart::png`] makes files of them.
 
 pub mod chart;
 pub mod data;
@@ -25,7 +25,7 @@ pub use names::{FileNames, file_part};
 
 use askama::Template;
 
-/// Reason for which a report could not be made.
+/// Reason why a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A chart could not be drawn.
@@ -34,7 +34,7 @@ pub enum ReportError {
     /// A picture could not be made.
     #[error("picture: {0}")]
     Picture(#[from] render::RenderError),
-    /// The page could not be filled in.
+    /// The page's template could not be filled in.
     #[error("page: {0}")]
     Page(#[from] askama::Error),
     /// The drapes could not be written.
@@ -48,7 +48,7 @@ pub enum ReportError {
     Link(String),
 }
 
-/// Purpose of a report. Its first page serves the purpose, and the other page is beside it.
+/// Purpose of a report, which decides its first page; the page for the other purpose lies beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Fit of the garments.
@@ -94,7 +94,7 @@ pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>
     Ok(files)
 }
 
-/// Makes the page that compares the simulators, with distinct names of its charts.
+/// Makes the page that compares the simulators, with file names for its charts that are not yet among `names`.
 fn page<'a>(data: &'a ReportData, fit: Option<&'a str>, names: &mut FileNames) -> Result<page::Page<'a>, ReportError> {
     let mut page = page::Page::new(data, fit)?;
     page.charts().for_each(|chart| chart.name_among(names));

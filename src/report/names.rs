@@ -1,26 +1,26 @@
-//! Parts of file names made from free texts: the names of garments, sizes, subjects, fabrics and studies.
+//! Parts of file names, made from free texts: names of garments, sizes, subjects, fabrics and studies.
 
 use std::collections::BTreeSet;
 
 /// Greatest length of a part, bytes. File systems allow names of 255 bytes, and a part is combined with words and an
 /// extension.
 const MOST_BYTES: usize = 160;
-/// Replacement for a name without letter or digit.
+/// Replacement for a name without letters and digits.
 const NAMELESS: &str = "unnamed";
-/// Device names, which no file on Windows may have before its first dot.
+/// Device names: on Windows, no file may have one before its first dot.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
-/// Device names that are followed by a number.
+/// Device names that a number follows.
 const NUMBERED: [&str; 2] = ["com", "lpt"];
 
-/// Converts a name to a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay. Anything
-/// else between them becomes one `-`. The part is not empty, does not begin with a dot and has a bounded length.
+/// Converts a name to a part of a file name. Letters and digits of any script, `_`, `.`, `+` and `=` stay; anything
+/// else between them becomes one `-`. The part is not empty, does not begin with a dot and is at most 160 bytes long.
 /// Different names may give the same part: [`FileNames`] makes them distinct.
 #[must_use]
 pub fn file_part(name: &str) -> String {
     let mut part = String::new();
     let mut is_gap = false;
     for letter in name.chars() {
-        // A dot stays only within a word, since two in a row lead out of a folder.
+        // A dot stays only within a word, since `..` leads out of a folder.
         if !stays(letter) || letter == '.' && (is_gap || part.ends_with('.')) {
             is_gap = true;
             continue;
@@ -42,7 +42,7 @@ pub fn file_part(name: &str) -> String {
 
 /// True if a character is allowed in a file name on any system, and unescaped in a URL.
 fn stays(letter: char) -> bool {
-    // Signs within words, such as vowels and tones, are combining marks of their scripts and no letters.
+    // Vowel signs and tones within words are combining marks of their scripts, and not letters.
     let is_mark = matches!(letter, '\u{300}'..='\u{1fff}' | '\u{3099}' | '\u{309a}' | '\u{a800}'..='\u{abff}');
     letter.is_alphanumeric() || "_.+=".contains(letter) || (is_mark && !letter.is_whitespace())
 }
@@ -55,12 +55,12 @@ fn is_device(part: &str) -> bool {
     DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(is_numbered)
 }
 
-/// Parts of file names in one folder, all distinct regardless of case.
+/// Parts of file names in one folder, distinct even without regard to case.
 #[derive(Clone, Debug, Default)]
 pub struct FileNames(BTreeSet<String>);
 
 impl FileNames {
-    /// Converts a name to a part that no other name has. A number is appended if the plain part is taken.
+    /// Converts a name to a part that no other name has, by appending a number where the plain part is taken.
     pub fn part(&mut self, name: &str) -> String {
         let plain = file_part(name);
         let numbered = (2..).map(|number: usize| format!("{plain}-{number}"));

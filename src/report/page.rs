@@ -1,4 +1,4 @@
-//! The page that compares simulators, as its template takes it: numbers are formatted, and pictures are data URLs.
+//! Data of the page that compares simulators, ready for its template: numbers are texts, and pictures are data URLs.
 
 use super::ReportError;
 use super::chart::{Chart, ease_chart, time_chart};
@@ -56,7 +56,7 @@ struct Card {
     glyph: &'static str,
     simulator: &'static str,
     basis: &'static str,
-    /// The finding by its name in SQL, for programs that read the page.
+    /// Name of the finding in SQL, for programs that read the page.
     verdict: &'static str,
     finding: &'static str,
     rule_says: &'static str,
@@ -100,7 +100,7 @@ struct Fit {
     glyph: &'static str,
     ease: String,
     words: String,
-    /// The deciding level and the two girths there.
+    /// Deciding level, with the girths of pattern and body there.
     girths: String,
     /// Picture that a customer should see.
     shown: String,
@@ -115,7 +115,7 @@ impl<'a> Page<'a> {
         of_groups.chain(of_evidence).chain(&mut self.ease_chart).chain(&mut self.time_chart).chain(of_repeats)
     }
 
-    /// Fills the page from the data of a study; `fit` is the address of the fit report.
+    /// Makes the page from the data of a study. `fit` is the address of the fit report.
     pub fn new(data: &'a ReportData, fit: Option<&'a str>) -> Result<Self, ReportError> {
         let pictures = data.runs.iter().flat_map(|r| r.views.iter().chain(r.maps.iter().map(|m| &m.picture)));
         let links = data.raw.iter().map(|l| &l.href).chain(pictures.map(|p| &p.file));
@@ -149,7 +149,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// True if all runs are numbers from published tables.
+/// True if all runs come from published tables.
 fn are_printed(runs: &[TryOn]) -> bool {
     runs.iter().all(|run| run.outcome == Outcome::Printed)
 }
@@ -230,7 +230,7 @@ fn tiles(runs: &[TryOn]) -> Vec<Tile> {
     tiles
 }
 
-/// A card for every garment and fit class. Where the study has no answer, it is the rule's.
+/// A card for every garment and fit class. Without a finding of the study it follows the rule of the thesis.
 fn verdicts(data: &ReportData) -> Vec<Garment> {
     let names =
         distinct(data.verdicts.iter().map(|v| v.garment.as_str()).chain(data.runs.iter().map(|r| r.garment.as_str())));
@@ -291,7 +291,7 @@ fn card(verdict: &Verdict) -> Card {
     }
 }
 
-/// Failed and unconverged runs first, then the notes of the study.
+/// Notes of the page: failed and unconverged runs first, then the study's own.
 fn audit(data: &ReportData) -> Vec<Note> {
     let of_run = |run: &TryOn| {
         let name = format!(

@@ -9,8 +9,8 @@ use super::text::{count, distinct, number, simulator_name};
 /// Data of the section.
 pub(super) struct RepeatPart {
     pub words: String,
-    /// Name of a case, and its cells: simulator, number of repeats, greatest range of chi, its measurement, least and
-    /// greatest EI.
+    /// Name of a case, and its cells: simulator, number of repeats, greatest range of chi, measurement that has this
+    /// range, least and greatest EI.
     pub rows: Vec<(String, Vec<String>)>,
     /// One chart for each garment.
     pub charts: Vec<Chart>,

@@ -12,12 +12,12 @@ pub(super) struct Group {
     pub id: String,
     pub title: String,
     pub strips: Vec<Strip>,
-    /// True if a run was simulated, so that its course is known.
+    /// True if a run was simulated here, so that its course is known.
     pub course: bool,
     pub series: Vec<Series>,
     pub metrics: Vec<MetricsRow>,
     pub heat: Heat,
-    /// Mean chi of each series, if there are several.
+    /// Mean chi of each series; `None` for a single series.
     pub side_by_side: Option<Heat>,
     /// Charts of E, SD and EI, with the simulators side by side.
     pub metric_charts: Vec<Chart>,
@@ -39,7 +39,7 @@ pub(super) struct Strip {
     pub class: &'static str,
     pub fit: String,
     pub status: String,
-    /// Reason for which there is no result.
+    /// Reason why there is no result.
     pub failure: Option<String>,
     pub images: Vec<Image>,
     pub maps: Vec<MapImage>,
@@ -57,14 +57,14 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Caption of its chart of chi.
+    /// Caption of the series' chart of chi.
     pub fn chi_words(&self) -> String {
         let published = if self.published { " Hollow marks are the published values." } else { "" };
         format!("{}: chi of each measurement and subject.{published}", self.title)
     }
 }
 
-/// One measurement over the runs of a series.
+/// One measurement in all runs of a series.
 pub(super) struct ChiRow {
     pub no: u32,
     pub name: String,
@@ -82,7 +82,7 @@ pub(super) struct ChiCell {
     pub l3d: String,
     pub chi: String,
     pub published: Option<String>,
-    /// Value that is printed in its place.
+    /// Value that the thesis prints in place of this one.
     pub misprint: Option<String>,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct MetricsRow {
     pub course: Vec<String>,
 }
 
-/// Table of chi with coloured cells: measurements in rows, runs or series in columns.
+/// Table of chi with coloured cells: a row for each measurement, a column for each run or series.
 pub(super) struct Heat {
     pub columns: Vec<String>,
     pub rows: Vec<(String, Vec<Option<HeatCell>>)>,
@@ -163,12 +163,12 @@ fn group(index: usize, title: String, runs: &[&TryOn], name_fabric: bool) -> Res
     })
 }
 
-/// Name of the subject, with the number of the repeat if it is not the first.
+/// Name of the subject, with the number of the repeat from the second on.
 fn wearer(run: &TryOn) -> String {
     if run.repeat > 1 { format!("{}, repeat {}", run.subject, run.repeat) } else { run.subject.clone() }
 }
 
-/// Fit of a run as a style class and in words.
+/// Fit of a run: style class, and words.
 fn fit(run: &TryOn) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
         (e.class.as_str(), format!("{} {}, {} mm", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m())))
@@ -272,7 +272,7 @@ fn chi_row(measured: &Measured, runs: &[&TryOn]) -> ChiRow {
     }
 }
 
-/// E, SD and EI below a table of chi, and EI without free edges or controlled measurements.
+/// Rows below a table of chi: E, SD, EI, and EI without free edges or controlled measurements.
 fn summary(runs: &[&TryOn]) -> Vec<(&'static str, Vec<String>)> {
     type Keep = fn(&Measured) -> bool;
     type Pick = fn(&fit::measure::Metrics) -> f64;

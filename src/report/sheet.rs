@@ -1,5 +1,4 @@
-//! The fit report: recommended size, ease by level, hang and pressure. The comparison of the simulators is on the other
-//! page.
+//! The fit report: recommended size, ease by level, balance and pressure. Another page compares the simulators.
 
 use base64::Engine;
 use sha2::{Digest, Sha256};
@@ -23,7 +22,7 @@ pub(super) struct FitPage<'a> {
     /// Data of the viewer as JSON; empty without drapes.
     drapes: String,
     script: &'static str,
-    /// Hash by which the content security policy of the page allows the script.
+    /// Hash of the script, by which the page's content security policy allows it.
     script_hash: String,
 }
 
@@ -31,9 +30,9 @@ pub(super) struct FitPage<'a> {
 struct Sheet<'a> {
     id: String,
     sheet: &'a FitSheet,
-    /// A column of pictures for each size.
+    /// Pictures, one column for each size.
     columns: Vec<Column>,
-    /// Inline drawings of the sections.
+    /// Charts of the cross sections, as SVG.
     sections: Vec<String>,
     /// Source of the drape that is shown and measured, in words.
     source: String,
@@ -50,7 +49,7 @@ struct Column {
 }
 
 impl<'a> FitPage<'a> {
-    /// Fills the page from the data of a study; `other` is the address of the comparison.
+    /// Makes the page from the data of a study. `other` is the address of the comparison.
     pub fn new(data: &'a ReportData, other: &'a str) -> Result<Self, ReportError> {
         let sheets = data.fit.sheets.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
         let drawing = |drawing: &super::data::Drawing| {
@@ -111,8 +110,8 @@ impl<'a> Sheet<'a> {
 }
 
 impl Column {
-    /// Selects front, side, back and stretch of the measured drape `shown`. For a garment smaller than the body it adds
-    /// the gap map of Hybrid-GS (`beside`), which shows where the garment does not close.
+    /// Selects front, side, back and stretch of the measured drape `shown`. A garment smaller than the body also gets
+    /// the gap map of the Hybrid-GS drape `beside`, which shows where the garment does not close.
     fn new(size: &FitSize, shown: Option<&TryOn>, beside: Option<&TryOn>) -> Result<Self, ReportError> {
         let is = |picture: &&Picture, name: &str| picture.file.contains(name);
         let views = shown.into_iter().flat_map(|run| &run.views);
@@ -150,7 +149,7 @@ impl FitVerdict {
         }
     }
 
-    /// Symbol before its words.
+    /// Symbol before the words of a cell.
     fn glyph(self) -> &'static str {
         match self {
             Self::Tight => "\u{25bc}",

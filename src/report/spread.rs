@@ -1,4 +1,4 @@
-//! Spread of the results of cases that were simulated more than once.
+//! Spread between the results of cases that were simulated more than once.
 
 use super::data::{Measured, TryOn, measurements};
 use fit::Simulator;
@@ -9,16 +9,16 @@ pub(super) struct Repeats {
     pub place: String,
     pub simulator: Simulator,
     pub runs: usize,
-    /// Least and greatest EI of the repeats.
+    /// Least and greatest EI.
     pub ei: [f64; 2],
     pub spreads: Vec<Spread>,
 }
 
-/// Range of the repeats of a case in one measurement.
+/// Range of one measurement over the repeats of a case.
 pub(super) struct Spread {
     pub no: u32,
     pub name: String,
-    /// Greatest less least chi.
+    /// Greatest minus least chi.
     pub chi: f64,
 }
 

@@ -210,7 +210,7 @@ fn repeats_are_compared_where_there_are_some() {
     data.runs.push(again(&second, "Tee", 2, 1.002));
     let page = words(&html(&data).unwrap());
     assert!(page.contains("2 cases were simulated more than once") && page.contains("1 of them gave"), "{page}");
-    // 1.0044 less 0.9980; EI (0.0044 + 0.04) / 2 and (0.002 + 0.04) / 2.
+    // Chi 1.0044 less 0.9980; EI (0.0044 + 0.04) / 2 and (0.002 + 0.04) / 2.
     assert!(page.contains("Tee, S on i, jersey | FEM-GS | 3 | 0.0064 | #1 hem girth | 0.0210 | 0.0222"), "{page}");
     assert!(page.contains("Tee, S on ii, jersey | FEM-GS | 2 | 0.0000"), "{page}");
     assert!(page.contains("ii, repeat 2"), "{page}");
@@ -285,7 +285,7 @@ fn charts_place_marks_where_values_are() {
     let chi = chart::chi_chart("Tee", &runs, &labels).unwrap();
     assert!(chi.svg().contains("#6 neck girth") && chi.svg().contains("\n1.00\n"), "{}", chi.svg());
     let ei = chart::metric_chart("Tee", chart::Metric::Ei, &runs, &labels).unwrap();
-    // (0.002 + 0.04) / 2 and (0.002 + 0.10) / 2, in the bars' own labels.
+    // EI (0.002 + 0.04) / 2 and (0.002 + 0.10) / 2, in the bars' own labels.
     assert!(ei.svg().contains("0.021") && ei.svg().contains("0.051"), "{}", ei.svg());
     let count = |picture: &image::RgbaImage, c: Rgb| picture.pixels().filter(|p| p.0[..3] == [c.0, c.1, c.2]).count();
     let picture = image::load_from_memory(&ei.png().unwrap()).unwrap().to_rgba8();

@@ -1,4 +1,4 @@
-//! Formats of numbers and names, and the mean and standard deviation of a row.
+//! Formats of numbers and names, and the mean and standard deviation of values.
 
 use fit::{Ease, Finding, FitClass, Simulator};
 
@@ -12,13 +12,13 @@ pub(super) fn mm(metres: f64) -> String {
     number(metres * 1e3, 1)
 }
 
-/// Formats a number with a minus sign (U+2212); a dash if it is not finite.
+/// Formats a number with U+2212 as its minus sign; a dash for a number that is not finite.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
     let text = format!("{value:.decimals$}");
-    // "-0.0" is zero to a reader.
+    // Readers take "-0.0" for an error, so zero has no sign.
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().any(|b| (b'1'..=b'9').contains(&b)) => format!("\u{2212}{rest}"),
         Some(rest) => rest.into(),
@@ -67,7 +67,7 @@ pub(super) fn finding_words(finding: Finding) -> &'static str {
     }
 }
 
-/// Symbol of a fit class: the more of the circle is filled, the tighter the fit.
+/// Symbol of a fit class: a circle, filled more the tighter the fit is.
 pub(super) fn fit_glyph(class: FitClass) -> &'static str {
     match class {
         FitClass::Tight => "●",
@@ -86,7 +86,7 @@ pub(super) fn fit_words(ease: &Ease) -> String {
     format!("{}{mark}", ease.class.as_str())
 }
 
-/// "1 run", "3 runs".
+/// Counts a word: "1 run", "3 runs".
 pub(super) fn count(n: usize, word: &str) -> String {
     if n == 1 { format!("1 {word}") } else { format!("{n} {word}s") }
 }

@@ -1,5 +1,5 @@
-//! Colours of charts and tables. Charts have them by value. On the page the neutral ones become style variables, so
-//! that a chart follows the light or dark scheme of the reader.
+//! Colours of charts and tables. In chart files they are fixed. On the page the neutral ones become style variables, so
+//! that a chart follows the reader's light or dark scheme.
 
 use fit::Simulator;
 use render::{ColourMap, Rgb};
@@ -24,8 +24,8 @@ pub(super) const VARIABLES: [(Rgb, &str); 5] = [
     (PAPER, "var(--paper)"),
 ];
 
-/// Colours of subjects in charts, which are distinguishable with colour vision deficiencies [Okabe & Ito 2008]. Those
-/// too pale for lines on white are darkened.
+/// Colours of subjects in charts, for readers with any colour vision [Okabe & Ito 2008]. Those too pale for lines on
+/// white are darkened.
 pub(super) const SUBJECTS: [Rgb; 7] = [
     Rgb(0x00, 0x72, 0xb2),
     Rgb(0xd5, 0x5e, 0x00),
@@ -47,8 +47,8 @@ pub(super) fn simulator(simulator: Simulator) -> Rgb {
 /// Half range of the colour scale of chi around 1, the same in every table.
 pub(super) const CHI_REACH: f64 = 0.15;
 
-/// Background of a cell for a chi, and the text colour on it: black or white, one of which always has a contrast of at
-/// least 4.5.
+/// Background of a cell for a chi, and the text colour on it: black or white, whichever has more contrast, which is
+/// always at least 4.5.
 pub(super) fn chi_cell(chi: f64) -> (Rgb, Rgb) {
     const BLACK: Rgb = Rgb(0, 0, 0);
     let ground = ColourMap::Diverging.at(0.5 + (chi - 1.0) / (2.0 * CHI_REACH));
@@ -78,7 +78,7 @@ mod tests {
         }
     }
 
-    /// The scheme colours of the style sheet, read from it.
+    /// Colours of both schemes, read from the style sheet.
     #[test]
     fn style_sheet_schemes_read() {
         let css = include_str!("templates/report/style.css");

@@ -1,4 +1,4 @@
-//! The fit of a garment, size by size: its fit card beside the measurements of its drapes.
+//! Fit of a garment, size by size: its fit card, and measurements of its drapes.
 
 use serde::Serialize;
 
@@ -6,10 +6,10 @@ use crate::fit_card::{FitCard, fit_cards};
 use fit::Simulator;
 use store::{JobId, Result, Store};
 
-/// Difference of a hem's heights below which it counts as level, mm: the eye does not see it on a moving person.
+/// Difference between the heights of a hem below which it counts as level, mm: nobody sees less on a moving person.
 const LEVEL_MM: f64 = 5.0;
 
-/// A quantity of a garment's balance.
+/// A number of a garment's balance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Balance {
     /// Name of the quantity, such as `hem_front`.
@@ -27,7 +27,7 @@ pub struct RegionPressure {
     pub region: String,
     /// Area under pressure, cm2.
     pub area_cm2: f64,
-    /// Mean over that area, kPa.
+    /// Mean pressure on that area, kPa.
     pub mean_kpa: f64,
     /// Pressure that 1 % of the area exceeds, kPa.
     pub most_kpa: f64,
@@ -35,31 +35,31 @@ pub struct RegionPressure {
     pub most_mmhg: f64,
 }
 
-/// A fold or drag line: a line along which cloth stands off the skin.
+/// A fold or drag line: a line along which the cloth stands off the skin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoldLine {
     /// `fold` or `drag_line`.
     pub kind: String,
-    /// Length in its own direction, mm.
+    /// Length along the fold, mm.
     pub length_mm: f64,
     /// Angle from the vertical, degrees.
     pub from_vertical_deg: f64,
-    /// Height of its middle above the floor, mm.
+    /// Height of the fold's middle above the floor, mm.
     pub height_mm: f64,
-    /// Direction of its middle, degrees from the front towards the subject's right.
+    /// Direction of the fold's middle, degrees from the front towards the subject's right.
     pub side_deg: f64,
 }
 
-/// A point of measure, flat and worn.
+/// A point of measure, flat and draped.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WornPoint {
     /// Name of the point of measure.
     pub point: String,
     /// Length flat on the pieces, mm.
     pub flat_mm: f64,
-    /// Grade step: the flat length less that of the size before, mm.
+    /// Grade step: flat length minus that of the size before, mm; `None` for the first size.
     pub step_mm: Option<f64>,
-    /// Length on the drape, mm.
+    /// Length on the drape, mm; `None` where it runs across no cloth.
     pub draped_mm: Option<f64>,
 }
 
@@ -68,11 +68,11 @@ pub struct WornPoint {
 pub struct LevelGap {
     /// Level of the body, such as `waist`.
     pub level: String,
-    /// Least gap; below 0 where cloth lies inside the body.
+    /// Least gap, below 0 where cloth lies inside the body; `None` where no direction has cloth.
     pub least_gap_mm: Option<f64>,
-    /// Mean over all directions in which there is cloth.
+    /// Mean over the directions with cloth; `None` where no direction has any.
     pub mean_gap_mm: Option<f64>,
-    /// Greatest of all directions in which there is cloth.
+    /// Greatest gap over the directions with cloth; `None` where no direction has any.
     pub greatest_gap_mm: Option<f64>,
 }
 
@@ -81,9 +81,9 @@ pub struct LevelGap {
 pub struct DrawnOpening {
     /// Name of the measurement along the opening.
     pub opening: String,
-    /// Mean displacement along it; below 0 away from the garment.
+    /// Mean displacement along the opening; below 0 away from the garment.
     pub drawn_mm: f64,
-    /// Greatest displacement along it.
+    /// Greatest displacement along the opening.
     pub drawn_most_mm: f64,
 }
 
@@ -94,28 +94,28 @@ pub struct SizeWorn {
     pub size: String,
     /// Job whose drape is measured.
     pub job: JobId,
-    /// Gaps at the levels of the body.
+    /// Gaps at the levels of the body, mm.
     pub gaps: Vec<LevelGap>,
     /// Balance: heights of hem and waist edge, lean of the side seams.
     pub balance: Vec<Balance>,
-    /// Pressure by region; empty of Hybrid-GS.
+    /// Pressure by region; empty for Hybrid-GS.
     pub pressure: Vec<RegionPressure>,
     /// Folds, the longest first.
     pub folds: Vec<FoldLine>,
     /// Points of measure.
     pub points: Vec<WornPoint>,
-    /// Displaced openings, where the body moved with the garment on.
+    /// Displaced openings; empty unless the body moved with the garment on.
     pub drawn: Vec<DrawnOpening>,
 }
 
 impl SizeWorn {
-    /// Returns a quantity of its balance.
+    /// Value of a number of the balance, by name.
     #[must_use]
     pub fn balance_of(&self, quantity: &str) -> Option<f64> {
         self.balance.iter().find(|known| known.quantity == quantity).map(|known| known.value)
     }
 
-    /// Height of its hem in front less that behind, mm, with a description; `None` where it is not measured.
+    /// Height of the hem in front minus its height behind, mm, with a description; `None` where it is not measured.
     #[must_use]
     pub fn hem_tilt(&self) -> Option<(f64, &'static str)> {
         let off = self.balance_of("hem_front_over_back")?;
@@ -127,7 +127,7 @@ impl SizeWorn {
         Some((off, words))
     }
 
-    /// Description of its hem; `None` where it is not measured.
+    /// Description of the hem; `None` where it is not measured.
     #[must_use]
     pub fn hem_words(&self) -> Option<String> {
         let ((off, words), front) = (self.hem_tilt()?, self.balance_of("hem_front")?);
@@ -138,7 +138,7 @@ impl SizeWorn {
 }
 
 impl FoldLine {
-    /// Description of its direction and side.
+    /// Description of the fold's direction and side.
     #[must_use]
     pub fn words(&self) -> String {
         let way = match self.from_vertical_deg {
@@ -161,22 +161,22 @@ impl FoldLine {
     }
 }
 
-/// Fit of a garment on a subject, by ease and by drapes.
+/// Fit of a garment on a subject, by ease and on drapes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GarmentWorn {
     /// Fit card: the size to wear, and the ease of all sizes.
     pub card: FitCard,
-    /// Simulator whose drapes are measured: FEM-GS, or Hybrid-GS where that alone has drapes.
+    /// Simulator whose drapes are measured: FEM-GS, or Hybrid-GS where only that has drapes; `None` without drapes.
     pub simulator: Option<Simulator>,
     /// Sizes that have a drape, in order.
     pub sizes: Vec<SizeWorn>,
 }
 
-/// Returns the fit of the garments of a study on its subjects: fit cards beside the measurements of drapes. `garment`
-/// and `subject` restrict it to one.
+/// Fit of the garments of a study on its subjects: fit cards, and measurements of the drapes. `garment` and `subject`
+/// select one of each.
 ///
 /// # Errors
-/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of the garment or subject.
+/// [`StudyError::NotFound`](store::StudyError::NotFound) when the study has no ease of that garment or subject.
 pub fn worn(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<GarmentWorn>> {
     let cards = fit_cards(store, study, garment, subject)?.into_iter();
     cards.map(|card| garment_worn(store, study, card)).collect()
@@ -193,7 +193,7 @@ fn garment_worn(store: &Store, study: &str, card: FitCard) -> Result<GarmentWorn
     Ok(GarmentWorn { card, simulator: None, sizes: Vec::new() })
 }
 
-/// Returns the sizes of a card that a simulator has draped, in order.
+/// Sizes of a card that a simulator has draped, in order, with their jobs.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -206,7 +206,7 @@ pub fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) 
     Ok(found)
 }
 
-/// Current result of a size; of several repeats the first.
+/// Current result of a size, of the first repeat.
 fn drape_of(store: &Store, study: &str, card: &FitCard, size: &str, simulator: Simulator) -> Result<Option<JobId>> {
     let sql =
         "SELECT job_id FROM v_metrics WHERE study = ? AND garment = ? AND subject = ? AND size = ? AND simulator = ?

@@ -13,27 +13,28 @@ use report::Chart;
 use report::chart::{Worn, section_chart};
 use store::{InOrigin, JobId, JobRow, Origin, Result, StageKind, Store, StudyError, read};
 
-/// Planes in which a body is cut.
+/// Planes in which to cut a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CutAt {
-    /// All levels that the garment covers.
+    /// At all levels that the garment covers.
     Levels,
-    /// One level by its name.
+    /// At one level, by name.
     Level(String),
-    /// A height above the floor, mm; below the crotch the right leg is cut.
+    /// At a height above the floor, mm; below the crotch the right leg is cut.
     HeightMm(f64),
 }
 
-/// A line of a section, mm from the axis of trunk or limb: towards the subject's right, and to the front.
+/// A line of a section. Coordinates are mm from the axis of trunk or limb, towards the subject's right and to the
+/// front.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutLine {
-    /// Points of the line, mm; the first is not repeated where it is closed.
+    /// Points of the line, mm; a closed line does not repeat the first.
     pub points: Vec<[f64; 2]>,
     /// True if the last point is connected to the first.
     pub closed: bool,
 }
 
-/// The cloth of one result in a section.
+/// Cloth of one result in a section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CutCloth {
     /// Number of the job whose drape is cut.
@@ -44,8 +45,8 @@ pub struct CutCloth {
     pub simulator: String,
     /// Outlines of the cloth in the plane.
     pub lines: Vec<CutLine>,
-    /// Gap from the skin by direction, degrees from the front towards the subject's right: mm, below 0 inside the
-    /// body.
+    /// Directions, degrees from the front towards the subject's right, with the gap from the skin, mm: below 0 inside
+    /// the body, `None` without cloth.
     pub gaps: Vec<(f64, Option<f64>)>,
 }
 
@@ -61,10 +62,10 @@ impl CutCloth {
     }
 }
 
-/// A body in a plane, with the cloth of one or more results.
+/// Section of a body, with the cloth of one or more results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CrossSection {
-    /// Level, or the height in words.
+    /// Level, or height in words.
     pub level: String,
     /// Height above the floor, mm.
     pub height_mm: f64,
@@ -74,23 +75,23 @@ pub struct CrossSection {
     pub skin: CutLine,
     /// The other limbs in the plane.
     pub others: Vec<CutLine>,
-    /// The cloth, result by result.
+    /// Cloth of each result.
     pub cloth: Vec<CutCloth>,
 }
 
-/// A level of one body with the cloth of several results.
+/// Sections of several results at a level of one body.
 pub(crate) struct LevelCuts {
-    /// Level, or the height in words.
+    /// Level, or height in words.
     pub level: String,
     /// Each result and its section.
     pub cuts: Vec<(JobRow, Section)>,
 }
 
-/// Cuts some results on one body. Of all levels, those that none of them covers are left out.
+/// Cuts results on one body. Leaves out levels that none of them covers.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have. [`StudyError::Refused`]
-/// for a height at which there is no body, or results on different bodies.
+/// [`StudyError::NotFound`] for a job without a result, or a level that bodies do not have. [`StudyError::Refused`] for
+/// a height at which there is no body, or results on different bodies.
 pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<LevelCuts>> {
     let Some(first) = jobs.first() else { return Ok(Vec::new()) };
     let subject = read::job(store, *first)?.subject;
@@ -124,16 +125,17 @@ pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<Leve
     Ok(found)
 }
 
-/// Returns the sections of some results as plain values.
+/// Returns the sections of results as plain values.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a
-/// height at which there is no body, or results on different bodies.
+/// [`StudyError::NotFound`] for a job without a result, or a level that bodies do not have; [`StudyError::Refused`] for
+/// a height at which there is no body, or results on different bodies.
 pub fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
     Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
 }
 
-/// Draws the sections of some results level by level. The gaps of the size `written` are written beside it.
+/// Draws the sections of results, a chart for each level. The gaps of the size `written` are written beside the
+/// section.
 ///
 /// # Errors
 /// As [`sections`], and when a chart cannot be drawn.
@@ -183,7 +185,7 @@ impl CutAt {
     }
 }
 
-/// Planes that are asked for.
+/// Places of the planes on the body.
 fn wanted(body: &Body, at: &CutAt) -> Result<Vec<Site>> {
     match at {
         CutAt::Levels => Ok(sites(body)),

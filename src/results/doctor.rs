@@ -34,7 +34,7 @@ pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
     ]
 }
 
-/// Opens the database and lets SQLite check it.
+/// Opens the database and runs SQLite's own check.
 fn database_check(path: &Path, readonly: bool) -> Result<String> {
     let store = Store::open(path, readonly)?;
     let table = sql::query(&store, "PRAGMA quick_check")?;
@@ -64,7 +64,7 @@ fn pattern_check() -> Result<String> {
         let edge = mm(quality.mean_edge_m);
         Ok(format!("drafted T-shirt: {} triangles, mean edge {edge:.1} mm", garment.triangles.len()))
     });
-    // Its own folder of a moment ago: what cannot be removed does no harm.
+    // A folder that this function made; one that cannot be removed does no harm.
     let _ = std::fs::remove_dir_all(&folder);
     found
 }

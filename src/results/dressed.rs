@@ -1,4 +1,4 @@
-//! Results of the jobs of a study: a good drape, one with faults, or none.
+//! Outcomes of the jobs of a study: a good drape, one with faults, or none.
 
 use rusqlite::Row;
 use serde::Serialize;
@@ -8,7 +8,7 @@ use fit::Simulator;
 use pattern::size_order;
 use store::{Result, Status, Store};
 
-/// Result of one job of a study.
+/// Outcome of one job of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dressed {
     /// Name of the garment in the study.
@@ -19,26 +19,26 @@ pub struct Dressed {
     pub subject: String,
     /// `fem` or `hybrid`.
     pub simulator: String,
-    /// State of its job.
+    /// State of the job.
     pub status: Status,
-    /// Faults of its drape; empty where it is good.
+    /// Faults of the drape; empty for a good drape.
     pub faults: Vec<String>,
-    /// Reason for which there is no drape.
+    /// Reason why there is no drape; `None` with a drape.
     pub refused: Option<String>,
-    /// Error indicator, where there is a drape.
+    /// Error indicator EI; `None` without a drape.
     pub ei: Option<f64>,
-    /// Vertices of its mesh.
+    /// Number of vertices of the mesh.
     pub vertices: Option<i64>,
-    /// Deepest penetration into the body, mm. By Hybrid-GS that is no fault: a garment that is too small lies inside
-    /// by design.
+    /// Deepest penetration into the body, mm. For Hybrid-GS this is no fault: it lets a garment that is too small lie
+    /// inside.
     pub inside_mm: Option<f64>,
-    /// Greatest length by which a girth of the body exceeds that of the garment, mm.
+    /// Greatest excess of a body girth over that of the garment, mm.
     pub shortfall_mm: Option<f64>,
-    /// Time of its job, ms.
+    /// Time that the job took, ms.
     pub wall_ms: Option<i64>,
 }
 
-/// Results of the jobs of one simulator, counted.
+/// Counts of the outcomes for one simulator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tally {
     /// `fem` or `hybrid`.
@@ -51,7 +51,7 @@ pub struct Tally {
     pub faulty: usize,
     /// Number of jobs without a drape.
     pub refused: usize,
-    /// Mean EI of all drapes.
+    /// Mean EI of all drapes; `None` without drapes.
     pub mean_ei: Option<f64>,
     /// Median time of a job, s.
     pub median_s: Option<f64>,
@@ -59,8 +59,7 @@ pub struct Tally {
     pub slowest_s: Option<f64>,
 }
 
-/// Returns the results of the current jobs of a study, by garment and subject in order of their names, sizes from the
-/// smallest.
+/// Outcomes of the current jobs of a study, sorted by names of garment and subject, then by size from the smallest.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -106,7 +105,7 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
     })
 }
 
-/// Counts results by simulator.
+/// Counts outcomes by simulator.
 #[must_use]
 pub fn tally(all: &[Dressed]) -> Vec<Tally> {
     let mut simulators: Vec<&str> = all.iter().map(|job| job.simulator.as_str()).collect();

@@ -1,10 +1,10 @@
-//! Refusals of queries on results.
+//! Errors of queries on results.
 
 use std::path::PathBuf;
 
 use store::{JobId, Origin, StudyError};
 
-/// A refusal of a query on results.
+/// An error of a query on results.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ResultsError {
     /// A body without vertices, which cannot be drawn.
@@ -13,22 +13,22 @@ pub(crate) enum ResultsError {
     /// A file that is no image.
     #[error("{}: {reason}; accepted: PNG and JPEG", file.display())]
     NoImage { file: PathBuf, reason: image::ImageError },
-    /// A stored mesh with another number of vertices than the drape.
+    /// A stored mesh whose number of vertices differs from that of the drape.
     #[error("the mesh of job {0} does not fit its drape")]
     OtherMesh(JobId),
-    /// A job without an input that is needed to make it again.
+    /// A job without an input that is needed to repeat it.
     #[error("job {0} has no mesh.edge_length_mm")]
     NoEdgeLength(JobId),
-    /// A job of parameters that are not known.
+    /// A job with unknown parameters.
     #[error("{0}")]
     Parameters(String),
     /// A job on a scan that was not stored.
     #[error("its body is a scan, of which an older program kept nothing; run its study again")]
     ScanNotKept,
-    /// A layer of an outfit, which cannot be made again by itself.
+    /// A layer of an outfit, which cannot be repeated by itself.
     #[error("it is a layer of an outfit, which is draped as a whole; run its study again")]
     Layer,
-    /// A drape that was carried from another pose, of which the job does not tell.
+    /// A drape that was carried from another pose, which the job does not store.
     #[error("its body carried it from another pose; run its study again")]
     Carried,
 }

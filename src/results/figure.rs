@@ -21,10 +21,10 @@ pub struct Figure {
     scene: Scene,
 }
 
-/// Returns the body of a revision of a subject, to be shown.
+/// Returns the body of a subject's revision.
 ///
 /// # Errors
-/// When there is no revision of that number, or no body can be built from its measurements.
+/// When no revision has the number, or no body can be built from its measurements.
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     let (_, model) = model(store, id)?;
     let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
@@ -32,11 +32,11 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     Ok(Figure { model, scene })
 }
 
-/// Returns name and body of a revision of a subject. The body comes from the cache; if it is built now, it is kept
-/// there unless the database is open read-only.
+/// Returns name and body of a subject's revision. The body comes from the cache, or is built and then kept there,
+/// unless the database is open read-only.
 ///
 /// # Errors
-/// When there is no revision of that number, or no body can be built from its measurements.
+/// When no revision has the number, or no body can be built from its measurements.
 pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
     let (name, person) = (catalogue::subject_revision(store, id)?.name, catalogue::person(store, id)?);
     let hash = stages::body_inputs(&name, &person).stage_hash(StageKind::Body);
@@ -56,7 +56,7 @@ impl Figure {
         &self.model.body.girths
     }
 
-    /// Value on the body of a key of a subject: a tape measurement, or the mass of its volume.
+    /// Value on the body for a key of a subject: a tape measurement, or the mass from the volume.
     #[must_use]
     pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
         if key == Dimension::Weight.key() {
@@ -65,7 +65,7 @@ impl Figure {
         girths.written(key)
     }
 
-    /// Draws the body from the front and from the side, at one scale, side by side, on transparent ground.
+    /// Draws the body from the front and the side, side by side at one scale, on transparent ground.
     ///
     /// # Errors
     /// When the picture is too small or too large.
@@ -73,7 +73,7 @@ impl Figure {
         let mesh = &self.model.body.mesh;
         let (low, high) = mesh.bounds().ok_or(ResultsError::EmptyBody)?;
         let size = high - low;
-        // Across: the front, then the side, each with a margin; x points sideways, y to the front, z up.
+        // Widths of the front and the side view, each with a margin; x is to the side, y to the front, z up.
         let across = [size.x + MARGIN_M, size.y + MARGIN_M];
         let all = across[0] + across[1];
         let (width, height) = (width.max(2), height.max(1));

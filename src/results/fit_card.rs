@@ -1,4 +1,4 @@
-//! Fit cards: the size that a subject wears of a garment, and the ease of it and of its neighbours at every level.
+//! Fit cards: the size of a garment that a subject wears, with the ease of all sizes at every level.
 
 use rusqlite::Row;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use fit::target::{is_within_reach, weight_m};
 use geom::units::from_mm;
 use store::{Result, Store, StudyError};
 
-/// Ease of one size at one level, beside its target.
+/// Ease of one size at one level, with its target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelSits {
     /// Level of the body, such as `chest`.
@@ -16,19 +16,19 @@ pub struct LevelSits {
     pub pattern_girth_mm: f64,
     /// Length of the body there, mm.
     pub body_girth_mm: f64,
-    /// Ease: pattern less body, mm.
+    /// Ease: pattern length minus body length, mm.
     pub ease_mm: f64,
     /// Least and greatest target ease, mm; `None` where there is no target.
     pub target_mm: Option<[f64; 2]>,
-    /// Departure of the ease from that range, mm: below 0 where it is too tight.
+    /// Departure of the ease from its target, mm: below 0 if too tight. `None` without a target.
     pub off_mm: Option<f64>,
-    /// Angle round the body over which the drape covers the level, degrees, where that is not all round: elsewhere the
-    /// hem hangs above the level.
+    /// Angle round the body over which the drape covers the level, degrees; beyond it the hem hangs above the level.
+    /// `None` where the drape covers the level all round, or there is no drape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covered_deg: Option<f64>,
 }
 
-/// Least departure from a target that counts, mm: a smaller one is written as 0.
+/// Least departure from a target that counts, mm: a smaller one would be written as 0.
 const DEPARTURE_MM: f64 = 0.5;
 
 /// Position of an ease relative to its target.
@@ -43,7 +43,7 @@ pub enum Sits {
 }
 
 impl LevelSits {
-    /// Position of its ease relative to its target; `None` without a target, and where the drape does not cover the
+    /// Position of the ease relative to its target; `None` without a target, and where the drape does not cover the
     /// level all round.
     #[must_use]
     pub fn sits(&self) -> Option<Sits> {
@@ -54,7 +54,7 @@ impl LevelSits {
         })
     }
 
-    /// Magnitude of the departure from its target, mm; 0 without a target.
+    /// Magnitude of the departure from the target, mm; 0 without a target.
     #[must_use]
     pub fn departure_mm(&self) -> f64 {
         self.off_mm.map_or(0.0, f64::abs)
@@ -82,17 +82,17 @@ impl LevelSits {
 pub struct SizeSits {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Rank among the sizes: 1 of the size to wear, 2 of the next best.
+    /// Rank among the sizes: 1 is the size to wear, 2 the next best.
     pub place: Option<i64>,
-    /// Level with the greatest departure from its target, where too tight counts double.
+    /// Level with the greatest departure from its target, counting too tight double; `None` without a target.
     pub worst_level: Option<String>,
-    /// Every level that it covers, from the neck down.
+    /// Levels that the size covers, from the neck down.
     pub levels: Vec<LevelSits>,
 }
 
 impl SizeSits {
-    /// Finds the worst of the levels that its drape covers all round, and returns its weighted departure, m; `None`
-    /// where none has a target.
+    /// Finds the worst of the levels that the drape covers all round. Returns its weighted departure, m; `None` where
+    /// none has a target.
     fn judge(&mut self) -> Option<f64> {
         let all = self.levels.iter().filter(|level| level.covered_deg.is_none());
         let weighed = all.filter_map(|level| Some((level, weight_m(from_mm(level.off_mm?)))));
@@ -101,28 +101,28 @@ impl SizeSits {
         worst.map(|(_, weight_m)| weight_m)
     }
 
-    /// The worst level; `None` where no level has a target.
+    /// Worst level; `None` where no level has a target.
     #[must_use]
     pub fn worst(&self) -> Option<&LevelSits> {
         self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
     }
 
-    /// True if it may be worn: the departure of its worst level, where too tight counts double, is at most a grade
-    /// step. So it is of a size without any target.
+    /// True if the size may be worn: the departure of its worst level, counting too tight double, is at most a grade
+    /// step. A size without targets may be worn.
     #[must_use]
     pub fn is_within_reach(&self) -> bool {
         let weight_m = self.worst().and_then(|level| level.off_mm).map(|off| weight_m(from_mm(off)));
         weight_m.is_none_or(is_within_reach)
     }
 
-    /// Mark beside the name of the size to wear: `wear`, or `nearest` where no size fits. `None` of all other sizes.
+    /// Mark beside the size to wear: `wear`, or `nearest` where no size fits. `None` for all other sizes.
     #[must_use]
     pub fn mark(&self) -> Option<&'static str> {
         let mark = if self.is_within_reach() { "wear" } else { "nearest" };
         (self.place == Some(1)).then_some(mark)
     }
 
-    /// Description of its worst level.
+    /// Description of the worst level.
     #[must_use]
     pub fn words(&self) -> String {
         let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
@@ -139,15 +139,15 @@ pub struct FitCard {
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Intended fit, as the study file has it; `None` where it has none.
+    /// Intended fit, as the study file names it; `None` where it names none.
     pub intended: Option<String>,
-    /// Its sizes, in order.
+    /// Sizes, in order.
     pub sizes: Vec<SizeSits>,
 }
 
 impl FitCard {
-    /// Enters the levels that drapes do not cover all round. If there are any, the sizes are ranked anew by their
-    /// other levels.
+    /// Adds the levels that drapes do not cover all round. If there are any, ranks the sizes again by their other
+    /// levels.
     fn take(&mut self, bare: &[Bare]) {
         let own = bare.iter().filter(|bare| bare.garment == self.garment && bare.subject == self.subject);
         let mut is_other = false;
@@ -166,20 +166,21 @@ impl FitCard {
             size.place = None;
             weights.extend(size.judge().map(|weight_m| (number, weight_m)));
         }
-        // Of two alike the smaller stays before.
+        // Sorting is stable: of two equal sizes the smaller stays first.
         weights.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (place, (number, _)) in (1..).zip(weights) {
             self.sizes[number].place = Some(place);
         }
     }
 
-    /// The size to wear; `None` where no level has a target.
+    /// Size to wear; `None` where no level has a target.
     #[must_use]
     pub fn to_wear(&self) -> Option<&SizeSits> {
         self.sizes.iter().find(|size| size.place == Some(1))
     }
 
-    /// The size to wear and its two neighbours, at an end of the range the next two; all sizes where none is to wear.
+    /// Size to wear with its two neighbours, or the nearest two at an end of the range; all sizes where none is to
+    /// wear.
     #[must_use]
     pub fn beside(&self) -> &[SizeSits] {
         let last = self.sizes.len().saturating_sub(BESIDE);
@@ -192,7 +193,7 @@ impl FitCard {
         }
     }
 
-    /// The levels that any size covers, from the neck down.
+    /// Levels that any size covers, from the neck down.
     #[must_use]
     pub fn levels(&self) -> Vec<&str> {
         let levels = self.sizes.iter().flat_map(|size| &size.levels);
@@ -202,7 +203,7 @@ impl FitCard {
         found
     }
 
-    /// Sentence on the size to wear and its worst level; on the nearest size, where none fits.
+    /// Sentence on the size to wear, or the nearest size where none fits, and its worst level.
     #[must_use]
     pub fn verdict(&self) -> String {
         let told = |size: &SizeSits| match size.is_within_reach() {
@@ -212,7 +213,7 @@ impl FitCard {
         self.to_wear().map_or("no level has a target".to_owned(), told)
     }
 
-    /// Reasons for the size to wear: its worst level, and that of each of its neighbours.
+    /// Reasons for the size to wear: its worst level, and the worst level of each neighbour.
     #[must_use]
     pub fn reasons(&self) -> String {
         let own = self.to_wear().map(|size| match size.is_within_reach() {
@@ -225,7 +226,7 @@ impl FitCard {
     }
 }
 
-/// Words for the case that no size is within reach.
+/// Words for a card on which no size may be worn.
 const NONE_FITS: &str = "no size fits";
 
 /// Number of sizes side by side on a card.
@@ -252,11 +253,11 @@ fn order(level: &str) -> usize {
     ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
 }
 
-/// Returns the fit cards of a study: the ease of its garments on its subjects in all sizes, and the size to wear.
-/// `garment` and `subject` restrict it to one.
+/// Fit cards of a study: the ease of its garments on its subjects in all sizes, and the size to wear. `garment` and
+/// `subject` select one of each.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] when the study has no ease of the garment or subject.
+/// [`StudyError::NotFound`] when the study has no ease of that garment or subject.
 pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
     let mut cards = all_fit_cards(store, study)?;
     keep(&mut cards, "garment", garment, |card| &card.garment)?;
@@ -264,7 +265,7 @@ pub fn fit_cards(store: &Store, study: &str, garment: Option<&str>, subject: Opt
     Ok(cards)
 }
 
-/// All fit cards of a study, garments and subjects in its order.
+/// All fit cards of a study, in its order of garments and subjects.
 fn all_fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
     let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
             ease_mm, least_mm, most_mm, off_mm, worst_level
@@ -310,13 +311,13 @@ struct Bare {
     bare_deg: f64,
 }
 
-/// Greatest bare angle of a level that still counts as covered, degrees: one direction of a section may lie between
+/// Greatest bare angle at which a level still counts as covered, degrees: one direction of a section may lie between
 /// two pieces of cloth.
 const LEAST_BARE_DEG: f64 = 15.0;
 
-/// Levels of a study that a drape does not cover all round: directions of a section without cloth, where the hem of
-/// that side hangs above the level. Where the hem is lower, another limb is in the way. The drape is by FEM-GS, where
-/// that has draped the size.
+/// Levels of a study that a drape does not cover all round. A direction of a section is bare if it has no cloth and the
+/// hem on that side hangs above the level; where the hem is lower, another limb is in the way. The drape of FEM-GS
+/// counts where there is one.
 fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
     let sql = "WITH drape AS (
             SELECT job_id, garment, subject, size, row_number() OVER (
@@ -344,7 +345,7 @@ fn bare(store: &Store, study: &str) -> Result<Vec<Bare>> {
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Keeps the cards of a name, if one is given.
+/// Keeps the cards with a name, if one is given.
 fn keep(
     cards: &mut Vec<FitCard>,
     what: &'static str,

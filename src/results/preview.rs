@@ -1,5 +1,5 @@
-//! Preview of a garment while its seams are edited: sewn and draped coarsely on a body that is kept ready, in colours
-//! that distinguish its pieces and seams.
+//! Preview of a garment while its seams are edited: sewn and draped coarsely on a body that is kept ready. Colours tell
+//! its pieces and seams apart.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -27,44 +27,44 @@ use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result, Store, StudyError, SubjectId};
 use wardrobe::seams::workpiece::Workpiece;
 
-/// Edge length of the mesh for a glance and for a trial, m.
+/// Edge lengths of the mesh, m: for [`Care::Glance`], then for [`Care::Trial`].
 const EDGE_M: f64 = 0.030;
 const FINE_EDGE_M: f64 = 0.015;
-/// Residual at which a glance ends, and greatest number of its steps after the sewing.
+/// Residual at which a glance ends, and its greatest number of steps after sewing.
 const SEEN: f64 = 2.0;
 const MOST_STEPS: u32 = 40;
-/// Greatest displacement of a vertex in a step of sewing, and gap at which seams are welded, m, and relative tolerance
-/// of a linear solve. For a glance they are coarser than by default, and sewing takes half the time.
+/// For a glance: greatest displacement of a vertex in a step of sewing, m; gap at which seams are welded, m; relative
+/// tolerance of a linear solve. They are coarser than the defaults, which halves the time of sewing.
 const CLAMP_M: f64 = 0.020;
 const WELD_GAP_M: f64 = 0.010;
 const TOLERANCE: f64 = 0.2;
 /// Size of each view on a sheet, pixels.
 const VIEW: [u32; 2] = [480, 640];
-/// Half the width of the lines along seams, and along edges that are in no seam, m.
+/// Half the width of lines: along seams, and along edges in no seam, m.
 const SEAM_M: f64 = 0.004;
 const FREE_M: f64 = 0.007;
 
 /// Colours of fronts, of backs, and of all other pieces.
 const CLOTHS: [Rgb; 3] = [Rgb(0x9c, 0xcf, 0xb5), Rgb(0x58, 0x9a, 0xa8), Rgb(0xd8, 0xc0, 0x8a)];
-/// Colours of seams in turn, in the order of the workbench's five colours; and of edges that are in no seam.
+/// Colours of seams in turn, in the order of the workbench's five colours; then that of edges in no seam.
 const SEAMS: [Rgb; 5] =
     [Rgb(0x1f, 0x8a, 0x3c), Rgb(0xa8, 0x3a, 0xa8), Rgb(0x12, 0x9c, 0xac), Rgb(0xb8, 0x4a, 0x2a), Rgb(0x2f, 0x55, 0xc8)];
 const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
 
-/// A body that is dressed again and again.
+/// A body kept ready to be dressed again and again.
 pub struct Mannequin {
-    /// Name of the subject whose body it is.
+    /// Name of the subject.
     pub name: String,
     model: Arc<Model>,
     field: DistanceField,
 }
 
 impl Mannequin {
-    /// Reads a file of measurements or a mesh, with unit and sex where they cannot be told from it. Returns also notes
-    /// on the guesses that were made.
+    /// Reads a file of measurements or a mesh. `unit` and `sex` are used where the file does not tell them. Returns
+    /// notes on guesses too.
     ///
     /// # Errors
-    /// When the file cannot be used.
+    /// When the file cannot be read, or no body can be made from it.
     pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
         let (body, notes) = read_body(file, unit, sex)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -77,10 +77,10 @@ impl Mannequin {
     }
 }
 
-/// Returns the body of a revision of a subject, ready to be dressed.
+/// Returns the body of a subject's revision, ready to be dressed.
 ///
 /// # Errors
-/// When there is no revision of that number, or no body can be built from its measurements.
+/// When no revision has the number, or no body can be built from its measurements.
 pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
     let (name, model) = figure::model(store, id)?;
     Mannequin::new(name, model)
@@ -89,38 +89,39 @@ pub fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
 /// Accuracy of a preview.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Care {
-    /// For a look: coarse, and not wholly at rest.
+    /// Coarse and not wholly at rest.
     Glance,
-    /// For a trial: as a study does by default.
+    /// As fine as the default of a study.
     Trial,
 }
 
 /// State in which a preview ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hung {
-    /// The garment hangs on the body, nearly at rest.
+    /// The garment is draped and nearly at rest.
     Draped,
-    /// It could not be sewn up and draped, and is shown as it was then.
+    /// Sewing or draping failed; the garment is shown as it was then.
     Undone,
-    /// Its pieces could not be placed round the body.
+    /// Pieces could not be placed round the body.
     Not,
 }
 
-/// A garment draped coarsely on a body.
+/// A garment draped on a body for a preview.
 pub struct Preview {
-    /// State in which it ended.
+    /// State in which the preview ended.
     pub hung: Hung,
-    /// Reason for which it came no farther, and remarks on the drape.
+    /// Reason why the drape is not complete, and remarks.
     pub remarks: Vec<String>,
     shown: Vec<TriMesh>,
     scene: Scene,
 }
 
 impl Mannequin {
-    /// Sews a size and drapes it on the body in a fabric. `is_stale` is asked between steps; true ends the work.
+    /// Sews a size and drapes it on the body in a fabric. `is_stale` is called between steps; true ends the work.
     ///
     /// # Errors
-    /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
+    /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be
+    /// draped is no error.
     pub fn dressed_in(
         &self,
         piece: &Workpiece,
@@ -171,7 +172,7 @@ impl Preview {
         render::from_all_sides(&self.scene, camera, VIEW).origin(Origin::Render)
     }
 
-    /// Draws the garment from any side, as large as it can be.
+    /// Draws the garment from any side so that it fills the picture.
     ///
     /// # Errors
     /// When the picture is too small or too large.
@@ -181,7 +182,7 @@ impl Preview {
     }
 }
 
-/// Monitor that ends a simulation once its cloth can be shown.
+/// Monitor that ends a simulation once the cloth can be shown.
 struct Glance<'a> {
     seen: Option<Vec<V3>>,
     sewn_at: Option<u32>,
@@ -220,12 +221,12 @@ impl Monitor for Glance<'_> {
 /// Result of draping a garment for a preview.
 struct Hanging {
     hung: Hung,
-    /// Positions of its vertices, where any are known.
+    /// Positions of the vertices, where any are known.
     positions: Option<Vec<V3>>,
     remarks: Vec<String>,
 }
 
-/// Drapes a garment on a body as carefully as asked.
+/// Drapes a garment on a body with this care.
 fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Hanging> {
     let garment = meshes.finest()?;
     let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
@@ -244,7 +245,7 @@ fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &
         Err(SimError::Cancelled) if glance.is_enough => Ok(draped(glance.seen, vec![])),
         Err(SimError::Cancelled) => Err(StudyError::Interrupted),
         Err(error) => {
-            // What was seen of a coarser mesh has other vertices.
+            // A coarser mesh, seen earlier, has other vertices.
             let seen = glance.seen.filter(|seen| seen.len() == garment.rest.len());
             let placed = || place(body, garment, &Bend::default()).ok();
             let positions = seen.or_else(placed);
@@ -254,7 +255,7 @@ fn hang(meshes: &Meshes, on: &Mannequin, cloth: &Fabric, care: Care, is_stale: &
     }
 }
 
-/// Faults and EI of the drape of a trial.
+/// Faults and EI of a trial's drape.
 fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
     let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);
@@ -267,7 +268,7 @@ fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
     told
 }
 
-/// Sides of boundary triangles that are in no seam, and on no edge that is meant to be open.
+/// Border edges of triangles that are in no seam and not meant to be open.
 fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
     let mut held: BTreeSet<[usize; 2]> = BTreeSet::new();
     let mut hold = |[a, b]: [usize; 2]| held.insert([a.min(b), a.max(b)]);
@@ -291,7 +292,7 @@ fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
     faces.into_iter().filter(|(side, count)| *count == 1 && !held.contains(side)).map(|(side, _)| side).collect()
 }
 
-/// Meshes of the cloth by colour of the pieces, and lines along seams and free edges.
+/// Meshes of cloth, one for each colour of pieces, and lines along seams and free edges.
 fn layers(garment: &Garment, positions: &[V3], free: &[[usize; 2]]) -> Vec<(TriMesh, Material)> {
     let mut layers: Vec<(TriMesh, Material)> = Vec::new();
     for (kind, colour) in CLOTHS.into_iter().enumerate() {
@@ -321,7 +322,7 @@ fn cloth_of(role: Role) -> usize {
     }
 }
 
-/// Square rods along sides of triangles. `half_m` is half their width.
+/// Square rods along edges of triangles; `half_m` is half of their width.
 fn rods(positions: &[V3], sides: impl Iterator<Item = [usize; 2]>, half_m: f64) -> TriMesh {
     let mut mesh = TriMesh { positions: vec![], triangles: vec![] };
     for [a, b] in sides.map(|side| side.map(|v| positions[v])) {

@@ -1,18 +1,18 @@
-//! The size that a subject should wear: ease at every level, and the tension of the cloth there.
+//! Size that a subject should wear, with the ease at every level and the tension of the cloth there.
 
 use crate::fit_card::{FitCard, fit_cards};
 use crate::picture::{self, tension_near};
 use fit::{self, Simulator};
 use store::{EaseRow, JobFilter, JobId, JobRow, PUBLISHED, RecommendationRow, Result, Store, StudyError, read};
 
-/// Every size of a garment on a subject, and the one to wear.
+/// All sizes of a garment on a subject, and the one to wear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeAnswer {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// The size to wear.
+    /// Name of the size to wear.
     pub wear: String,
     /// Reason for this size and against the others.
     pub reason: String,
@@ -34,13 +34,13 @@ pub struct SizeOn {
 /// A garment at one level of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelFit {
-    /// Ease of the size on the subject, with the fit class that it means.
+    /// Ease of the size on the subject, with its fit class.
     pub ease: EaseRow,
-    /// Mean greatest tension of the FEM-GS drape near that height, N/m; `None` without such a drape.
+    /// Mean tension of the FEM-GS drape near that level, N/m; `None` without such a drape.
     pub tension_n_m: Option<f64>,
 }
 
-/// Returns the size that a subject should wear, for every garment of a study (or one) whose ease on it is known.
+/// Size that a subject should wear, for every garment of a study (or for `garment`) with a known ease on that subject.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] when the study has no such subject or garment. Others when the database cannot be read.
@@ -74,7 +74,7 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
     Ok(answers)
 }
 
-/// Answer for one garment and subject, given its eases; `None` where there are none.
+/// Answer for one garment and subject from its eases; `None` without eases.
 fn size_answer(
     store: &Store,
     eases: &[&EaseRow],
@@ -102,7 +102,7 @@ fn size_answer(
     Ok(worn.map(|(wear, reason)| SizeAnswer { garment, subject, wear, reason, sizes }))
 }
 
-/// Picture of a size that a customer should see, given the eases of that size.
+/// Picture of a size that a customer should see, chosen by the eases of the size.
 fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
     let Some(decides) = of_size.iter().find(|ease| ease.decides).or(of_size.first()) else { return "" };
     let answer = answers.iter().find(|row| row.garment == decides.garment && row.class == decides.fit.class);
@@ -110,7 +110,7 @@ fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
     fit::shown(recommended, decides.fit.undersized).words()
 }
 
-/// FEM-GS result of an ease's size on its subject.
+/// FEM-GS job with a result in the size and on the subject of an ease.
 fn drape_of(ease: &EaseRow, jobs: &[JobRow]) -> Option<JobId> {
     let is_it = |job: &&JobRow| {
         (&job.garment, &job.size, &job.subject) == (&ease.garment, &ease.size, &ease.subject)

@@ -1,5 +1,4 @@
-//! The record of one job: provenance, inputs and numbers; two of them side by side; and a job made again from its
-//! stored inputs.
+//! Records of jobs: provenance, inputs and numbers; two jobs side by side; a job repeated from its stored inputs.
 
 use std::path::Path;
 
@@ -19,52 +18,52 @@ use wardrobe::catalogue::{self, StyleFiles, read_fabric, read_style};
 pub struct ProvenanceRow {
     /// Version of the program.
     pub program_version: String,
-    /// Commit of the repository in which the study file lies.
+    /// Commit of the repository that holds the study file.
     pub git_commit: Option<String>,
     /// True if that repository had uncommitted changes.
     pub git_dirty: Option<bool>,
     /// Name of the machine that ran the job.
     pub machine: String,
-    /// Seed of the start that the job drew.
+    /// Seed of the job's start.
     pub seed: i64,
 }
 
-/// Record of one job: all that is stored of it.
+/// Everything stored about one job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// The job as lists show it.
     pub job: JobRow,
     /// Inputs of the job.
     pub inputs: Inputs,
-    /// Products of the stages.
+    /// Products of the stages that the job used.
     pub stages: Vec<StageRow>,
-    /// Provenance, once there is a result.
+    /// Provenance; `None` without a result.
     pub provenance: Option<ProvenanceRow>,
-    /// Metrics, once there is a result.
+    /// Metrics; `None` without a result.
     pub metrics: Option<MetricsRow>,
     /// Measurements of the result, at every stage; empty without a result.
     pub chi: Vec<ChiRow>,
 }
 
-/// A measurement of two results.
+/// A measurement in two results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChiPair {
     /// Number of the measurement in the style (`#1`).
     pub no: u32,
     /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length and garment length in each result, m; `None` where a result has no such measurement.
+    /// Pattern length and draped length in each result, m; `None` where a result lacks the measurement.
     pub lengths_m: [Option<(f64, f64)>; 2],
 }
 
 impl ChiPair {
-    /// L3D / L2D in each result.
+    /// Chi in each result: L3D / L2D.
     #[must_use]
     pub fn chi(&self) -> [Option<f64>; 2] {
         self.lengths_m.map(|lengths| lengths.map(|(l2d, l3d)| l3d / l2d))
     }
 
-    /// True if both results have it, and all bits of their lengths are equal.
+    /// True if both results have the measurement, with lengths that are equal bit by bit.
     #[must_use]
     pub fn is_same(&self) -> bool {
         let bits = |lengths: Option<(f64, f64)>| lengths.map(|(l2d, l3d)| [l2d.to_bits(), l3d.to_bits()]);
@@ -72,29 +71,29 @@ impl ChiPair {
     }
 }
 
-/// Two runs side by side.
+/// Two jobs side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Inputs that differ, before and after.
+    /// Inputs that differ, with both values.
     pub inputs: Vec<Change>,
-    /// Numbers of both results; `None` where there is none.
+    /// Metrics of both; `None` without a result.
     pub metrics: [Option<MetricsRow>; 2],
     /// Measurements of both, by number.
     pub chi: Vec<ChiPair>,
 }
 
-/// Comparison of a stored result with the same job made again.
+/// A stored result beside the same job run again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rerun {
-    /// Inputs that differ from the stored ones: versions of this program's stages.
+    /// Inputs that differ from the stored ones: versions of the program's stages.
     pub inputs: Vec<Change>,
-    /// Measurements as stored and as found now.
+    /// Measurements, as stored and as computed now.
     pub chi: Vec<ChiPair>,
-    /// EI as stored and as found now.
+    /// EI, as stored and as computed now.
     pub ei: [f64; 2],
 }
 
-/// Returns all that is stored of a job.
+/// Returns everything stored about a job.
 ///
 /// # Errors
 /// When there is no such job.
@@ -132,10 +131,10 @@ pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison>
     })
 }
 
-/// Makes a job again from its stored inputs, without the cache. The stored result stays as it is.
+/// Runs a job again from its stored inputs, without the cache. The stored result stays.
 ///
 /// # Errors
-/// When it has no result yet, its body is a scan that was not stored, or a stage refuses.
+/// When the job has no result yet, its body is a scan that was not stored, or a stage fails.
 pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     let metrics = read::metrics(store, id)?.ok_or_else(|| StudyError::NotFound {
         what: "result of job",
@@ -154,7 +153,7 @@ pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
     })
 }
 
-/// Returns true if `page` with this time (ms since 1970) is the report that this database last wrote of a study.
+/// True if `page`, with its time `written_ms` (ms since 1970), is the report that this database last wrote of a study.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -165,7 +164,7 @@ pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) ->
     Ok(store.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
 }
 
-/// Stores path and time (ms since 1970) of the page to which a study's report was just written.
+/// Stores path and time (ms since 1970) of the page that was just written as a study's report.
 ///
 /// # Errors
 /// When the database is open read-only.
@@ -224,7 +223,7 @@ pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     Ok(spec.with_inputs())
 }
 
-/// Measurements of an outcome as they would be read from the database, which stores millimetres.
+/// Measurements of an outcome as the database would return them, which stores millimetres.
 fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
     let stored = |length_m: f64| from_mm(mm(length_m));
     let row = |m: &engine::Measured| ChiRow {
@@ -240,7 +239,7 @@ fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
     outcome.measured.iter().map(row).collect()
 }
 
-/// Pairs the measurements of two results by number, each at its last stage.
+/// Pairs the measurements of two results by number, each result at its last stage.
 fn paired(a: &[ChiRow], b: &[ChiRow]) -> Vec<ChiPair> {
     let mut numbers: Vec<u32> = a.iter().chain(b).map(|row| row.no).collect();
     numbers.sort_unstable();

@@ -1,4 +1,4 @@
-//! Reports that were built, and the building of one: for a screen that lists and starts them.
+//! Reports in a folder, for a screen that lists and builds them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,19 +10,19 @@ use store::{Result, Store, files};
 /// A report in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReportRow {
-    /// Name of its folder: that of its study, unless it was built elsewhere.
+    /// Name of the report's folder: that of its study, unless it was built elsewhere.
     pub name: String,
-    /// Path of its HTML page.
+    /// Path of the HTML page.
     pub page: PathBuf,
     /// Size of the page, bytes.
     pub bytes: u64,
-    /// Time at which it was written, ms since 1970 (UTC).
+    /// Time when the page was written, ms since 1970 (UTC).
     pub written_ms: i64,
-    /// Number of files beside the page, with those in folders.
+    /// Number of files beside the page, those in folders included.
     pub files: usize,
 }
 
-/// Returns the reports in the folders of a folder, by name; none where it cannot be read.
+/// Reports in the subfolders of a folder, by name; empty where the folder cannot be read.
 #[must_use]
 pub fn reports(folder: &Path) -> Vec<ReportRow> {
     let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
@@ -50,7 +50,7 @@ fn count(folder: &Path) -> usize {
     entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()
 }
 
-/// Builds the report of a study in a folder of its own below `folder`; returns its page.
+/// Builds the report of a study in a folder of its own below `folder`. Returns the path of its page.
 ///
 /// # Errors
 /// When there is no such study, a stored result cannot be read, or a file cannot be written.

@@ -1,4 +1,4 @@
-//! Scatter plots as SVG: head, frame, axes and colours that pictures of people by two measurements share.
+//! Scatter plots as SVG: head, frame, axes and colours of pictures that show people by two measurements.
 
 use std::fmt::Write;
 
@@ -14,13 +14,13 @@ pub fn head(width: f64, height: f64) -> String {
     )
 }
 
-/// A square panel with two axes, px.
+/// A square panel with two axes; lengths in px.
 pub struct Panel {
-    /// Distance of its left side from that of the picture.
+    /// Distance of the left side from that of the picture.
     pub left: f64,
-    /// Length of its sides.
+    /// Length of the sides.
     pub side: f64,
-    /// Distance of its top from that of the picture.
+    /// Distance of the top from that of the picture.
     pub margin: f64,
     /// Limits of the horizontal axis.
     pub x: (f64, f64),
@@ -45,7 +45,7 @@ impl Panel {
     pub fn frame(&self, svg: &mut String, title: &str, [across, up]: [&str; 2]) {
         let Self { left, side, margin, x, y } = self;
         let bottom = margin + side;
-        // Writing into a text does not fail, here and below.
+        // Writing to a `String` does not fail, here and below.
         let _ = writeln!(svg, "<text x=\"{left}\" y=\"24\" font-size=\"16\">{title}</text>");
         let _ = writeln!(
             svg,
@@ -72,7 +72,7 @@ impl Panel {
     }
 }
 
-/// Limits around some values, rounded outwards to hundreds.
+/// Limits around values, rounded outwards to hundreds.
 pub fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
     if low > high {
@@ -81,7 +81,7 @@ pub fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (((low - 10.0) / 100.0).floor() * 100.0, ((high + 10.0) / 100.0).ceil() * 100.0)
 }
 
-/// Text with the characters escaped that XML reserves.
+/// Text in which the characters that XML reserves are escaped.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

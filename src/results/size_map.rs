@@ -1,4 +1,4 @@
-//! Scatter plot of the subjects of a study by stature and girth, in the colour of the size to wear.
+//! Scatter plot of a study's subjects by stature and girth, coloured by the size to wear.
 
 use std::fmt::Write;
 
@@ -21,8 +21,8 @@ struct Dot {
     fit: String,
 }
 
-/// Draws an SVG picture of a study with a panel for each garment and a dot for each subject, in the colour of the size
-/// to wear. A dot is hollow where even that size is tight or loose at some level.
+/// Draws an SVG picture of a study: a panel for each garment, a dot for each subject in the colour of the size to wear.
+/// A dot is hollow where that size is tight or loose at some level.
 ///
 /// # Errors
 /// When there is no such study.
@@ -42,7 +42,7 @@ pub fn size_map(store: &Store, study: &str) -> Result<String> {
     Ok(svg)
 }
 
-/// Every subject in every garment with its size to wear, by garment.
+/// All subjects in all garments with their sizes to wear, by garment.
 fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     let sql = "WITH known AS (
             SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
@@ -66,7 +66,7 @@ fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
     Ok(dots.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Draws one garment: axes, dots, and the legend of the colours.
+/// Draws one garment: axes, dots, and legend of the colours.
 fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     let (x, y) = (axis(dots.iter().map(|dot| dot.stature_mm)), axis(dots.iter().map(|dot| dot.girth_mm)));
     let panel = Panel { left, side: PANEL, margin: MARGIN, x, y };
@@ -80,7 +80,7 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     for dot in dots {
         let (x, y, colour) = (panel.across(dot.stature_mm), panel.up(dot.girth_mm), colour(&dot.size));
         let fill = if dot.fit == "as_meant" { colour } else { "white" };
-        // Writing into a text does not fail.
+        // Writing to a `String` does not fail.
         let _ = writeln!(
             svg,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"2\"><title>{}: {} \

@@ -20,20 +20,20 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).origin(Origin::Body)
 }
 
-/// A built body as `body build` reports it: its readings, doubts about the measurements, and its mass.
+/// Report of `body build` on a body: its readings, doubts about the measurements, and its mass.
 #[derive(Debug, serde::Serialize)]
 pub struct Judgement<'a> {
     /// Readings on the body.
     #[serde(flatten)]
     pub read: Read<'a>,
-    /// Measurements that few people alike have.
+    /// Measurements that are rare among people whose other measurements are alike.
     pub doubts: Vec<Doubt>,
-    /// Mass from the volume.
+    /// Mass, from the volume.
     #[serde(flatten)]
     pub mass: Mass,
 }
 
-/// Readings on a body, with the keys of `body measure`.
+/// Readings on a body, under the keys of `body measure`.
 #[derive(Debug, serde::Serialize)]
 pub struct Read<'a> {
     /// Girths and levels.
@@ -61,10 +61,10 @@ pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<
     }
 }
 
-/// Reads and measures a body scan. Its unit and sex are inferred where they are not given.
+/// Reads and measures a body scan. Unit and sex are inferred where they are not given.
 ///
 /// # Errors
-/// When it cannot be read or is no standing person.
+/// When the scan cannot be read or shows no standing person.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     body::from_scan(&scan.bytes, unit, sex).map_err(in_scan(scan))
 }
@@ -87,7 +87,7 @@ pub fn measured(scan: &Scan) -> Result<Measured> {
     scan.measured().origin(Origin::Body)
 }
 
-/// Makes a body from a scan, which can wear garments.
+/// Makes a body that can wear garments from a scan.
 ///
 /// # Errors
 /// When arms or legs are not apart, or the surface does not close.
@@ -98,7 +98,7 @@ pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
 /// Moves a body into another pose.
 ///
 /// # Errors
-/// When its limbs do not reach the pose, or would touch.
+/// When the limbs do not reach the pose, or would touch.
 pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
     body::pose(body, pose).origin(Origin::Body)
 }
@@ -117,19 +117,19 @@ pub enum Lens {
     FieldDeg(f64),
 }
 
-/// Camera of a pair of pictures.
+/// Camera of a front and a side picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureCamera {
-    /// Its lens.
+    /// Lens of the camera.
     pub lens: Lens,
-    /// Distance from the person, m.
+    /// Distance of the camera from the person, m.
     pub distance_m: f64,
 }
 
-/// Reads a body from a front and a side picture; without a camera they count as orthographic.
+/// Reads a body from a front and a side picture. Without a camera the pictures count as orthographic.
 ///
 /// # Errors
-/// When a picture cannot be read, or shows no single person wholly.
+/// When a picture cannot be read, or does not show exactly one whole person.
 pub fn read_pictures(
     front: &Path,
     side: &Path,
@@ -159,7 +159,7 @@ pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
 
-/// Draws a body with the tapes of its girths and a tailor's lines, as PNG bytes.
+/// Draws a body with the tape lines of its girths and other measurements, as PNG bytes.
 ///
 /// # Errors
 /// When the mesh cannot be drawn.

@@ -1,5 +1,5 @@
-//! Entries of the catalogue, made of named numbers and texts. Study files, imported tables, flags and forms are all
-//! read here, so that a value is accepted by all of them or by none.
+//! Entries of the catalogue (subjects, fabrics), made of named numbers and texts. Study files, imported tables, flags
+//! and forms are all read here, so all of them accept the same values.
 
 use std::ops::RangeInclusive;
 
@@ -11,18 +11,18 @@ pub struct Field<T: 'static> {
     pub key: &'static str,
     /// Name on screens and in help.
     pub label: &'static str,
-    /// True where every entry must have it.
+    /// True where every entry must have the number.
     pub is_required: bool,
     pub(crate) range: RangeInclusive<f64>,
     pub(crate) get: Box<Get<T>>,
     pub(crate) set: Box<Set<T>>,
 }
 
-/// Another way to give a number of an entry: in another unit, or by another test.
+/// Another way to give a number of an entry, such as in another unit or by another test.
 pub struct Sheet<T: 'static> {
-    /// The number as it is given.
+    /// The number in the form in which it is given.
     pub field: Field<T>,
-    /// Key of the [`Field`] that it is converted to.
+    /// Key of the [`Field`] that the number is converted to.
     pub key: &'static str,
 }
 
@@ -38,7 +38,7 @@ impl<T: Entry> Sheet<T> {
         problem.map_or(Ok(()), |problem| Err(format!("`{}` is {number}: {problem}", self.field.key)))
     }
 
-    /// The problem where a field is given in two ways. `is_given` is true of the keys that are given.
+    /// Problem of a field that is given in two ways. `is_given` is true for keys that are given.
     pub(crate) fn doubled(&self, is_given: impl Fn(&str) -> bool) -> Option<String> {
         let others = T::sheets().iter().filter(|other| other.key == self.key && other.field.key != self.field.key);
         let other = std::iter::once(self.key).chain(others.map(|other| other.field.key)).find(|key| is_given(key))?;
@@ -46,7 +46,7 @@ impl<T: Entry> Sheet<T> {
     }
 }
 
-/// True if a required field is given in none of its ways.
+/// True if a required field is given in none of the ways.
 pub(crate) fn is_absent<T: Entry>(field: &Field<T>, is_given: impl Fn(&str) -> bool) -> bool {
     let stand_ins = T::sheets().iter().filter(|sheet| sheet.key == field.key);
     field.is_required && !is_given(field.key) && !stand_ins.map(|sheet| sheet.field.key).any(is_given)
@@ -62,18 +62,18 @@ impl<T> Field<T> {
         self.key.replace('_', "-")
     }
 
-    /// Its value in an entry.
+    /// Returns the number of an entry.
     #[must_use]
     pub fn get(&self, entry: &T) -> Option<f64> {
         (self.get)(entry)
     }
 
-    /// Sets its value in an entry, or takes it away.
+    /// Sets the number of an entry; `None` takes it away.
     pub fn set(&self, entry: &mut T, value: Option<f64>) {
         (self.set)(entry, value);
     }
 
-    /// Returns a number that is within the accepted range.
+    /// Returns a number if it is within the accepted range.
     ///
     /// # Errors
     /// The number, and the accepted range.
@@ -85,7 +85,7 @@ impl<T> Field<T> {
         Err(format!("`{}` is {number}; accepted: {} to {}", self.key, range.start(), range.end()))
     }
 
-    /// Reads a value from text; empty text is no value.
+    /// Reads a number from text; `None` for empty text.
     ///
     /// # Errors
     /// The text, and the accepted range.
@@ -103,29 +103,29 @@ impl<T> Field<T> {
     }
 }
 
-/// A key of an entry, with the value that is given for it as text.
+/// Key of an entry, and its value as text.
 pub type Given = (String, String);
 
-/// A value that is made from keys and texts: the measurements of a subject, or a fabric.
+/// An entry of the catalogue, made from keys and texts: the measurements of a subject, or a fabric.
 pub trait Entry: Clone + 'static {
     /// Every number that the entry has, with its key, unit and accepted values.
     fn fields() -> &'static [Field<Self>];
 
-    /// Other ways to give its numbers. The conversion of a later one may need an earlier one.
+    /// Other ways to give these numbers, in an order in which a conversion uses only numbers before it.
     fn sheets() -> &'static [Sheet<Self>] {
         &[]
     }
 
-    /// Keys of its texts besides the name, each with true where it is required.
+    /// Keys of the texts besides the name, each with true where the text is required.
     const TEXTS: &'static [(&'static str, bool)];
 
     /// An entry without any value.
     fn blank(name: &str) -> Self;
 
-    /// Sets one of its texts.
+    /// Sets the text of a key.
     fn set_text(&mut self, key: &str, text: &str) -> Result<(), String>;
 
-    /// Checks that its numbers go together; else returns a key with its problem.
+    /// Checks that the numbers go together; the error is a key with its problem.
     fn check(&self) -> Result<(), Given> {
         Ok(())
     }
@@ -137,7 +137,8 @@ pub fn keys<T: Entry>() -> Vec<&'static str> {
     T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).chain(sheets).collect()
 }
 
-/// Sets given values in a copy of `base`, or in a blank entry, which then needs all required values.
+/// Sets given values in a copy of `base`. Without `base` begins with a blank entry, which then needs all required
+/// values.
 ///
 /// # Errors
 /// Every key with the problem of its value.

@@ -1,4 +1,4 @@
-//! Refusals of patterns that are read without a study.
+//! Errors of patterns that are read without a study.
 
 use std::path::PathBuf;
 
@@ -14,9 +14,9 @@ pub enum SpecError {
         folder.display()
     )]
     NoPattern {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
-        /// Number of its files.
+        /// Number of files in the folder.
         others: usize,
     },
     /// A pattern without seams, and no seam file.

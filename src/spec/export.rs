@@ -1,4 +1,4 @@
-//! Export of a study: a study file that reproduces it elsewhere, with all files that it needs.
+//! Export of a study: a study file with all files that it names, to repeat the study elsewhere.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,15 +13,15 @@ use sim::Fabric;
 use store::files::SourceFile;
 
 impl Study {
-    /// Number of its simulations.
+    /// Number of simulations of the study.
     #[must_use]
     pub fn jobs(&self) -> usize {
         job::jobs(self).len()
     }
 }
 
-/// Files that reproduce a study elsewhere. Measurements, fabrics and parameters are numbers of the study file; patterns
-/// and scans lie beside it. Each job has the same inputs as before, since the file names nothing of the catalogue.
+/// Returns the files that repeat a study elsewhere. Measurements, fabrics and parameters become numbers of the study
+/// file; patterns and scans lie beside it. The file names nothing of the catalogue, so each job keeps its inputs.
 #[must_use]
 pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     let mut files: Files = BTreeMap::new();
@@ -57,7 +57,7 @@ pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     files.into_iter().collect()
 }
 
-/// Contents by path within the folder.
+/// Contents of files by path within the folder.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
 fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
@@ -131,7 +131,7 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
 }
 
 /// Puts a file, or the files of a folder, below `folder` under its own name, since the name is an input of results.
-/// If another file has the name, it goes one folder deeper. Returns its path.
+/// Where another file has this name already, goes one folder deeper. Returns the path.
 pub fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {
@@ -149,12 +149,12 @@ pub fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     }
 }
 
-/// A text as TOML writes it.
+/// Quotes a text for TOML.
 pub(crate) fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
-/// Texts as a list of TOML.
+/// Writes texts as a list of TOML.
 pub(crate) fn list(texts: &[&str]) -> String {
     format!("[{}]", texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", "))
 }

@@ -30,13 +30,13 @@ fn measurement(dimension: Dimension) -> Field<Measurements> {
     }
 }
 
-/// The values of a measurement that a body can be built with, in the unit of its key.
+/// Values of a measurement with which a body can be built, in the unit of the key.
 fn body_range(dimension: Dimension) -> RangeInclusive<f64> {
     let [least, greatest] = dimension.range().map(|bound| (bound * dimension.per_si() * 1e6).round() / 1e6);
     least..=greatest
 }
 
-/// A number of [`Fabric`] in SI units.
+/// Makes a field for a number of [`Fabric`], which is in SI units.
 macro_rules! number {
     ($field:ident, $label:literal, $range:expr) => {
         Field {
@@ -110,7 +110,7 @@ pub static FABRIC_NUMBERS: LazyLock<Vec<Field<Fabric>>> = LazyLock::new(|| {
     ]
 });
 
-/// Sets one of the three numbers of a law that stiffens. Where one is taken away, the whole law goes.
+/// Sets one of the three numbers that say how cloth stiffens when stretched. Removing one number removes all three.
 fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched, f64)) {
     let unset = Stretched { stretch: f64::NAN, membrane_warp_n_m: f64::NAN, membrane_weft_n_m: f64::NAN };
     match value {
@@ -119,7 +119,7 @@ fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched
     }
 }
 
-/// The sex of a word.
+/// Sex that a word names.
 ///
 /// # Errors
 /// The word, and those that are accepted.
@@ -205,7 +205,7 @@ pub fn sex_name(m: &Measurements) -> &'static str {
     }
 }
 
-/// A length in millimetres, rounded to a nanometre, so that a written value survives the conversion to metres and back.
+/// Converts a length to mm, rounded to 1 nm so that a written value survives the way back to metres.
 pub fn millimetres(length_m: f64) -> f64 {
     (mm(length_m) * 1e6).round() / 1e6
 }

@@ -1,5 +1,4 @@
-//! The inputs of a job as named values. Results are keyed by their hash, and a miss of the cache is explained by their
-//! changes.
+//! Inputs of a job as named values. Their hash is the key of the result, and their changes explain a miss of the cache.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,7 +10,7 @@ use store::StageKind;
 #[serde(transparent)]
 pub struct Inputs(BTreeMap<String, String>);
 
-/// True if a stage depends on an input, by the first part of the input's name.
+/// True if a stage depends on an input. The first part of the input's name decides.
 fn depends_on(stage: StageKind, name: &str) -> bool {
     let group = name.split('.').next().unwrap_or_default();
     match stage {
@@ -27,9 +26,9 @@ fn depends_on(stage: StageKind, name: &str) -> bool {
 pub struct Change {
     /// Name of the input.
     pub name: String,
-    /// Earlier value; `None` where the input was not there.
+    /// Earlier value; `None` where the input is new.
     pub before: Option<String>,
-    /// Present value; `None` where the input is not there any more.
+    /// Present value; `None` where the input is gone.
     pub after: Option<String>,
 }
 
@@ -44,14 +43,14 @@ impl fmt::Display for Change {
     }
 }
 
-/// The first digits of a hash; other values whole.
+/// Shortens a hash to its first 8 digits; other values stay whole.
 fn short(value: &str) -> &str {
     let is_hash = value.len() == 64 && value.bytes().all(|byte| byte.is_ascii_hexdigit());
     if is_hash { &value[..8] } else { value }
 }
 
 impl Inputs {
-    /// Sets the value of a name, in place of an earlier one.
+    /// Sets the value of a name, replacing an earlier value.
     pub fn set(&mut self, name: impl Into<String>, value: impl fmt::Display) {
         self.0.insert(name.into(), value.to_string());
     }
@@ -76,7 +75,8 @@ impl Inputs {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Hash of some inputs. The length of each text goes before it, so that no two lists of inputs have the same bytes.
+    /// Hash of the inputs whose names `matters` accepts. The length of each text goes before it, so that no two lists
+    /// of inputs have the same bytes.
     fn hash_of(&self, matters: impl Fn(&str) -> bool) -> String {
         let mut hasher = blake3::Hasher::new();
         for (name, value) in self.0.iter().filter(|(name, _)| matters(name)) {
@@ -88,7 +88,7 @@ impl Inputs {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Changes since earlier inputs, by name.
+    /// Changes since earlier inputs, sorted by name.
     #[must_use]
     pub fn changes_since(&self, earlier: &Self) -> Vec<Change> {
         let mut names: Vec<&String> = self.0.keys().chain(earlier.0.keys()).collect();

@@ -13,56 +13,56 @@ use sim::Fabric;
 use store::files::SourceFile;
 use store::{JobRow, Result, StudyError};
 
-/// One simulation with everything it needs.
+/// One simulation with everything that it needs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct JobSpec {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Its style in the catalogue.
+    /// Name of the garment's style in the catalogue.
     pub style: String,
     /// Name of the size, such as `M`.
     pub size: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator that drapes it.
+    /// Simulator that drapes the garment.
     pub simulator: Simulator,
     /// Number of the repeat, from 1.
     pub repeat: u32,
-    /// The subject: measurements or scan, and pose.
+    /// Wearer: measurements or scan, and pose.
     #[serde(flatten)]
     pub person: Person,
     /// Pattern of the size.
     pub pattern: SourceFile,
-    /// Unit of the pattern where its file names none.
+    /// Unit of the pattern, where its file names none.
     pub unit: Option<String>,
     /// Seam file; `None` where the pattern holds its own seams.
     pub seams: Option<SourceFile>,
-    /// Fabric that it is cut from.
+    /// Fabric that the garment is cut from.
     pub fabric: Fabric,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
-    /// Values of the simulators' parameters that are not the default ones.
+    /// Parameters of the simulators that differ from their defaults.
     pub parameters: Parameters,
     /// Priority, order and limits.
     #[serde(default)]
     pub schedule: Schedule,
-    /// The outfit of which it is a layer.
+    /// Outfit of which the garment is a layer, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outfit: Option<Outfit>,
-    /// The job that drapes it in the first pose, where the body then moves into another pose and carries it along.
+    /// Job that drapes the garment in the pose in which it is put on, if the body then moves and carries it along.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dressed: Option<Box<JobSpec>>,
-    /// All of the above but the schedule, and the versions of the stages, as named values.
+    /// All fields above but `schedule`, with the versions of the stages, as named values.
     pub inputs: Inputs,
 }
 
-/// Input that names the size of a pattern that is draped.
+/// Name of the input with the size that is draped.
 pub const PATTERN_SIZE: &str = "pattern.size";
 
-/// Input that names the pose from which a garment was carried.
+/// Name of the input with the pose that a garment was carried from.
 pub const CARRIED_FROM: &str = "carried.from";
 
-/// The outfit of a layer.
+/// Outfit of a job, with all its layers.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outfit {
     /// Name of the outfit.
@@ -74,7 +74,7 @@ pub struct Outfit {
 }
 
 impl Outfit {
-    /// Hash of the inputs of all layers, the same for each of them.
+    /// Hash of the inputs of all layers, equal for each layer of the outfit.
     pub fn id(&self) -> String {
         let mut all = Inputs::default();
         for (number, layer) in self.layers.iter().enumerate() {
@@ -89,7 +89,7 @@ impl Outfit {
 pub struct Selection {
     /// Names of simulators, `fem` and `hybrid`.
     pub simulators: Vec<String>,
-    /// Sizes; case does not matter.
+    /// Names of sizes, in upper or lower case.
     pub sizes: Vec<String>,
     /// Names of subjects of the study.
     pub subjects: Vec<String>,
@@ -104,7 +104,7 @@ impl Selection {
         self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
     }
 
-    /// True if a stored job is selected.
+    /// True if the job of a stored row is selected.
     #[must_use]
     pub fn takes_row(&self, job: &JobRow) -> bool {
         self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
@@ -113,7 +113,7 @@ impl Selection {
     /// Checks that a study has every name of the selection.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] with the names that there are.
+    /// [`StudyError::NotFound`] with the names that the study has.
     pub fn check(&self, study: &Study) -> Result<()> {
         let sizes = study.worn().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
         let axes: [(&'static str, &[String], Vec<&str>); 4] = [
@@ -148,7 +148,7 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
     jobs_where(study, |_, _| true)
 }
 
-/// The jobs of a garment on a subject, in that order.
+/// Jobs of one garment on one subject, in the same order.
 #[must_use]
 pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
     jobs_where(study, |entry, who| entry.name == garment && who.id == subject)
@@ -158,7 +158,7 @@ fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool
     let mut jobs = Vec::new();
     for garment in study.worn() {
         let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
-        // A garment is carried alone.
+        // Layers of an outfit cannot be carried into another pose.
         let is_able = |subject: &Subject| garment.outfit.is_none() || subject.carried_from.is_none();
         let is_worn = |subject: &&Subject| {
             wearers.contains(subject.id.as_str()) && is_able(subject) && is_wanted(garment, subject)
@@ -166,7 +166,7 @@ fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool
         let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
         for size in 0..garment.sizes.len() {
             for subject in &subjects {
-                // Only FEM-GS simulates layers, and the friction that carries a garment.
+                // Only FEM-GS simulates layers, and the friction by which a body carries a garment.
                 let is_plain = garment.outfit.is_none() && subject.carried_from.is_none();
                 for &simulator in study.simulators.iter().filter(|simulator| is_plain || **simulator == Simulator::Fem)
                 {
@@ -213,7 +213,7 @@ impl JobSpec {
     /// All fields are listed, so that a new field does not compile until somebody decides whether it is an input.
     pub fn with_inputs(self) -> Self {
         let Self {
-            // Names in the study, which results do not depend on.
+            // Results do not depend on names in the study.
             garment: _,
             style: _,
             size,
@@ -227,11 +227,11 @@ impl JobSpec {
             fabric,
             edge_length_m,
             parameters,
-            // Order and limits, which results do not depend on.
+            // Results do not depend on order and limits.
             schedule: _,
             outfit,
             dressed,
-            // Made here.
+            // Written by this function.
             inputs: _,
         } = &self;
         let mut inputs = Inputs::default();
@@ -243,7 +243,7 @@ impl JobSpec {
             inputs.set(format!("seams.{}", seams.name), seams.hash());
         }
         inputs.set(format!("pattern.{}", pattern.name), pattern.hash());
-        // A file may hold many sizes, so the hash of the file does not tell them apart.
+        // A file may hold several sizes, so its hash does not tell them apart.
         inputs.set(PATTERN_SIZE, size);
         if let Some(unit) = unit {
             inputs.set("pattern.unit", unit);
@@ -266,7 +266,7 @@ impl JobSpec {
     }
 }
 
-/// Adds the measurements, scan and pose of a subject to inputs, as far as they are known.
+/// Adds the measurements, scan and pose of a subject to inputs, where it has them.
 pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, scan, pose }: &Person) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
     for field in MEASUREMENTS.iter() {
@@ -286,7 +286,7 @@ pub fn subject_inputs(inputs: &mut Inputs, id: &str, Person { measurements: m, s
     }
 }
 
-/// Adds the numbers of a fabric to inputs. Results do not depend on their source.
+/// Adds the numbers of a fabric to inputs. Results do not depend on its `source`.
 pub fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
     for field in FABRIC_NUMBERS.iter() {
         if let Some(number) = field.get(fabric) {

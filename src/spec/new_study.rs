@@ -1,4 +1,4 @@
-//! New study files, written for people to read and edit: comments show further keys.
+//! New study files, for people to read and edit: their comments show further keys.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -16,7 +16,7 @@ use store::{Result, StudyError};
 
 /// Contents of a new study.
 pub struct Outline<'a> {
-    /// Its name; `None` for that of its folder.
+    /// Name of the study; `None` for that of its folder.
     pub name: Option<&'a str>,
     /// Simulators that drape every garment.
     pub simulators: &'a [Simulator],
@@ -30,27 +30,27 @@ pub struct Outline<'a> {
     pub garments: Vec<Worn<'a>>,
     /// Fabric of all garments.
     pub fabric: &'a str,
-    /// Intended fit of all garments; `None` leaves the default one.
+    /// Intended fit of all garments; `None` for the default.
     pub fit: Option<Intended>,
 }
 
 /// A garment of a new study.
 #[derive(Default)]
 pub struct Worn<'a> {
-    /// Name of the style, which becomes that of the garment.
+    /// Name of the style, which becomes the name of the garment.
     pub style: &'a str,
     /// Path of the seam file.
     pub seams: Option<String>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
-    /// Names of the subjects who wear it; `None` for all.
+    /// Names of the subjects who wear the garment; `None` for all.
     pub subjects: Option<Vec<String>>,
     /// Sizes with the paths of their patterns.
     pub sizes: Vec<(String, String)>,
 }
 
 impl Outline<'_> {
-    /// The text of `study.toml`.
+    /// Returns the text of `study.toml`.
     pub fn text(&self) -> String {
         let subjects = self.known.len() + self.measured.len() + self.scanned.len();
         let wearers = |garment: &Worn<'_>| garment.subjects.as_ref().map_or(subjects, Vec::len);
@@ -156,13 +156,13 @@ pub fn write_quickstart(folder: &Path) -> Result<()> {
     }
     let mut files: Vec<(String, Vec<u8>)> =
         Model::Tshirt.files().into_iter().map(|(name, bytes)| (format!("patterns/{name}"), bytes)).collect();
-    // Last, so that a folder with a study.toml has all of it.
+    // Written last, so that a folder with a study.toml has all other files.
     files.push(("study.toml".to_owned(), include_bytes!("../../studies/quickstart/study.toml").to_vec()));
     write_files(folder, &files).map(drop)
 }
 
-/// Files of a first study: a `study.toml` to edit, with a drafted style beside it. It is worn by a subject of the
-/// catalogue and by one whose measurements are to be filled in.
+/// Files of a first study: a `study.toml` to edit, and a drafted style. Its wearers are a subject of the catalogue and
+/// one whose measurements are to be filled in.
 ///
 /// # Errors
 /// When the folder has a study already.
@@ -203,7 +203,7 @@ pub fn new_study(folder: &Path, model: Model, fit: Option<Intended>) -> Result<V
     Ok(files)
 }
 
-/// The size of a drafted pattern by the name of its file; `None` for the seam file.
+/// Size of a drafted pattern, by its file's name; `None` for the seam file.
 pub fn drafted_size(file: &str) -> Option<String> {
     Some(file.strip_suffix(".dxf")?.rsplit_once('-')?.1.to_uppercase())
 }

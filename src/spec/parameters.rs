@@ -1,5 +1,6 @@
 //! Parameters of the simulators by name, as a study file sets or sweeps them: `fem.offset_mu`, `fem.bend_angle_deg`,
-//! `hybrid.relax.momentum`. The names are those of the simulators' own parameters, lengths in mm and angles in degrees.
+//! `hybrid.relax.momentum`. Names follow the fields of the simulators' `Params`, with lengths in mm and angles in
+//! degrees.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +16,7 @@ use store::{InOrigin, Origin, Result, nearest};
 /// All simulators.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
-/// Values that differ from the default ones, by name, in the unit that ends the name.
+/// Values that differ from the defaults, by name, each in the unit that ends its name.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Parameters(BTreeMap<String, Value>);
@@ -39,7 +40,7 @@ impl Parameters {
             return Err(format!("`{name}` is {value}; accepted: {}", accepted.words()));
         }
         let alone = Self(BTreeMap::from([(name.to_owned(), value.clone())]));
-        // Only the simulator's own type knows the words that it accepts.
+        // A word is tried in the simulator's own type, which alone knows the accepted words.
         if let (Accepted::Word, Err(error)) = (accepted, alone.fem().map(drop).and(alone.hybrid().map(drop))) {
             return Err(format!("`{name}` is {value}: {error}"));
         }
@@ -52,7 +53,7 @@ impl Parameters {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// Adds the values of one simulator to the inputs of a job, which does not depend on those of the other.
+    /// Adds the values for one simulator to the inputs of a job, which does not depend on those for the other.
     pub(crate) fn add_inputs(&self, simulator: Simulator, inputs: &mut Inputs) {
         let prefix = format!("{}.", simulator.as_str());
         for (name, value) in self.iter().filter(|(name, _)| name.starts_with(&prefix)) {
@@ -73,7 +74,7 @@ impl Parameters {
     /// The parameters of FEM-GS.
     ///
     /// # Errors
-    /// When a value does not fit, which [`Parameters::set`] would have refused.
+    /// When a value does not fit; [`Parameters::set`] refuses such values.
     pub fn fem(&self) -> Result<fem::Params> {
         self.over(Simulator::Fem, &fem::Params::default())
     }
@@ -86,7 +87,7 @@ impl Parameters {
         self.over(Simulator::Hybrid, &hybrid::Params::default())
     }
 
-    /// Default parameters with these values in their place.
+    /// Replaces the default parameters that have a value here.
     fn over<T: Serialize + DeserializeOwned + Clone>(&self, simulator: Simulator, default: &T) -> Result<T> {
         if self.0.is_empty() {
             return Ok(default.clone());
@@ -97,7 +98,7 @@ impl Parameters {
     }
 }
 
-/// Sets the given values in a tree of parameters.
+/// Sets the given values in a tree of parameters, converted to SI units.
 fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     for (key, value) in tree.as_object_mut().into_iter().flatten() {
         let (name, unit) = edge_name(key);
@@ -114,7 +115,7 @@ fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
     }
 }
 
-/// Accepted kind of a value: that of the default one.
+/// Accepted kind of a value: the kind of its default.
 enum Accepted {
     Number,
     Count,
@@ -151,7 +152,7 @@ fn accepted(default: &Value) -> Accepted {
         Value::Array(_) => Accepted::Counts,
         Value::String(_) => Accepted::Word,
         Value::Number(number) if number.is_u64() => Accepted::Count,
-        // A null default is a number that the simulator chooses itself.
+        // The default null lets the simulator choose a number itself.
         _ => Accepted::Number,
     }
 }
@@ -166,12 +167,12 @@ fn defaults() -> BTreeMap<String, Value> {
 }
 
 /// Hash of the default parameters and constants of a simulator, by name and value, hex. It changes with a number, but
-/// not with the name of a type.
+/// not when a type is renamed.
 pub(crate) fn default_hash(simulator: Simulator) -> String {
     deciding(simulator).into_iter().collect::<Inputs>().hash()
 }
 
-/// Default parameters of a simulator and the constants that it runs with, by name.
+/// Default parameters and constants that decide the results of a simulator, by name.
 fn deciding(simulator: Simulator) -> BTreeMap<String, String> {
     let own = format!("{}.", simulator.as_str());
     let parameters = defaults().into_iter().filter(|(name, _)| name.starts_with(&own));
@@ -196,14 +197,14 @@ fn flatten(prefix: &str, tree: Value, found: &mut BTreeMap<String, Value>) {
     }
 }
 
-/// Unit of a value in study files, where it differs from the unit inside.
+/// Unit of a value in study files, where it is not the SI unit of the program.
 enum Unit {
     Same,
     Millimetre,
     Degree,
 }
 
-/// Name of a parameter in study files, and its unit there.
+/// Name and unit of a parameter in study files.
 fn edge_name(key: &str) -> (String, Unit) {
     match (key.strip_suffix("_rad"), key.strip_suffix("_m")) {
         (Some(stem), _) => (format!("{stem}_deg"), Unit::Degree),

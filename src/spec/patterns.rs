@@ -16,10 +16,10 @@ pub use pattern::dxf::Unit;
 pub use pattern::inspect::{FileReport, PieceReport};
 pub use pattern::{MeshQuality, Style};
 
-/// The patterns below a folder, by path: DXF files, and those JSON files that are patterns.
+/// Patterns below a folder, by path: DXF files, and JSON files that are patterns.
 ///
 /// # Errors
-/// When a folder or file cannot be read, or there is no pattern.
+/// When a folder or file cannot be read, or the folder has no pattern.
 pub fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let (mut found, mut others) = (Vec::new(), 0);
     let top = folder;
@@ -53,30 +53,30 @@ fn is_drawing(path: &Path) -> Result<bool> {
     Ok(ends_in("dxf"))
 }
 
-/// Reads a style from the files of a pattern and its seams; `size` names one where the pattern holds several.
+/// Reads a style from a pattern and its seam file. `size` picks a size where the pattern holds several.
 ///
 /// # Errors
-/// When a file cannot be read, names no unit while none is given, or does not fit the other.
+/// When a file cannot be read or names no unit and none is given, or pattern and seams do not fit each other.
 pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
     let seams = seams.map(SourceFile::read).transpose()?;
     read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
 }
 
-/// The pieces of one size of a pattern, without a size those of the sample size.
+/// Pieces of one size of a pattern; of the sample size where `size` is `None`.
 pub fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
     let nest = Nest::read(pattern, unit)?;
     nest.pieces(size.unwrap_or(nest.sample_size()))
 }
 
-/// Pieces of a size, or the reason why it cannot be sewn.
+/// Pieces of a size, or the reason why they cannot be read.
 pub struct SizePieces {
     /// Name of the size.
     pub size: String,
-    /// Its pieces.
+    /// Pieces of the size.
     pub pieces: Result<Vec<Piece>>,
 }
 
-/// The files of a pattern, which may hold several sizes (a nest).
+/// Files of a pattern, which may hold several sizes (a nest).
 pub struct Nest {
     files: Vec<PatternFile>,
     /// Seam allowance of pieces without a sew line, m.
@@ -90,12 +90,12 @@ impl Nest {
         Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
     }
 
-    /// The same pattern with a seam allowance, which applies to pieces that have no sew line.
+    /// Sets the seam allowance, m, of pieces that have no sew line.
     pub fn with_allowance(self, allowance_m: f64) -> Self {
         Self { allowance_m, ..self }
     }
 
-    /// The line along which its pieces are sewn, in words.
+    /// Line along which the pieces are sewn, in words.
     pub fn sewn_along(&self) -> String {
         let pieces = || self.files.iter().flat_map(|file| &file.pieces);
         let lined = pieces().filter(|piece| piece.sew_line.is_some()).count();
@@ -111,12 +111,12 @@ impl Nest {
         }
     }
 
-    /// The file that has the sizes of the garment: the first of several sizes, since a file of one size goes with any.
+    /// File that says which sizes there are: the first with several sizes, since a file of one size goes with any.
     fn graded(&self) -> Option<&PatternFile> {
         self.files.iter().find(|file| file.sizes().len() > 1).or(self.files.first())
     }
 
-    /// Names of the sizes, from the smallest to the largest; `""` where none is named.
+    /// Names of the sizes, the smallest first; one empty name where none is named.
     pub fn sizes(&self) -> Vec<&str> {
         self.graded().map_or(vec![], PatternFile::sizes)
     }
@@ -131,7 +131,7 @@ impl Nest {
         self.files.iter().filter_map(|file| file.unit_remark.as_deref())
     }
 
-    /// The pieces of a size. Those of a file with a single size are taken for it, under any name.
+    /// Pieces of a size. Files with a single size, under whatever name, give their pieces to every size.
     pub fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
         let mut pieces = Vec::new();
         for file in &self.files {
@@ -147,19 +147,19 @@ impl Nest {
         Ok(pieces)
     }
 
-    /// The pieces of all sizes but one.
+    /// Pieces of all sizes but `size`.
     pub fn others(&self, size: &str) -> Vec<SizePieces> {
         let others = self.sizes().into_iter().filter(|other| !other.eq_ignore_ascii_case(size));
         others.map(|other| SizePieces { size: other.to_owned(), pieces: self.pieces(other) }).collect()
     }
 }
 
-/// The unit that a study file names so.
+/// Unit of a name such as `mm`.
 pub fn unit_of(name: &str) -> Option<Unit> {
     Unit::ALL.into_iter().find(|unit| unit.as_str() == name)
 }
 
-/// Reads a style as [`style`] does, from files that are in memory.
+/// Reads a style as [`style`] does, from files in memory.
 pub fn read_style(
     pattern: &SourceFile,
     seams: Option<&SourceFile>,
@@ -187,8 +187,8 @@ pub fn read_style(
     Ok(style)
 }
 
-/// Refuses a style without pieces, or with pieces that no person could wear, since its file is then in another unit
-/// than it says.
+/// Refuses a style without pieces, or with pieces too small or too large for a person: its file has another unit than
+/// it says.
 fn check_scale(style: &Style, file: &str) -> Result<()> {
     if style.pieces.is_empty() {
         return Err(SpecError::NoPiece { pattern: file.to_owned() }.into());
@@ -210,7 +210,7 @@ pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)>
     Ok((garment, quality))
 }
 
-/// The files of a drafted style: a DXF file for each size, and the seam file.
+/// Files of a drafted style: a DXF file for each size, and the seam file.
 #[must_use]
 pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
     model.files()

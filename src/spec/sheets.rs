@@ -1,5 +1,5 @@
 //! Numbers of a fabric in the units of laboratories and other programs: KES-F, FAST, a cantilever, CLO. Each is
-//! converted to a number of [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS) as it is read.
+//! converted, as it is read, to a number of [`FABRIC_NUMBERS`](crate::fields::FABRIC_NUMBERS).
 
 use std::sync::LazyLock;
 
@@ -10,13 +10,14 @@ use sim::Fabric;
 /// 1 gf, N.
 const GRAM_FORCE_N: f64 = 1e-3 * GRAVITY;
 
-/// Secant modulus (stress over Green strain, N/m) of a strip that a force per width (N/m) stretches by a percentage.
+/// Secant modulus, N/m: membrane stress divided by Green strain, for a strip that a force per width, N/m, stretches by
+/// a percentage.
 fn modulus_n_m(pull_n_m: f64, stretch_pct: f64) -> f64 {
     let stretch = stretch_pct / 100.0;
     pull_n_m / ((1.0 + stretch) * stretch * (1.0 + 0.5 * stretch))
 }
 
-/// A number and its conversion, a function of the number and of the fabric, whose areal density is set by then.
+/// Makes a sheet. The conversion takes the number and the fabric, whose areal density is set by then.
 macro_rules! sheet {
     ($key:literal, $label:literal, $range:expr, $field:ident, $convert:expr) => {{
         let convert: fn(f64, &Fabric) -> f64 = $convert;
@@ -36,7 +37,7 @@ macro_rules! sheet {
     }};
 }
 
-/// All of them. Those of the areal density come first, since later conversions use it.
+/// All sheets. Those of the areal density come first, since later conversions use it.
 pub static FABRIC_SHEETS: LazyLock<Vec<Sheet<Fabric>>> = LazyLock::new(|| {
     vec![
         sheet!("weight_g_m2", "areal density", 5.0..=5000.0, density_kg_m2, |w, _| 1e-3 * w),
@@ -114,7 +115,7 @@ mod tests {
         check("eb5_pct", "4.7", "shear_n_m", 26.17);
         check("weight_mg_cm2", "12.4", "density_kg_m2", 0.124);
         check("weight_g_m2", "168", "density_kg_m2", 0.168);
-        // At a small stretch the modulus is the pull over the stretch.
+        // At a small stretch the modulus is nearly the pull divided by the stretch.
         check("e100_weft_pct", "0.1", "membrane_weft_n_m", 98.0665 / 0.001 / 1.0015);
         check("emt_warp_pct", "0.1", "membrane_warp_n_m", 490.3325 / 0.001 / 1.0015);
         check("bending_weft_g_mm2_s2", "1000", "bending_weft_nm", 1e-6);

@@ -1,5 +1,5 @@
-//! The cache of products: each is kept by the hash of all its inputs. The latest stay in memory while a run lasts, and
-//! all are in the database. Where two workers need the same product at once, one makes it and the other waits.
+//! Cache of the products of stages, each kept under the hash of its inputs: the latest in memory for one run, all in
+//! the database. Where two workers need the same product at once, one makes it and the other waits.
 
 use std::any::Any;
 use std::collections::{BTreeMap, VecDeque};
@@ -26,7 +26,7 @@ pub trait Artefact: Sized + Send + Sync + 'static {
     fn decode(bytes: &[u8]) -> std::result::Result<Self, String>;
 }
 
-/// Makes types artefacts that are stored as JSON: exact for finite numbers, readable by other programs.
+/// Makes types artefacts that are stored as JSON, which is exact for finite numbers and readable by other programs.
 #[macro_export]
 macro_rules! json_artefact {
     ($($stored:ty),*) => {$(
@@ -73,11 +73,11 @@ impl Artefact for DistanceField {
 /// One product that a job used.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Used {
-    /// Stage that made it.
+    /// Stage that made the product.
     pub stage: StageKind,
-    /// Hash of its inputs, hex.
+    /// Hash of the stage's inputs, hex.
     pub hash: String,
-    /// True where the cache had it.
+    /// True where the cache had the product.
     pub was_cached: bool,
 }
 
@@ -87,15 +87,15 @@ impl std::fmt::Display for Used {
     }
 }
 
-/// Memory that the products of one run may take, bytes as they are stored before packing: bodies and distance fields of
-/// a dozen subjects. A population would take gigabytes.
+/// Most memory for the products of one run, bytes before compression: room for bodies and distance fields of a dozen
+/// subjects. Without a limit the subjects of a population would take gigabytes.
 const KEPT_BYTES: usize = 512 << 20;
 
 type Product = Arc<dyn Any + Send + Sync>;
-/// Place of one product. The first worker fills it; the others wait for its lock.
+/// Place of one product. The first worker fills the slot; the others wait for its lock.
 type Slot = Arc<Mutex<Option<Product>>>;
 
-/// The products of one run in memory, over those of a database.
+/// Products of one run in memory, backed by those of a database.
 pub struct Cache {
     path: PathBuf,
     slots: Mutex<BTreeMap<String, Slot>>,
@@ -104,13 +104,13 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// The cache of a database.
+    /// Returns the cache of a database, with nothing in memory yet.
     #[must_use]
     pub fn new(database: PathBuf) -> Self {
         Self { path: database, slots: Mutex::default(), filled: Mutex::default() }
     }
 
-    /// Returns the product of a stage: from memory, from the database, or made now and then stored.
+    /// Returns the product of a stage: from memory, from the database, or else from `make`, and then stores it.
     ///
     /// # Errors
     /// Those of `make`, and of the database.
@@ -146,8 +146,8 @@ impl Cache {
         Ok((product, used(was_cached)))
     }
 
-    /// Notes a product that was put into memory, and drops the oldest ones beyond `most` bytes. A worker that still
-    /// uses one of those keeps its own reference.
+    /// Notes a product that was put into memory, and drops the oldest products while all take more than `most` bytes. A
+    /// worker that still uses a dropped product keeps its own reference.
     fn keep(&self, hash: &str, size: usize, most: usize) {
         let mut filled = lock(&self.filled);
         filled.push_back((hash.to_owned(), size));
@@ -165,7 +165,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// The stored bytes of a hash; `None` also where they are damaged.
+/// Stored bytes of a hash; `None` where there are none, or where they are damaged.
 pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>>> {
     let sql = "SELECT bytes FROM artefact WHERE hash = ?";
     let packed: Option<Vec<u8>> = connection.prepare_cached(sql)?.query_row([hash], |row| row.get(0)).optional()?;
@@ -175,8 +175,8 @@ pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>
     }))
 }
 
-/// Stores bytes by their hash, compressed, since most of a distance field is far from the body and constant. Bytes of
-/// an earlier program that cannot be read any more are replaced.
+/// Stores bytes under their hash, compressed: most of a distance field is far from the body and constant. Replaces
+/// bytes under this hash that the program can no longer read.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
     packer.write_all(bytes).origin(Origin::Store)?;

@@ -10,10 +10,10 @@ use crate::error::{Result, StudyError, database_error};
 use crate::functions::add_functions;
 use crate::schema::{LATEST, check_version, migrate};
 
-/// Time that a statement waits for another process's write, s, where `TOILE_PATIENCE_S` sets no other.
+/// Time that a statement waits while another process writes, s, where `TOILE_PATIENCE_S` sets no other.
 const PATIENCE_S: f64 = 20.0;
 
-/// Time that a statement waits for another process's write.
+/// Time that a statement waits while another process writes.
 fn patience() -> Duration {
     let given = std::env::var("TOILE_PATIENCE_S").ok().and_then(|text| text.parse::<f64>().ok());
     Duration::try_from_secs_f64(given.unwrap_or(PATIENCE_S)).unwrap_or(Duration::from_secs_f64(PATIENCE_S))
@@ -24,16 +24,16 @@ fn patience() -> Duration {
 pub enum Access {
     /// Reads only; the file must exist.
     Read,
-    /// Reads and writes, and makes the file where there is none: for the opening of a store.
+    /// Reads and writes, and makes the file where there is none.
     Create,
     /// Reads and writes; a commit is on disk when it returns. The file must exist.
     Write,
-    /// Writes that a power cut may undo, but never by half (progress, heartbeats). The file must exist.
+    /// Reads and writes; a power cut may undo whole transactions (progress, heartbeats). The file must exist.
     Volatile,
 }
 
-/// Opens a database, creating and migrating it where the access allows. Only [`Access::Create`] makes a file: where the
-/// database of a run is deleted, its workers must not go on in an empty one of the same name.
+/// Opens a database, creating and migrating it where the access allows. Only [`Access::Create`] makes a file, so that
+/// the workers of a run whose database was deleted do not go on in an empty one of the same name.
 pub fn open(path: &Path, access: Access) -> Result<Connection> {
     let fail = |reason: String| StudyError::Open { path: path.to_owned(), reason };
     if access == Access::Read {
@@ -69,8 +69,8 @@ pub fn open(path: &Path, access: Access) -> Result<Connection> {
     Ok(connection)
 }
 
-/// Opens a database for reading. SQLite needs files beside it, which it cannot make on a read-only medium. There the
-/// database is opened as immutable, if its write-ahead log is empty or missing.
+/// Opens a database for reading. SQLite needs files beside the database, which it cannot make on a read-only medium.
+/// There the database is opened as immutable, if its write-ahead log is empty or missing.
 fn open_to_read(path: &Path, flags: OpenFlags) -> rusqlite::Result<Connection> {
     let try_open = |name: &Path| -> rusqlite::Result<Connection> {
         let connection = Connection::open_with_flags(name, flags)?;
@@ -89,8 +89,8 @@ fn open_to_read(path: &Path, flags: OpenFlags) -> rusqlite::Result<Connection> {
     }
 }
 
-/// Switches to write-ahead logging. The switch needs the file for itself, and SQLite does not wait for that. Two
-/// programs may make the same database at once, so it is tried again until the patience ends.
+/// Switches to write-ahead logging. The switch needs exclusive access, for which SQLite does not wait. Two programs may
+/// make the same database at once, so the switch is tried again until [`patience`] ends.
 fn use_log(connection: &Connection) -> rusqlite::Result<()> {
     let end = Instant::now() + patience();
     loop {
@@ -114,8 +114,8 @@ pub fn still_there(path: &Path) -> Result<()> {
     })
 }
 
-/// Network file systems, as Linux names them. SQLite's locks do not hold there, and its write-ahead log needs shared
-/// memory, which two machines do not have.
+/// Network file systems, by their names in Linux. SQLite's locks do not hold there, and its write-ahead log needs
+/// shared memory, which two machines do not have.
 const NETWORK: [&str; 11] =
     ["nfs", "nfs4", "cifs", "smb3", "smbfs", "afs", "ceph", "lustre", "gpfs", "fuse.sshfs", "beegfs"];
 
@@ -136,8 +136,8 @@ fn refuse_network(path: &Path) -> Result<()> {
     }
 }
 
-/// Kind of the file system that a folder lies on, from the text of `/proc/self/mountinfo`: that of the longest mount
-/// point above it, and of several mounts at one point the last.
+/// Kind of the file system that a folder lies on, from the text of `/proc/self/mountinfo`. The longest mount point
+/// above the folder counts, and of several mounts at one point the last.
 fn file_system<'t>(mounts: &'t str, folder: &Path) -> Option<&'t str> {
     let mut best: Option<(usize, &str)> = None;
     for line in mounts.lines() {
@@ -151,7 +151,7 @@ fn file_system<'t>(mounts: &'t str, folder: &Path) -> Option<&'t str> {
     best.map(|(_, kind)| kind)
 }
 
-/// Denies ATTACH to queries: with it and with VACUUM INTO they could write other files.
+/// Denies ATTACH to queries: ATTACH and VACUUM INTO could write other files.
 fn no_other_files(context: AuthContext<'_>) -> Authorization {
     match context.action {
         AuthAction::Attach { .. } => Authorization::Deny,

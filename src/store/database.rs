@@ -7,8 +7,8 @@ use rusqlite::Connection;
 use crate::connection::{Access, open};
 use crate::error::{Result, StudyError};
 
-/// An open database. Queries and changes use separate connections, so that [`Store::version`] also notices this
-/// process's own writes. It is `Send`, but not `Sync`: each thread opens its own.
+/// An open database. Queries and changes use separate connections, since [`Store::version`] sees only the writes of
+/// other connections. A store is `Send`, but not `Sync`: each thread opens its own.
 pub struct Store {
     path: PathBuf,
     /// Connection for queries.
@@ -39,7 +39,7 @@ impl Store {
         self.writer.is_none()
     }
 
-    /// A number that changes whenever any process has written to the database. Reading it costs microseconds.
+    /// Number that changes whenever any process has written to the database. Reading it costs microseconds.
     ///
     /// # Errors
     /// When the database cannot be read.

@@ -16,9 +16,9 @@ pub enum StudyError {
     /// A database file could not be opened.
     #[error("{}: cannot open this database: {reason}", path.display())]
     Open {
-        /// The database file.
+        /// Path of the file that was to be opened.
         path: PathBuf,
-        /// Reason.
+        /// Reason why it does not open.
         reason: String,
     },
     /// The database was written by a newer program.
@@ -43,17 +43,17 @@ pub enum StudyError {
     /// Everything that is wrong with a study file.
     #[error("{}", Problem::listing(.0))]
     File(Vec<Problem>),
-    /// Values that an entry of the catalogue cannot have.
+    /// Values that are not accepted for an entry of the catalogue.
     #[error("{what} {name}: {}", problems.join("; "))]
     Refused {
-        /// Part of the catalogue.
+        /// Part of the catalogue, such as `subject`.
         what: &'static str,
         /// Name of the entry.
         name: String,
-        /// Problem of each value.
+        /// One problem for each value.
         problems: Vec<String>,
     },
-    /// A study whose name is that of one in another folder.
+    /// A study whose name is stored already for a study of another folder.
     #[error(
         "study `{name}`: found in {}, and its results are kept for {}; accepted: another name in the study file, a database \
          of its own (--db PATH), or --moved where it is the same study in a new place",
@@ -68,10 +68,10 @@ pub enum StudyError {
         /// The study file that was found.
         found: PathBuf,
     },
-    /// A new entry of a name that is taken.
+    /// A new entry under a name that is taken.
     #[error("there is a {what} `{name}` already; edit it, or take another name")]
     Exists {
-        /// Part of the catalogue.
+        /// Part of the catalogue, such as `subject`.
         what: &'static str,
         /// Name of the entry.
         name: String,
@@ -86,7 +86,7 @@ pub enum StudyError {
         /// Names that exist, for a suggestion.
         known: Vec<String>,
     },
-    /// A name is missing where there are several.
+    /// A choice among several that the command does not name.
     #[error("which {what}? --{what} says it; there are: {}", .known.join(", "))]
     Unsaid {
         /// Kind of thing, and the flag that names it.
@@ -94,7 +94,7 @@ pub enum StudyError {
         /// Names that exist.
         known: Vec<String>,
     },
-    /// An entry of the catalogue that was removed, and stays stored for its results.
+    /// An entry of the catalogue that was removed; it stays stored for the results that use it.
     #[error("no {what} `{name}`; {}", hidden_hint(.what))]
     Hidden {
         /// Part of the catalogue.
@@ -105,9 +105,9 @@ pub enum StudyError {
     /// A part of the program refused its input.
     #[error("{origin}: {source}")]
     Refusal {
-        /// The part.
+        /// Part of the program.
         origin: Origin,
-        /// Its own error, such as a [`SimError`].
+        /// Error of that part, such as a [`SimError`].
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Stored bytes are not what the program wrote.
@@ -115,7 +115,7 @@ pub enum StudyError {
     Artefact {
         /// Hash under which the bytes are stored.
         hash: String,
-        /// The problem.
+        /// Problem of the bytes.
         message: String,
     },
     /// A job failed on another machine.
@@ -136,7 +136,7 @@ impl StudyError {
         move |source| Self::Io { path, source }
     }
 
-    /// The error of a simulator; [`Self::Interrupted`] where it was asked to stop.
+    /// Wraps the error of a simulator; [`Self::Interrupted`] where the simulator was asked to stop.
     #[must_use]
     pub fn sim(error: SimError) -> Self {
         match error {
@@ -151,7 +151,7 @@ impl StudyError {
     }
 }
 
-/// Part of the program that an error comes from; messages begin with its name.
+/// Part of the program that an error comes from; the message begins with the name of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// Alterations.
@@ -186,7 +186,7 @@ pub enum Origin {
     Render,
     /// Reports.
     Report,
-    /// A run made again.
+    /// A run that is repeated.
     Rerun,
     /// A result file.
     Result,
@@ -264,7 +264,7 @@ pub enum FileError {
         folder.display()
     )]
     NoPattern {
-        /// The folder.
+        /// Folder without a pattern.
         folder: PathBuf,
         /// Number of its JSON files that are patterns.
         patterns: usize,
@@ -282,7 +282,7 @@ pub enum FileError {
     Format {
         /// The file.
         path: PathBuf,
-        /// Ending of its name, in words.
+        /// Ending of the file's name, in words.
         found: String,
         /// Names with the endings that are accepted.
         accepted: String,
@@ -295,7 +295,7 @@ pub enum FileError {
     },
 }
 
-/// One thing that is wrong with a study file.
+/// One error in a study file, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Path of the file, as messages show it.
@@ -304,7 +304,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// Column of the line, in characters from 1.
     pub column: Option<usize>,
-    /// The finding, and what would be accepted.
+    /// Value that was found, and the values that are accepted.
     pub message: String,
 }
 
@@ -365,12 +365,12 @@ fn suggestion(known: &[String], name: &str) -> String {
     }
 }
 
-/// Advice on a hidden entry of a part of the catalogue.
+/// Advice for an entry that was removed from a part of the catalogue.
 pub fn hidden_hint(part: &str) -> String {
     format!("it is hidden: it was removed, and stays for its results; `toile {part} add` or `import` brings it back")
 }
 
-/// The candidate nearest to a misspelt name, if at most a third of the letters of the longer one differ.
+/// Candidate nearest to a misspelt name, if their edit distance is at most a third of the longer name's length.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()

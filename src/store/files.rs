@@ -1,4 +1,4 @@
-//! Files with their bytes: those that a study reads, and those that are written.
+//! Files with their bytes: those that a study reads, and those that the program writes.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -7,15 +7,15 @@ use crate::error::{FileError, Origin, Result, StudyError};
 use pattern::source::{self, Kind};
 use report::file_part;
 
-/// Greatest length of a study's name, bytes, since files are named after it.
+/// Greatest length of a study's name, bytes: folders and files are named after the study.
 const MOST_NAME_BYTES: usize = 200;
 
-/// A file as read, or the DXF files of a folder, where each holds a piece of one pattern.
+/// A file as read; or a folder of DXF files, each with a piece of the same pattern, taken as one file.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct SourceFile {
     /// Name without folders; that of a folder ends in `/`.
     pub name: String,
-    /// Contents (base64 in JSON); of a folder, the name, length and contents of each file, one after another.
+    /// Contents (base64 in JSON). Of a folder: name, length and contents of each of its files, one after another.
     #[serde(with = "base64_bytes")]
     pub bytes: Arc<[u8]>,
 }
@@ -38,7 +38,7 @@ mod base64_bytes {
 }
 
 impl SourceFile {
-    /// True if the file is a pattern that holds its own seams: GarmentCode JSON, by its contents.
+    /// True if the file is a pattern that holds its own seams, as GarmentCode JSON does. Judged by the contents.
     #[must_use]
     pub fn holds_seams(&self) -> bool {
         !self.name.ends_with('/') && source::kind(&self.bytes) == Kind::GarmentCode
@@ -53,11 +53,11 @@ impl SourceFile {
         Ok(Self { name: name_of(path), bytes: bytes.into() })
     }
 
-    /// Reads a pattern: a file, or all DXF files of a folder, by name. Of a folder without DXF files it is the one JSON
-    /// file that is a pattern, under any name.
+    /// Reads a pattern: a file, or all DXF files of a folder, sorted by name. A folder without DXF files must have
+    /// exactly one JSON file that is a pattern, under any name.
     ///
     /// # Errors
-    /// When it cannot be read, or the folder has no DXF file and not just one pattern as JSON.
+    /// When a file cannot be read, or a folder without DXF files has no or several patterns as JSON.
     pub fn read_pattern(path: &Path) -> Result<Self> {
         if !path.is_dir() {
             return Self::read(path);
@@ -92,7 +92,7 @@ impl SourceFile {
         Ok(Self { name: format!("{}/", name_of(path)), bytes: bytes.into() })
     }
 
-    /// The files that it is made of: itself, or those of the folder.
+    /// Files that this value holds: itself, or those of the folder.
     #[must_use]
     pub fn parts(&self) -> Vec<Self> {
         if !self.name.ends_with('/') {
@@ -100,7 +100,7 @@ impl SourceFile {
         }
         let mut parts = Vec::new();
         let mut rest = &self.bytes[..];
-        // The bytes of `read_pattern` split without a remainder; other bytes end the list.
+        // Bytes of `read_pattern` split without a remainder; other bytes end the list.
         while let Some((name, after)) = split_zero(rest) {
             let Some((length, after)) = split_zero(after) else { break };
             let length = String::from_utf8_lossy(length).parse().unwrap_or(usize::MAX);
@@ -130,7 +130,7 @@ fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..at], &bytes[at + 1..]))
 }
 
-/// The format of a file to be written, by the ending of its name: one of those that are accepted.
+/// Format of a file to be written: that of the accepted endings which its name has.
 ///
 /// # Errors
 /// [`FileError::Format`] when the name ends otherwise.
@@ -148,10 +148,10 @@ pub fn kind_of<T: Copy>(path: &Path, accepted: &[(&str, T)]) -> std::result::Res
     Err(FileError::Format { path: path.to_owned(), found, accepted })
 }
 
-/// Makes a folder and tries to write there, so that a run fails before hours are spent on files that go into it.
+/// Makes a folder and tries to write there, so that a run fails at once and not after hours of work.
 ///
 /// # Errors
-/// When it cannot be made, or no file can be made in it.
+/// When the folder cannot be made, or no file can be made in it.
 pub fn make_folder(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
     let probe = folder.join(format!(".toile-{}", std::process::id()));
@@ -172,17 +172,18 @@ pub fn check_study_name(name: &str) -> std::result::Result<(), String> {
     Err(format!("accepted: a name that a folder may have, of at most {MOST_NAME_BYTES} bytes, without `/` and `\\`"))
 }
 
-/// Name of the folder or file of a study: that of the study where [`check_study_name`] accepts it, which a name in a
-/// database from elsewhere need not pass.
+/// Name of the folder or file of a study: the study's own name where [`check_study_name`] accepts it, else a safe one.
+/// A name in a database from elsewhere may be one that is not accepted.
 #[must_use]
 pub fn study_folder(study: &str) -> String {
     if check_study_name(study).is_ok() { study.to_owned() } else { file_part(study) }
 }
 
-/// Writes files into a folder, which is made where it is missing; returns their paths.
+/// Writes files into a folder and returns their paths. Makes the folder where it is missing.
 ///
 /// # Errors
-/// When the folder or a file cannot be written, or a file's name leads out of the folder: then nothing is written.
+/// When the folder or a file cannot be written. When a file's name leads out of the folder, and then nothing is
+/// written.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>> {
     let is_within = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
     if let Some((name, _)) = files.iter().find(|(name, _)| name.is_empty() || !is_within(name)) {

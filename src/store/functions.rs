@@ -1,4 +1,4 @@
-//! Statistics that SQLite does not have.
+//! Statistics for SQL that SQLite does not have.
 
 use rusqlite::functions::{Aggregate, Context, FunctionFlags};
 use rusqlite::{Connection, Error};
@@ -11,10 +11,10 @@ pub(crate) fn add_functions(connection: &Connection) -> rusqlite::Result<()> {
     connection.create_aggregate_function("stddev", 1, flags, Deviation)
 }
 
-/// `quantile(x, p)`, and `median(x)` with p = 1/2.
+/// `quantile(x, p)`: linear between order statistics; `median(x)` is p = 1/2.
 struct Quantile;
 
-/// Numbers of a group and the share asked for.
+/// Numbers of a group and the share p.
 struct Sample {
     values: Vec<f64>,
     share: f64,

@@ -1,4 +1,4 @@
-//! Live frames of a running simulation: the garment as it is now, of one job at a time, and only while it is watched.
+//! Live frames of a running simulation: the present shape of one job's garment, kept only while a screen watches it.
 
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -19,7 +19,7 @@ pub struct LiveFrame {
 }
 
 /// Exchange between a run and the screen that watches it. A frame is copied only after the one before was taken, so
-/// that watching costs a simulation a copy of its vertices a few times a second. It does not touch results.
+/// watching costs a simulation a few copies of its vertices a second. Results do not depend on it.
 #[derive(Debug, Default)]
 pub struct Live {
     watched: AtomicI64,
@@ -27,13 +27,13 @@ pub struct Live {
 }
 
 impl Live {
-    /// Watches a job, or none.
+    /// Watches a job; `None` ends watching.
     pub fn watch(&self, job: Option<JobId>) {
         self.watched.store(job.map_or(NOBODY, |job| job.0), Ordering::Relaxed);
         drop(self.take());
     }
 
-    /// Takes the frame that came since the last call.
+    /// Takes the frame that arrived since the last call.
     #[must_use]
     pub fn take(&self) -> Option<LiveFrame> {
         self.slot().take()
@@ -44,12 +44,12 @@ impl Live {
         self.watched.load(Ordering::Relaxed) == job.0 && self.slot().is_none()
     }
 
-    /// Shows a job's garment.
+    /// Offers the present shape of a job's garment as the next frame.
     pub fn show(&self, job: JobId, positions: &[V3]) {
         *self.slot() = Some(LiveFrame { job, positions: positions.to_vec() });
     }
 
-    /// Locks the frame. It is a plain value, and whole even after a panic of another thread.
+    /// Locks the frame. A frame is a plain value, so it is whole even after a panic of another thread.
     fn slot(&self) -> std::sync::MutexGuard<'_, Option<LiveFrame>> {
         self.frame.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::rows::JobId;
 
-/// Time without a change of the heartbeat after which an owner counts as dead, where its process cannot be looked up.
+/// Time without a change of the heartbeat after which an owner counts as dead, where nobody can ask for its process.
 const LEASE: Duration = Duration::from_secs(60);
 
 /// Name of one run: `host/boot/pid/start/number`, unique over machines and time.
@@ -56,9 +56,9 @@ pub(crate) fn is_dead(owner: &str) -> Option<bool> {
     Some(their_boot != boot() || start_ticks(pid) != Some(start))
 }
 
-/// Heartbeats of other machines' jobs as this run has seen them change. Their time stamps come from the clocks of those
-/// machines, which may be wrong or be set. So a stamp is only compared with the one before, and the time since its last
-/// change is measured by this machine's monotonic clock.
+/// Heartbeats of other machines' jobs, as this run has seen them change. Their time stamps come from clocks that may be
+/// wrong or be set. So a stamp is only compared with the one before, and the time since its last change is measured by
+/// this machine's monotonic clock.
 #[derive(Debug, Default)]
 pub struct Watch(BTreeMap<JobId, (i64, Instant)>);
 
@@ -89,8 +89,8 @@ fn boot() -> String {
     std::fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|id| id.trim().to_owned()).unwrap_or_default()
 }
 
-/// Start of a process, clock ticks since boot; `None` when it does not run any more. It tells a process from a later
-/// one of the same number.
+/// Start of a process, clock ticks since boot; `None` when the process has ended. It tells a process from a later one
+/// that has the same number.
 fn start_ticks(pid: u32) -> Option<u64> {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     let mut fields = stat.rsplit_once(')')?.1.split_whitespace();

@@ -11,7 +11,7 @@ use crate::owner::{self, Owner, Watch};
 use crate::rows::{JobId, Status};
 use crate::transaction::now_ms;
 
-/// Number of lost processes after which a job is failed, since it might end every process that takes it.
+/// Number of lost processes after which a job fails, since the job itself might be what ends them.
 const MAX_LOST: u32 = 10;
 
 /// State of a job in the queue.
@@ -19,33 +19,33 @@ const MAX_LOST: u32 = 10;
 pub struct State {
     /// Status of the job.
     pub status: Status,
-    /// Times it was started.
+    /// Number of times that the job was started.
     pub attempts: u32,
-    /// Name of the run that has it; there exactly while it runs.
+    /// Name of the run that works on the job; `Some` exactly while the job runs.
     pub owner: Option<String>,
 }
 
 /// Event that can happen to a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event<'a> {
-    /// A worker takes it.
+    /// A worker of the named run takes the job.
     Claim(&'a str),
-    /// Its owner has a result.
+    /// The owner has a result.
     Finish {
-        /// Name of the run that had it.
+        /// Name of the run that had the job.
         owner: &'a str,
         /// True where the cloth came to rest.
         converged: bool,
     },
-    /// Its owner met an error.
+    /// The owner, by name, met an error.
     Fail(&'a str),
-    /// Its owner stops before the end.
+    /// The owner, by name, stops before the end.
     Release(&'a str),
-    /// Its owner is dead.
+    /// The owner is dead.
     Lose,
-    /// The user cancels it.
+    /// The user cancels the job.
     Cancel,
-    /// The user queues it again.
+    /// The user queues the job again.
     Retry,
 }
 
@@ -72,8 +72,8 @@ pub fn next(state: &State, event: &Event<'_>) -> Option<State> {
     }
 }
 
-/// Applies an event to a stored job. Returns its new state; `None` where the event does not apply and the job stays as
-/// it is.
+/// Applies an event to a stored job and returns its new state. Where the event does not apply, returns `None` and
+/// changes nothing.
 pub fn apply(
     transaction: &Transaction<'_>,
     id: JobId,
@@ -103,7 +103,7 @@ pub fn apply(
     Ok(Some(after))
 }
 
-/// Cancels the queued jobs that need the result of a job that ended without one.
+/// Cancels the queued jobs that wait for the result of a job that ended without one.
 fn cancel_dependents(transaction: &Transaction<'_>, id: JobId, status: Status) -> Result<()> {
     let sql = "SELECT job_id FROM job_need JOIN job USING (job_id) WHERE needs = ? AND status = 'queued'";
     let mut statement = transaction.prepare_cached(sql)?;
@@ -117,7 +117,7 @@ fn cancel_dependents(transaction: &Transaction<'_>, id: JobId, status: Status) -
     Ok(())
 }
 
-/// Sets the jobs whose results a job waits for, in place of those that it waited for before.
+/// Sets the jobs whose results a job waits for, replacing those set before.
 pub fn set_needs(transaction: &Transaction<'_>, id: JobId, needs: &[JobId]) -> Result<()> {
     transaction.prepare_cached("DELETE FROM job_need WHERE job_id = ?")?.execute([id.0])?;
     let mut statement = transaction.prepare_cached("INSERT INTO job_need (job_id, needs) VALUES (?, ?)")?;
@@ -143,8 +143,8 @@ pub fn needs(connection: &Connection, id: JobId) -> Result<Vec<JobId>> {
     Ok(needs)
 }
 
-/// Names the jobs that this connection works on: [`claim`] and [`is_open`] see no others. They are in a table of the
-/// connection, since ten thousand of them are found faster there than in a list that goes with every query.
+/// Names the jobs that this connection works on; [`claim`] and [`is_open`] see no others. A temporary table holds them,
+/// since ten thousand are found faster there than in a list that goes with every query.
 pub fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     connection.execute_batch("CREATE TEMP TABLE wanted (job_id INTEGER PRIMARY KEY) STRICT")?;
     let all = serde_json::Value::from_iter(ids.iter().map(|id| id.0)).to_string();
@@ -152,8 +152,8 @@ pub fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     Ok(())
 }
 
-/// Takes the next job for `owner` among those of [`want`] that are queued and wait for no other: the one of greatest
-/// priority, among those of equal priority the one queued first.
+/// Takes the next job for `owner`: among those of [`want`] that are queued and wait for no other job, the one of
+/// greatest priority, and at equal priority the one queued first.
 pub fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) -> Result<Option<JobId>> {
     take_over(transaction, watch)?;
     let next = transaction
@@ -195,7 +195,7 @@ pub fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()>
     Ok(())
 }
 
-/// True if one of the jobs of [`want`] is queued, or running in any process: a worker may still get it.
+/// True if one of the jobs of [`want`] is queued or runs in any process, so that a worker may still get it.
 pub fn is_open(connection: &Connection) -> Result<bool> {
     let sql = "SELECT EXISTS (
         SELECT 1 FROM job WHERE status IN ('queued', 'running') AND is_current AND job_id IN wanted)";

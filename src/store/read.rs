@@ -1,4 +1,4 @@
-//! Queries of screens and reports, each beside the row that it fills.
+//! Queries for screens and reports, each beside the row that it fills.
 
 use std::collections::BTreeMap;
 
@@ -15,14 +15,14 @@ use fit::{Cuts, Simulator};
 use geom::units::from_mm;
 use sim::Step;
 
-/// Selection of jobs; a field that is empty accepts all.
+/// Selection of jobs; `None` in a field accepts all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JobFilter {
     /// Only jobs of the study of this name.
     pub study: Option<String>,
     /// Only jobs in this state.
     pub status: Option<Status>,
-    /// Also jobs whose inputs are no longer the study's.
+    /// True to include jobs whose inputs are no longer those of the study.
     pub superseded: bool,
 }
 
@@ -59,7 +59,7 @@ pub fn study(store: &Store, name: &str) -> Result<StudyRow> {
     found.ok_or_else(|| StudyError::NotFound { what: "study", name: name.to_owned(), known })
 }
 
-/// Names on one axis of a study, in order of its file.
+/// Names on one axis (`size`, `subject`) of a study, in the order of its file.
 fn axis(store: &Store, study: &str, axis: &str) -> Result<Vec<String>> {
     let sql = "SELECT study_axis.name FROM study_axis JOIN study USING (study_id)
         WHERE study.name = ? AND axis = ? ORDER BY position";
@@ -153,7 +153,7 @@ pub fn job(store: &Store, id: JobId) -> Result<JobRow> {
     found.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }
 
-/// Every measurement of a result, by stage and number.
+/// Every measurement of a result, by the stage at which it was taken and by its number.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -175,7 +175,7 @@ pub fn chi(store: &Store, id: JobId) -> Result<Vec<ChiRow>> {
     })
 }
 
-/// The numbers of a result; `None` while there is none.
+/// Metrics of a result; `None` while there is no result.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -232,7 +232,7 @@ pub fn stages(store: &Store, id: JobId) -> Result<Vec<StageRow>> {
     rows(store, sql, &[&id.0], |row| Ok(StageRow { stage: row.get(0)?, hash: row.get(1)?, was_cached: row.get(2)? }))
 }
 
-/// The jobs of the layers under a layer of an outfit, the inmost first; none of a garment that is worn alone.
+/// Jobs of the layers under a layer of an outfit, the inmost first; empty for a garment that is worn alone.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -278,7 +278,7 @@ pub fn ease(store: &Store, study: &str) -> Result<Vec<EaseRow>> {
     })
 }
 
-/// Which simulator to use, for every garment and fit class of a study.
+/// Recommended simulator for every garment and fit class of a study.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -356,7 +356,7 @@ fn job_row(row: &Row<'_>) -> rusqlite::Result<JobRow> {
     })
 }
 
-/// A step from five columns, the first of them `first`. SQLite stores NaN as NULL.
+/// Reads a step from five columns, from column `first` on. NULL stands for NaN, as SQLite stores it.
 fn step(row: &Row<'_>, first: usize) -> rusqlite::Result<Step> {
     let number = |k: usize| row.get::<_, Option<f64>>(first + k).map(|x| x.unwrap_or(f64::NAN));
     Ok(Step {
@@ -368,7 +368,7 @@ fn step(row: &Row<'_>, first: usize) -> rusqlite::Result<Step> {
     })
 }
 
-/// Eases at which the fit classes of a study meet; the default ones of a study that is not stored.
+/// Eases at which the fit classes of a study meet; the default ones where the study is not stored.
 pub fn cuts(store: &Store, study: &str) -> Result<Cuts> {
     let sql = "SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = ?";
     let read = |row: &Row<'_>| Ok(Cuts { tight_below_m: row.get(0)?, loose_above_m: row.get(1)? });

@@ -26,12 +26,12 @@ impl FromStr for JobId {
     }
 }
 
-/// Number of a revision of a subject in its database. Its measurements never change.
+/// Number of a subject's revision in its database. The measurements of a revision never change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubjectId(pub i64);
 
-/// Numbers of the revisions of a style and of one of its sizes in their database. Their pattern and seam file never
-/// change.
+/// Numbers of the revisions of a style and of one of its sizes in their database. The pattern and seam file of a
+/// revision never change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SizeKey {
     /// Row of the style.
@@ -46,7 +46,7 @@ pub struct SizeKey {
 pub enum Status {
     /// Waits for a worker.
     Queued,
-    /// A worker has it.
+    /// Runs in a worker.
     Running,
     /// Has a converged result.
     Done,
@@ -117,9 +117,9 @@ impl From<&Progress> for JobProgress {
 pub struct StudyRow {
     /// Name of the study, unique in the database.
     pub name: String,
-    /// Its `study.toml`.
+    /// Path of the study's `study.toml`.
     pub path: std::path::PathBuf,
-    /// True while none of its jobs is started.
+    /// True while no job of the study may start.
     pub paused: bool,
     /// Jobs in each state, in the order of [`Status::ALL`].
     pub counts: [usize; 6],
@@ -154,36 +154,36 @@ pub struct JobRow {
     pub size: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Simulator that it runs.
+    /// Simulator that the job runs.
     pub simulator: Simulator,
-    /// Number of the repeat of the same cell, from 1.
+    /// Number of the repeat of the same simulation, from 1.
     pub repeat: u32,
     /// State in the queue.
     pub status: Status,
-    /// True while its inputs are those of the study file.
+    /// True while the job's inputs are those of the study file.
     pub is_current: bool,
     /// Priority in the queue; jobs of greater priority run earlier.
     pub priority: i64,
-    /// Times it was started.
+    /// Number of times that the job was started.
     pub attempts: u32,
-    /// Reason of its failure.
+    /// Reason of the failure, where the job failed.
     pub error: Option<String>,
-    /// Time of its queueing, ms since 1970 (UTC).
+    /// Time when the job was queued, ms since 1970 (UTC).
     pub queued_at_ms: i64,
-    /// Time of its last start, ms since 1970 (UTC).
+    /// Time of the last start, ms since 1970 (UTC).
     pub started_at_ms: Option<i64>,
-    /// Time of its end, ms since 1970 (UTC).
+    /// Time of the end, ms since 1970 (UTC).
     pub finished_at_ms: Option<i64>,
-    /// Time from its last start to its end, ms; `None` until it ends.
+    /// Time from the last start to the end, ms; `None` until the job ends.
     pub wall_ms: Option<i64>,
-    /// Its progress, while it runs.
+    /// Progress, while the job runs.
     pub progress: Option<JobProgress>,
-    /// EI of its result.
+    /// EI of the result, where there is one.
     pub ei: Option<f64>,
 }
 
 impl JobRow {
-    /// Estimated time left, ms: the time since its start times (1 - f) / f, with the share f that is done.
+    /// Estimated time left, ms: (time since the start) * (1 - f) / f, where f is the share done.
     #[must_use]
     pub fn eta_ms(&self, now_ms: i64) -> Option<i64> {
         let fraction = self.progress.as_ref()?.fraction;
@@ -195,17 +195,17 @@ impl JobRow {
 /// One cell of a study's grid: a size on a subject, by one simulator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// The current job, if the study was queued.
+    /// Current job; `None` while the study is not queued.
     pub job: Option<JobId>,
     /// State of that job.
     pub status: Option<Status>,
     /// Share done while it runs, 0 to 1.
     pub fraction: Option<f64>,
-    /// EI of its result.
+    /// EI of the job's result.
     pub ei: Option<f64>,
 }
 
-/// The fit of one size on one subject: the ease that decides the fit class.
+/// Fit of one size on one subject, from the ease of the level that decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitCell {
     /// Fit class of the ease.
@@ -214,7 +214,7 @@ pub struct FitCell {
     pub ease_m: f64,
     /// True where the pattern is smaller than the body.
     pub undersized: bool,
-    /// True where the ease is in the overlap of two fit classes of the thesis.
+    /// True where the ease is in the range that two fit classes of the thesis share.
     pub borderline: bool,
 }
 
@@ -229,11 +229,11 @@ pub struct Grid {
     pub sizes: Vec<String>,
     /// Subjects, in order of the study file.
     pub subjects: Vec<String>,
-    /// Simulators that have jobs.
+    /// Simulators that have jobs, in the order of the innermost index of `cells`.
     pub simulators: Vec<Simulator>,
-    /// `cells[size][subject][simulator]`, first repeat.
+    /// `cells[size][subject][simulator]`, of the first repeat.
     pub cells: Vec<Vec<Vec<Cell>>>,
-    /// `fits[size][subject]`, where the ease is known.
+    /// `fits[size][subject]`; `None` where the ease is not known.
     pub fits: Vec<Vec<Option<FitCell>>>,
 }
 
@@ -242,19 +242,19 @@ pub struct Grid {
 pub struct ChiRow {
     /// Stage at which it was measured (`sewn`, `popup`, `drape`).
     pub stage: String,
-    /// Number in the style.
+    /// Number of the measurement in the style.
     pub no: u32,
     /// Name of the measurement in the style.
     pub name: String,
     /// True for a closed girth.
     pub is_girth: bool,
-    /// True where it runs along an edge that no seam holds.
+    /// True where the measurement runs along an edge that no seam holds.
     pub is_free_edge: bool,
-    /// True where the simulator restores it by construction.
+    /// True where the simulator sets this length to that of the pattern by construction.
     pub is_controlled: bool,
     /// Pattern length, m.
     pub l2d_m: f64,
-    /// Garment length, m.
+    /// Length on the drape, m.
     pub l3d_m: f64,
 }
 
@@ -277,15 +277,15 @@ pub struct MetricsRow {
     pub sd_chi: f64,
     /// Mean |chi - 1|.
     pub ei: f64,
-    /// Greatest |chi - 1|.
+    /// Greatest |chi - 1| of a measurement.
     pub max_abs_error: f64,
-    /// Vertices once sewn.
+    /// Vertices of the sewn mesh.
     pub vertices: u32,
-    /// Triangles of the mesh that was draped.
+    /// Triangles of the sewn mesh.
     pub faces: u32,
-    /// Iterations over all levels.
+    /// Iterations, summed over all mesh levels.
     pub iterations: u32,
-    /// Rms residual force over the mean vertex weight.
+    /// Rms residual force divided by the mean weight of a vertex.
     pub residual: f64,
     /// True where the residual reached its tolerance.
     pub converged: bool,
@@ -295,12 +295,12 @@ pub struct MetricsRow {
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth; `None` for results of earlier programs, which did not count them.
     pub self_crossings: Option<u32>,
-    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of earlier programs, which
+    /// FEM-GS: principal stretch less 1 that 1 % of the cloth exceeds; `None` for results of earlier programs, which
     /// did not measure it.
     pub distortion: Option<f64>,
 }
 
-/// Ease of a size on a subject at one level.
+/// Ease of a size on a subject at one level of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EaseRow {
     /// Name of the garment in the study.
@@ -317,7 +317,7 @@ pub struct EaseRow {
     pub body_girth_m: f64,
     /// True where this level has the least ease and so decides the fit class.
     pub decides: bool,
-    /// Its class and marks.
+    /// Ease, fit class and marks.
     pub fit: FitCell,
 }
 
@@ -336,15 +336,15 @@ pub struct RecommendationRow {
     pub verdict: String,
     /// Simulator that the thesis's rule names.
     pub rule_says: Simulator,
-    /// Mean EI difference FEM - Hybrid over subjects.
+    /// Mean over subjects of EI by FEM-GS less EI by Hybrid-GS.
     pub effect: Option<f64>,
-    /// Its confidence interval.
+    /// Confidence interval of that mean.
     pub interval: Option<(f64, f64)>,
-    /// Subjects with both results.
+    /// Number of subjects with results of both simulators.
     pub n_subjects: u32,
     /// The reason in words.
     pub reason: String,
-    /// p of the sign-flip test, adjusted after Holm, where there are enough subjects.
+    /// Holm-adjusted p of the sign-flip test; `None` with too few subjects.
     pub p_holm: Option<f64>,
     /// Data that would settle the question or reverse the recommendation, in words.
     pub would_settle: String,
@@ -366,9 +366,9 @@ pub struct LogLine {
 pub struct StageRow {
     /// `body`, `field`, `mesh` or `drape`.
     pub stage: String,
-    /// Hash of the stage's inputs, under which its product is kept.
+    /// Hash of the stage's inputs, under which the cache keeps its product.
     pub hash: String,
-    /// True where the cache had it.
+    /// True where the cache had the product.
     pub was_cached: bool,
 }
 
@@ -382,12 +382,12 @@ pub struct Table {
 }
 
 impl Table {
-    /// Makes a table of columns and rows.
+    /// Makes a table from headings and rows.
     pub fn new<'a>(columns: impl IntoIterator<Item = &'a str>, rows: impl IntoIterator<Item = Vec<Value>>) -> Self {
         Self { columns: columns.into_iter().map(str::to_owned).collect(), rows: rows.into_iter().collect() }
     }
 
-    /// Returns it as CSV. Texts that a spreadsheet would take for formulas are guarded.
+    /// Returns the table as CSV. Texts that a spreadsheet would take for formulas are guarded.
     #[must_use]
     pub fn csv(&self) -> String {
         let rows = self.rows.iter().map(|row| csv_row(row));
@@ -400,7 +400,7 @@ pub(crate) fn csv_head(columns: &[String]) -> String {
     table::line(columns.iter().map(|name| table::guarded(name)))
 }
 
-/// A row as a line of CSV.
+/// Returns a row as a line of CSV.
 pub(crate) fn csv_row(row: &[Value]) -> String {
     table::line(row.iter().map(|value| match value {
         Value::Text(text) => table::guarded(text),
@@ -413,13 +413,13 @@ pub(crate) fn csv_row(row: &[Value]) -> String {
 pub enum Value {
     /// No value: NULL in SQL.
     Null,
-    /// A whole number.
+    /// Whole number.
     Integer(i64),
-    /// A number that need not be whole.
+    /// Real number.
     Real(f64),
     /// Text in UTF-8.
     Text(String),
-    /// Bytes; only their number is kept.
+    /// Number of bytes of a blob, whose contents are not kept.
     Blob(usize),
 }
 
@@ -447,7 +447,7 @@ impl From<&Value> for serde_json::Value {
     }
 }
 
-/// A cached stage of a job. Each depends on a part of the job's inputs.
+/// A cached stage of a job; each depends on some of the job's inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StageKind {
@@ -462,7 +462,7 @@ pub enum StageKind {
 }
 
 impl StageKind {
-    /// All, in the order data flows.
+    /// All stages, in the order in which data flows.
     pub const ALL: [Self; 4] = [Self::Body, Self::Field, Self::Mesh, Self::Drape];
 
     /// Name in SQL.

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{FileError, Origin, Result, StudyError};
 use crate::files::write_files;
 
-/// Queries that come with the program.
+/// Queries that come with the program: name and SQL.
 const SAVED: [(&str, &str); 8] = [
     ("against_thesis", include_str!("../../db/queries/against_thesis.sql")),
     ("attention", include_str!("../../db/queries/attention.sql")),
@@ -21,16 +21,16 @@ const SAVED: [(&str, &str); 8] = [
 /// A query with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedQuery {
-    /// Name by which it is asked for.
+    /// Name that calls the query.
     pub name: String,
-    /// Its purpose: its first line, where that is a comment.
+    /// Purpose of the query: its first line, where that is a comment.
     pub about: String,
     /// Text of the query.
     pub sql: String,
 }
 
-/// The saved queries by name: those of the program, and those of a folder with a file NAME.sql each. Of two with the
-/// same name the one of the folder counts.
+/// Saved queries by name: those of the program, and those of the files NAME.sql in a folder. Of two with the same name
+/// the folder's counts.
 ///
 /// # Errors
 /// When the folder has a file that cannot be read.
@@ -48,10 +48,10 @@ pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
     Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
 }
 
-/// Saves a query under a name in a folder, in place of one of that name.
+/// Saves a query as NAME.sql in a folder, replacing a query of that name.
 ///
 /// # Errors
-/// When no file can have the name, or it cannot be written.
+/// When the name cannot be that of a file, or the file cannot be written.
 pub fn save_query(folder: &Path, name: &str, sql: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_ .".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {

@@ -6,7 +6,7 @@ use crate::error::{Result, StudyError};
 use crate::evidence::judge::refresh_all;
 use crate::transaction::write;
 
-/// Schema changes in order, never edited once released. `user_version` is the number of them that a database has.
+/// Changes of the schema in order, never edited once released. A database's `user_version` counts those it has.
 const MIGRATIONS: [&str; 18] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
@@ -31,7 +31,7 @@ const MIGRATIONS: [&str; 18] = [
 /// Version of the latest schema.
 pub(crate) const LATEST: i64 = MIGRATIONS.len() as i64;
 
-/// Applies the migrations that a database does not have yet, all or none.
+/// Applies the migrations that a database lacks: all of them or none.
 pub(crate) fn migrate(connection: &mut Connection) -> Result<()> {
     if check_version(connection, 0)? == MIGRATIONS.len() {
         return Ok(());
@@ -46,7 +46,7 @@ pub(crate) fn migrate(connection: &mut Connection) -> Result<()> {
     Ok(transaction.commit()?)
 }
 
-/// Number of migrations a database has; an error when it has more than this program knows, or fewer than `least`.
+/// Number of migrations that a database has; an error where this program knows fewer, or `least` asks for more.
 pub(crate) fn check_version(connection: &Connection, least: i64) -> Result<usize> {
     let known = LATEST;
     let found: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
@@ -68,7 +68,7 @@ mod tests {
 
     const SCHEMA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../db/schema.sql");
 
-    /// The schema the migrations add up to, as SQLite keeps it.
+    /// The schema that the migrations add up to, in SQLite's words.
     fn dump(connection: &Connection) -> String {
         let mut statement = connection
             .prepare("SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY rowid")
@@ -96,8 +96,7 @@ mod tests {
         assert_eq!(std::fs::read_to_string(SCHEMA).expect("db/schema.sql"), schema);
     }
 
-    /// The migrations as they were before crossings were counted and reports remembered: both came in without a
-    /// version.
+    /// The migrations as they were before two changes that came without a version: counts of crossings, stored reports.
     fn of_the_first_days() -> [String; 9] {
         std::array::from_fn(|k| {
             let sql = MIGRATIONS[k];

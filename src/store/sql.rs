@@ -14,11 +14,11 @@ use crate::error::{InOrigin, Origin, Result, StudyError};
 use crate::files::kind_of;
 use crate::rows::{Table, Value, csv_head, csv_row};
 
-/// Handle that stops a query of another thread.
+/// Handle by which another thread stops a query.
 pub struct Interrupter(rusqlite::InterruptHandle);
 
 impl Interrupter {
-    /// Makes the query that runs now end with an error. Does nothing where none runs.
+    /// Ends the query that runs now with an error. Does nothing where no query runs.
     pub fn interrupt(&self) {
         self.0.interrupt();
     }
@@ -30,7 +30,7 @@ pub fn interrupter(store: &Store) -> Interrupter {
     Interrupter(store.reader.get_interrupt_handle())
 }
 
-/// Returns the rows of a query, or of the last of several that `;` separates. Nothing can be written this way.
+/// Returns the rows of a query; of several statements separated by `;`, those of the last. No statement can write.
 ///
 /// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
 /// 1, linear between order statistics).
@@ -56,11 +56,11 @@ pub(crate) fn value(value: ValueRef<'_>) -> Value {
 pub struct SqlAnswer {
     /// Columns and rows.
     pub table: Table,
-    /// True where there are more rows.
+    /// True where the query has more rows than the limit.
     pub is_cut: bool,
 }
 
-/// A table or view, and its columns.
+/// A table or view with its columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
     /// Name of the table or view.
@@ -92,11 +92,11 @@ pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Resu
     Ok(answer)
 }
 
-/// Writes all rows of a query into a file, CSV or JSON by the ending of its name. Returns the number of rows.
+/// Writes all rows of a query into a file and returns their number. The file's ending says CSV or JSON.
 ///
 /// # Errors
-/// The message of SQLite on the query; when the file has another ending, is there already or cannot be written; when
-/// the query was stopped.
+/// The message of SQLite on the query; when the file has another ending, exists already or cannot be written; when the
+/// query was stopped.
 pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
     let is_json = kind_of(path, &[("csv", false), ("json", true)]).origin(Origin::Sql)?;
     let file = File::create_new(path).map_err(StudyError::io(path))?;
@@ -121,13 +121,14 @@ pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -
     let written =
         written.and_then(|()| out.write_all(end.as_bytes()).and_then(|()| out.flush()).map_err(StudyError::io(path)));
     if written.is_err() {
-        // Half a file would pass for a whole one; that it cannot be removed is the lesser error.
+        // Half a file would pass for a whole one. Failing to remove it is the lesser error.
         let _ = fs::remove_file(path);
     }
     written.map(|()| rows)
 }
 
-/// Hands the columns of the last statement of a text to `take`, then each of its rows, until `take` returns false.
+/// Calls `take` for the last statement of a text: with its columns and no row, then with each row, until it returns
+/// false.
 fn each_row(
     store: &Store,
     text: &str,

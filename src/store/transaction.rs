@@ -6,13 +6,13 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 
 use crate::error::{Result, StudyError};
 
-/// A transaction that takes the write lock at once, so that what it read stays true until it commits.
+/// Begins a transaction that takes the write lock at once, so that what it read stays true until it commits.
 pub fn write(connection: &mut Connection) -> rusqlite::Result<Transaction<'_>> {
     connection.transaction_with_behavior(TransactionBehavior::Immediate)
 }
 
-/// Runs `act` in a transaction that does not wait for the disk: only a power cut can undo it, until the next result is
-/// stored. The queue's own bookkeeping is written so.
+/// Runs `act` in a transaction that does not wait for the disk. A power cut can undo it until a later transaction
+/// waits. The queue's bookkeeping is written this way.
 pub fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>) -> Result<T>) -> Result<T> {
     let usual: i64 = connection.pragma_query_value(None, "synchronous", |row| row.get(0))?;
     connection.pragma_update(None, "synchronous", "normal")?;

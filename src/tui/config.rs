@@ -1,10 +1,10 @@
-//! Files of one's own in the config folder: their paths, how they are read, and how their problems are told.
+//! The user's own files in the config folder: their paths, how they are read, and their problems.
 
 use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
-/// Everything that is wrong with a file of one's own.
+/// All problems of one of the user's own files.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", .0.join("\n"))]
 pub struct ConfigError(Vec<String>);
@@ -17,10 +17,10 @@ pub fn path(env: &dyn Fn(&str) -> Option<String>, file: &str) -> Option<PathBuf>
     Some(folder.join("toile").join(file))
 }
 
-/// Reads a file; the default where there is none.
+/// Reads a file; returns the default where there is none.
 ///
 /// # Errors
-/// That it cannot be read, or all that `take` finds wrong with it, each with its line.
+/// When the file cannot be read; else all problems that `take` reports, each with its line.
 pub fn read<T: Default>(
     path: Option<&Path>,
     take: impl Fn(&[Entry<'_>], &mut Problems) -> T,
@@ -31,10 +31,10 @@ pub fn read<T: Default>(
     parse(&path.display().to_string(), &text, take)
 }
 
-/// Reads a text, under the name of its file.
+/// Parses a text; messages give the name of its file.
 ///
 /// # Errors
-/// All that `take` finds wrong with it, each with its line.
+/// All problems that `take` reports, each with its line.
 pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Problems) -> T) -> Result<T, ConfigError> {
     let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -60,11 +60,11 @@ pub fn parse<T>(name: &str, text: &str, take: impl FnOnce(&[Entry<'_>], &mut Pro
 
 /// A line `name = value` of a file.
 pub struct Entry<'a> {
-    /// Key at the top of the file.
+    /// Name of the entry, a key at the top level of the file.
     pub name: &'a str,
-    /// Value as TOML has it, with its place.
+    /// Value in TOML, with its place.
     pub value: &'a DeValue<'a>,
-    /// Line of the file, the first is 1.
+    /// Line of the file, from 1.
     pub line: usize,
 }
 
@@ -72,12 +72,12 @@ pub struct Entry<'a> {
 pub struct Problems(Vec<(usize, String)>);
 
 impl Problems {
-    /// Tells a problem of a line.
+    /// Reports a problem of a line.
     pub fn tell(&mut self, line: usize, what: String) {
         self.0.push((line, what));
     }
 
-    /// The value of a line, or nothing where that is wrong, which is told.
+    /// Returns the value of an entry; reports an error and returns `None`.
     pub fn or_tell<T>(&mut self, entry: &Entry<'_>, value: Result<T, String>) -> Option<T> {
         value.map_err(|what| self.tell(entry.line, format!("{}: {what}", entry.name))).ok()
     }

@@ -1,5 +1,5 @@
-//! Explanations of the numbers on screens. They stand in `docs/glossary.md`, and those of points of measure in
-//! `docs/fit.md`: one place for the program and for readers.
+//! Explanations of the numbers on screens, from `docs/glossary.md` and, for points of measure, `docs/fit.md`: program
+//! and readers share one text.
 
 use std::sync::LazyLock;
 
@@ -7,29 +7,29 @@ use std::sync::LazyLock;
 const GLOSSARY: &str = include_str!("../../docs/glossary.md");
 const FIT: &str = include_str!("../../docs/fit.md");
 
-/// Meaning of a name.
+/// Meaning of a name, from a line of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// Its names: its own first, then headings of screens and columns of SQL.
+    /// Names of the term, the main one first; then headings of screens and columns of SQL.
     pub names: Vec<String>,
-    /// Its unit; empty where it is no number.
+    /// Unit; empty for a term that is no number.
     pub unit: String,
-    /// Definition, and how it is measured.
+    /// Definition, and method of measurement.
     pub about: String,
     /// Values that are good or bad; empty where none are.
     pub good: String,
-    /// The document that tells more; empty where none does.
+    /// Document that says more; empty without one.
     pub more: String,
 }
 
 impl Term {
-    /// The first of its names, by which it is listed.
+    /// Main name of the term, by which lists show it.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.names[0]
     }
 
-    /// True if its names or words contain a text in lower case.
+    /// True if names or texts contain a text, which must be in lower case.
     #[must_use]
     pub fn contains(&self, text: &str) -> bool {
         self.names.iter().chain([&self.about]).any(|words| words.to_lowercase().contains(text))
@@ -41,27 +41,27 @@ pub static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
     let mut terms = terms_of(GLOSSARY);
     let points = FIT.split("\n## ").find(|part| part.starts_with("Points of measure")).unwrap_or_default();
     for mut point in points.lines().filter_map(point_of) {
-        // Levels of the body have names of points.
+        // Some levels of the body have the names of points; the glossary's own term counts.
         point.names.retain(|name| !terms.iter().any(|term| term.names.contains(name)));
         terms.extend(Some(point).filter(|point| !point.names.is_empty()));
     }
     terms
 });
 
-/// The term of a name; where there is none, that of its part before a comma: `mean gap, chest`.
+/// Term of a name; without one, the term of the part before a comma, as in `mean gap, chest`.
 #[must_use]
 pub fn term(name: &str) -> Option<&'static Term> {
     let known = |name: &str| TERMS.iter().find(|term| term.names.iter().any(|known| known == name));
     known(name).or_else(|| known(name.split_once(',')?.0))
 }
 
-/// The cells of a line of a table whose first has names between backquotes.
+/// Cells of a table line whose first cell has names between backquotes.
 fn cells(line: &str) -> Option<Vec<&str>> {
     let row = line.strip_prefix("| `")?.strip_suffix('|')?;
     Some(row.split('|').map(str::trim).collect())
 }
 
-/// The terms of the glossary. A line between heading and table names the document that tells more of all its rows.
+/// Reads the terms of the glossary. A line between heading and table names the document that tells more of all its rows.
 fn terms_of(glossary: &str) -> Vec<Term> {
     let mut more = String::new();
     let mut terms = vec![];
@@ -74,13 +74,13 @@ fn terms_of(glossary: &str) -> Vec<Term> {
     terms
 }
 
-/// The document that the first link of a text leads to.
+/// Returns the document that the first link of a text leads to.
 fn linked(text: &str) -> String {
     let file = text.split_once('(').and_then(|(_, rest)| rest.split_once(')'));
     file.map_or_else(String::new, |(file, _)| format!("docs/{file}"))
 }
 
-/// The term of a line of the glossary. A link at the end of its words goes before that of its table.
+/// Reads a term from a line of the glossary. A link at the end of its words goes before that of its table.
 fn term_of(line: &str, more: &str) -> Option<Term> {
     let (names, unit, about, good) = match cells(line)?[..] {
         [names, unit, about] => (names, unit, about, ""),
@@ -94,7 +94,7 @@ fn term_of(line: &str, more: &str) -> Option<Term> {
     Some(Term { names, unit: unit.to_owned(), about: plain(about), good: plain(good), more })
 }
 
-/// The term of a line of the table of points of measure.
+/// Reads a term from a line of the table of points of measure.
 fn point_of(line: &str) -> Option<Term> {
     let [point, measured] = cells(line)?.try_into().ok()?;
     let point = point.trim_matches('`');

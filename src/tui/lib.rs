@@ -1,19 +1,19 @@
-//! The workbench: screens over a store that changes while one looks.
+//! The workbench: screens over a store that changes meanwhile.
 //!
-//! One event loop takes messages one at a time, lets `App::update` turn them into a new state and effects,
-//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
-//! `threads` that answer with messages; the loop itself only waits for the next one.
+//! One event loop takes messages one at a time, lets `App::update` turn each into a new state and effects, and draws
+//! when the state has changed. Everything that may take time (database, pictures, runs) is done by `threads`, which
+//! answer with messages. The loop itself waits only for the next message.
 //!
-//! The folders, each of which knows only those after it:
+//! Folders, each of which uses only those after it:
 //!
 //! - `app`: the update loop and the frame around the screens;
-//! - `screens`: a folder a screen, with its state, its actions and its drawing, and the state that they share;
-//! - `overlays`: what opens above a screen;
-//! - `threads`, `terminal`: the outside, which knows no screen;
-//! - `messages`: what threads and screens tell each other;
+//! - `screens`: a folder for each screen, with its state, actions and drawing; the state that screens share;
+//! - `overlays`: lists, forms and questions that open above a screen;
+//! - `threads`, `terminal`: work outside the loop, which knows no screen;
+//! - `messages`: messages between threads and screens;
 //! - `keys`: actions and the keys for them;
-//! - `widgets`: what all draw and type with;
-//! - `config`: files of one's own; `glossary`: what numbers are, in words.
+//! - `widgets`: tools for drawing and typing;
+//! - `config`: the user's own files; `glossary`: explanations of numbers.
 //!
 //! *Invariant*: no SQL and no simulator is called here; the crates from `store` on answer.
 
@@ -58,7 +58,7 @@ use widgets::theme_file;
 pub struct Options {
     /// Path of the database file.
     pub database: PathBuf,
-    /// True where it was named, so that commands have to name it too.
+    /// True where the database was named by the user, so that commands shown must name it too.
     pub is_database_named: bool,
     /// True where nothing may be changed.
     pub readonly: bool,
@@ -66,7 +66,8 @@ pub struct Options {
     pub no_color: bool,
     /// Way in which pictures are shown.
     pub images: Images,
-    /// Folder of the study that comes with the program, which is offered while the database has none. It is written there then.
+    /// Folder of the study that comes with the program. A database without studies is offered it; it is written when it
+    /// is run.
     pub quickstart: PathBuf,
 }
 
@@ -76,16 +77,16 @@ pub enum TuiError {
     /// The store could not be opened.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A file of one's own, with keys or colours, is wrong.
+    /// One of the user's own files, with keys or colours, is wrong.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The terminal refused.
+    /// Terminal refused an operation.
     #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
 }
 
-/// Runs the workbench until the user leaves it. A run that was started in it is stopped then, its unfinished jobs back
-/// in the queue; when the terminal is lost, the run is waited for instead.
+/// Runs the workbench until the user leaves it. A run that was started in it is then stopped, and its unfinished jobs
+/// go back into the queue. When the terminal is lost, the run is waited for instead.
 ///
 /// # Errors
 /// When the database cannot be opened, a file of keys or colours is wrong, or there is no terminal.
@@ -119,13 +120,13 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     Ok(outcome?)
 }
 
-/// Folders of new studies and reports: beside the study that comes with the program.
+/// Folders for new studies and reports, beside the study that comes with the program.
 fn folders(options: &Options) -> Folders {
     let home = options.quickstart.parent().and_then(Path::parent).unwrap_or(Path::new(""));
     Folders { studies: home.join("studies"), reports: home.join("reports") }
 }
 
-/// Takes messages, changes the state, draws, until it is time to leave.
+/// Handles messages and draws, until the user leaves.
 fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Result<()> {
     let mut silence = None;
     threads.read(app.state.focus.clone());
@@ -136,7 +137,7 @@ fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Re
             None => threads.messages.recv().ok(),
             Some(pause) => match threads.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
-                    // A terminal that is gone is noticed at the next message.
+                    // A lost terminal is noticed at the next message.
                     let _ = display.go_on(|frame| frame::draw(frame, app));
                     continue;
                 }
@@ -144,7 +145,7 @@ fn event_loop(display: &mut Display, app: &mut App, threads: &Threads) -> io::Re
             },
         };
         let Some(message) = message else { return Ok(()) };
-        // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
+        // Handles all waiting messages before the next frame, so that a flood of keys or progress costs one frame.
         let mut waiting: VecDeque<Message> = std::iter::once(message).chain(threads.messages.try_iter()).collect();
         while let Some(message) = waiting.pop_front() {
             if matches!(message, Message::Key(_)) {

@@ -27,28 +27,28 @@ pub struct Wardrobe {
     pub garments: PathBuf,
     /// Folder of bodies: meshes, measurements.
     pub bodies: PathBuf,
-    /// A table of pairs with the columns `garment` and `body`; without one every body wears every garment.
+    /// Table of pairs with the columns `garment` and `body`; without a table every body wears every garment.
     pub pairs: Option<PathBuf>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<Unit>,
     /// Seam allowance of pieces without a sew line, m.
     pub allowance_m: f64,
-    /// Fabric of the library.
+    /// Name of a built-in fabric.
     pub fabric: String,
     /// Simulators that drape every garment.
     pub simulators: Vec<Simulator>,
 }
 
-/// The study of a wardrobe.
+/// Study made from a [`Wardrobe`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Opened {
-    /// Its files: `study.toml`, and a seam file for each pattern that holds none.
+    /// Files of the study: `study.toml`, and a seam file for each pattern that holds no seams.
     pub files: Vec<(String, Vec<u8>)>,
     /// Files that cannot be used, each with the reason.
     pub refused: Vec<(PathBuf, String)>,
 }
 
-/// A body of a study: measurements, or the path of a scan.
+/// A body of the study: measurements, or the path of a scan.
 enum Wearer {
     Measured(Box<Measurements>),
     Scanned(PathBuf),
@@ -59,8 +59,7 @@ impl Wardrobe {
     /// the reason.
     ///
     /// # Errors
-    /// When a folder cannot be read or has no file that can be used, or the table of pairs names a file that is not
-    /// there.
+    /// When a folder cannot be read or has no usable file, or the table of pairs names a file that is missing.
     pub fn open(&self) -> Result<Opened> {
         let mut opened = Opened::default();
         let bodies = self.wearers(&mut opened)?;
@@ -84,7 +83,7 @@ impl Wardrobe {
         Ok(opened)
     }
 
-    /// The bodies of the folder by name; those that cannot be used are listed in `opened`.
+    /// Bodies of the folder, by name; those that cannot be used are listed in `opened`.
     fn wearers(&self, opened: &mut Opened) -> Result<BTreeMap<String, Wearer>> {
         let mut found = BTreeMap::new();
         for (name, path) in named(self.body_files()?) {
@@ -228,7 +227,7 @@ fn absolute(path: &Path) -> Result<PathBuf> {
     std::fs::canonicalize(path).map_err(StudyError::io(path))
 }
 
-/// Files by their names without endings. Where two have the same name, that of the folder goes before it.
+/// Files by their names without endings. Where two files share a name, the names of their folders go before it.
 fn named(paths: Vec<PathBuf>) -> BTreeMap<String, PathBuf> {
     let mut found: BTreeMap<String, PathBuf> = BTreeMap::new();
     for path in paths {

@@ -1,4 +1,4 @@
-//! Refusals of patterns, seam files and tables of bodies.
+//! Errors of patterns, seam files and tables of bodies.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub enum WardrobeError {
     /// A folder without bodies.
     #[error("{}: found no body; accepted: files ending in {accepted}", folder.display())]
     NoBody {
-        /// The folder.
+        /// Folder that was searched.
         folder: PathBuf,
         /// Endings that are accepted.
         accepted: String,
@@ -25,18 +25,18 @@ pub enum WardrobeError {
     /// A table of the reference bodies that cannot be used.
     #[error("{}: {problem}; accepted: CSV tables manifest.csv and measurements.csv with a column id", path.display())]
     Table {
-        /// The table.
+        /// Path of the table.
         path: PathBuf,
-        /// Its problem.
+        /// Problem of the table.
         problem: TableProblem,
     },
     /// A pattern without points of measure.
     #[error("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display())]
     NoPoint {
-        /// The pattern.
+        /// Path of the pattern.
         pattern: PathBuf,
     },
-    /// A pattern that is to become GarmentCode JSON, without seams.
+    /// A pattern without seams that is to become GarmentCode JSON.
     #[error("{pattern}: GarmentCode JSON holds seams: name a seam file (--seams FILE)")]
     NoSeams {
         /// Name of the pattern.
@@ -62,24 +62,24 @@ pub enum WardrobeError {
         /// Name of the seam.
         seam: String,
     },
-    /// A seam file without a proposed seam that is sure.
+    /// A seam file in which no proposed seam is sure.
     #[error("{file}: no proposed seam is {percent:.0} % sure")]
     NoneSure {
         /// Name of the seam file.
         file: String,
-        /// Confidence from which a seam is sure, %.
+        /// Confidence from which a seam counts as sure, %.
         percent: f64,
     },
-    /// A finding of a check, which no answer settles.
+    /// An answer to a finding of a check, which only an edit settles.
     #[error("{question}: the check finds it, nobody asks it; sew the edge, or name it in `open` of the seam file")]
     NotAsked {
-        /// The finding.
+        /// Text of the finding.
         question: String,
     },
-    /// An answer to nothing that is asked.
+    /// An answer to a question that is not asked, or by a letter that it does not have.
     #[error("{question}: answer {letter}: accepted: {accepted}")]
     Answer {
-        /// The question.
+        /// Text of the question.
         question: String,
         /// Letter of the choice.
         letter: char,
@@ -97,23 +97,23 @@ pub enum WardrobeError {
 /// Problem of a table of the reference bodies.
 #[derive(Debug, thiserror::Error)]
 pub enum TableProblem {
-    /// It cannot be read.
+    /// The table cannot be read.
     #[error(transparent)]
     Io(#[from] std::io::Error),
     /// A line is not UTF-8.
     #[error("line {0} is no UTF-8")]
     Encoding(usize),
-    /// It has no column of identifiers.
+    /// The table has no column of identifiers.
     #[error("it has no column id")]
     NoId,
     /// A line has more cells than the table has columns.
     #[error("line {line} has {cells} cells for {columns} columns")]
     Cells {
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Its cells.
+        /// Number of cells in the line.
         cells: usize,
-        /// Columns of the table.
+        /// Number of columns of the table.
         columns: usize,
     },
 }

@@ -1,7 +1,7 @@
-//! Accuracy of the measurement of bodies: every body of a folder, from each of its sources, against its true
-//! measurements.
+//! Accuracy of the measurement of bodies: every body of a folder, measured on each of its sources and compared with its
+//! true measurements.
 //!
-//! The folder holds `manifest.csv` (id, sex, file) and `measurements.csv` (the truth, cm). It may hold `scans.csv`
+//! The folder holds `manifest.csv` (id, sex, file) and `measurements.csv` (true values, cm). It may hold `scans.csv`
 //! (id, file) and `images.csv` (id, kind, view, projection, file, camera).
 
 use std::collections::BTreeMap;
@@ -63,7 +63,7 @@ pub struct Accuracy {
     pub bias_mm: f64,
 }
 
-/// One body from one source.
+/// One body, measured on one source.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Evaluated {
     /// Name of the body.
@@ -78,7 +78,7 @@ pub struct Evaluated {
     pub error: Option<String>,
 }
 
-/// The result of [`evaluate`].
+/// Result of [`evaluate`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Evaluation {
     /// Accuracy by source and measurement.
@@ -87,11 +87,10 @@ pub struct Evaluation {
     pub bodies: Vec<Evaluated>,
 }
 
-/// Measures every body of a folder from its mesh, scans, silhouettes and photographs.
+/// Measures every body of a folder on its mesh, scans, silhouettes and photographs.
 ///
 /// # Errors
-/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is listed with the
-/// reason.
+/// When a table is absent or lacks a column. A body that cannot be measured is no error: its reason is in the result.
 pub fn evaluate(folder: &Path) -> Result<Evaluation> {
     let manifest = table(folder, "manifest.csv")?;
     let truth: BTreeMap<String, Row> =
@@ -193,7 +192,7 @@ fn picture_pairs(images: &[Row]) -> Vec<PicturePair<'_>> {
     pairs
 }
 
-/// The camera of an image, where it has one.
+/// Camera of an image; `None` where the table names none.
 fn camera(row: &Row) -> Option<Camera> {
     let (focal, height) = (number(row, "focal_px")?, number(row, "height_px")?);
     Some(Camera::of_focal(focal, height as u32, number(row, "cam_distance_cm")? / 100.0))
@@ -228,7 +227,7 @@ fn from_pictures_of(folder: &Path, pair: PicturePair<'_>, sex: Sex, known: &Row)
     Taken { id, source, files }.compared(&OF_PICTURES, found, known)
 }
 
-/// A body and the files that it is measured on.
+/// A body and the files on which it is measured.
 struct Taken {
     id: String,
     source: &'static str,
@@ -236,7 +235,7 @@ struct Taken {
 }
 
 impl Taken {
-    /// Measured values, mm, less the true ones.
+    /// Differences in mm, measured minus true.
     fn compared(
         self,
         columns: &[Known],

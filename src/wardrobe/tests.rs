@@ -93,7 +93,7 @@ fn pairs_of<'a>(pairs: &'a [Pair], garment: &str) -> Vec<&'a Pair> {
     pairs.iter().filter(|pair| pair.garment.ends_with(garment)).collect()
 }
 
-/// Cases in which FEM-GS and Hybrid-GS have the lower EI, as the audit of the tables counts them.
+/// Counts of the cases in which each simulator has the lower EI, as in the audit of the thesis's tables.
 #[test]
 fn the_published_tables_know_no_winner() {
     let (_folder, store) = open();
@@ -126,11 +126,11 @@ fn t_shirts_turn_to_fem_without_the_neck_opening() {
     let rest = shirts.turned_by().expect("one measurement");
     assert_eq!((rest.what.as_str(), rest.wins), ("#6 Neck Opening", [15, 3]));
     assert!(rest.mean < 0.0, "{rest:?}");
-    // The dress: six of six subjects for FEM-GS, the least p that six can give.
+    // The dress: FEM-GS wins for six of six subjects, which gives the least possible p.
     let (dress, p_holm) = (&garment("female_dress").analysis, garment("female_dress").p_holm);
     assert_eq!((dress.wins, dress.estimate.expect("six").p), ([6, 0], 0.03125));
     assert_eq!(p_holm, Some(0.125), "of four garments");
-    // No universal rule: nothing is proven in any garment and fit class.
+    // No universal rule: of no garment and fit class is anything proven.
     for answer in &evidence.answers {
         assert_eq!(answer.finding, Finding::InsufficientEvidence, "{} {:?}", answer.garment, answer.class);
         assert_eq!(answer.recommended(), answer.class.rule_says());

@@ -1,4 +1,5 @@
-//! The flat pattern: the effect of its handles on the ease, and the least change of them that gives the target ease.
+//! Alterations by the flat pattern alone: the effect of its handles on the ease, and the least movement of handles that
+//! gives the target ease. A band is the range of ease that a target allows.
 
 use std::collections::BTreeMap;
 
@@ -12,54 +13,54 @@ use pattern::handle::HandleError;
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
 
-/// Number of rounds in which the change is corrected by its true effect, and its squares are weighted anew.
+/// Number of rounds of [`Bench::settled`]; each measures the true effect of the change and weights its squares again.
 const ROUNDS: usize = 12;
 /// Amount below which a handle costs as much as one that does not move, m.
 const SMALL_M: f64 = 0.2e-3;
-/// Squared miss of a level within its target that is accepted for a metre of handle movement, m. It is so small that
-/// no such level is given up for another.
+/// Squared miss of a level, already within its target, that is worth a metre of handle movement, m. So small that no
+/// such level is sacrificed for another.
 const KEPT_M: f64 = 1e-9;
-/// Least amount of a handle that counts as chosen by soft goals, m, and the factor by which these goals are then met
-/// more firmly.
+/// Least amount of a handle that counts as chosen by soft goals, m, and the factor by which these goals are then
+/// firmer.
 const CHOSEN_M: f64 = 1e-3;
 const FIRMER: f64 = 30.0;
-/// Share of its limit that is left to a handle that cannot move so far, and the least limit that is reduced so, m.
+/// Share of its limit that a handle keeps if it cannot move that far; and the limit below which it stays instead, m.
 const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
-/// Step of amounts, as a pattern maker draws them, mm.
+/// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
-/// Least amount of a handle that is made, mm: cutting and sewing err by as much.
+/// Least amount of a handle that is worth making, mm: cutting and sewing err by as much.
 const LEAST_MM: f64 = 1.0;
-/// Distance inside its band at which an ease is aimed, so that rounded amounts keep it there, m.
+/// Distance inside its band at which an ease is aimed, m, so that rounding of amounts keeps it there.
 const INSIDE_M: f64 = 0.002;
-/// Least change of an ease per change of a handle for which the handle is taken. A handle that does less takes more
-/// than 5 mm for 1 mm, and the rest of a target that limits leave would be sought there.
+/// Least change of an ease per movement of a handle for which the handle is used. A weaker one would move more than 5
+/// mm for 1 mm of ease, and would be driven to its limit by targets that nothing else reaches.
 const LEAST_EFFECT: f64 = 0.2;
 
 /// Amount of each handle of a bench, m.
 pub type Amounts = Vec<f64>;
-/// Result of moving handles, or the handle that cannot be moved.
+/// Value, or the handle that cannot move so far.
 type Moved<T> = std::result::Result<T, HandleError>;
 
-/// A style with its handles, the body that it is for, and the target ease.
+/// A style with its handles, the body that it is for, and its target ease.
 pub struct Bench<'a> {
-    /// The style before the change.
+    /// Style before the change.
     pub style: &'a Style,
-    /// Handles that may move, or those whose amounts are given.
+    /// Handles that may move; where amounts are given, the handles that have one.
     pub handles: Vec<Handle>,
-    /// Handles that cannot be moved, with the reason.
+    /// Reasons why the other handles cannot be moved.
     pub left_out: Vec<String>,
     /// Wish for the alteration.
     pub wish: &'a Wish,
     body: &'a Body,
     target: &'a Target,
     before: BTreeMap<String, f64>,
-    /// Sensitivity of every level to each handle, m per m; empty where amounts are given.
+    /// Sensitivity of every level to each handle, in the order of `handles`; empty where amounts are given.
     changes: Vec<Sensitivity>,
 }
 
 impl<'a> Bench<'a> {
-    /// Measures the ease of a style, and finds its handles with their effects.
+    /// Measures the ease of a style, and finds its handles and their effects.
     pub fn new(style: &'a Style, body: &'a Body, target: &'a Target, wish: &'a Wish) -> Self {
         let before = eases(style, body);
         let (handles, changes, left_out) = (Vec::new(), Vec::new(), Vec::new());
@@ -82,16 +83,15 @@ impl<'a> Bench<'a> {
         self.before.keys()
     }
 
-    /// Least and greatest ease at a level, m.
+    /// Least and greatest ease at a level, m; `None` without a target.
     fn band_m(&self, level: &str) -> Option<[f64; 2]> {
         let is_top = ["chest", "bust"].iter().any(|chest| self.has_level(chest));
         let own = self.wish.targets.get(level).map(|band| band.map(from_mm));
         own.or_else(|| self.target.band_m(level, is_top))
     }
 
-    /// Returns the amounts that are given; else the least change that brings every level into its band, and meets
-    /// `goals`, which are linear in the amounts. A handle that cannot move as far as it would gets a tighter limit,
-    /// and at last stays.
+    /// Returns the given amounts; where none are given, the least change that brings every level into its band and
+    /// meets `goals`. A handle that cannot move as far as the change asks gets a tighter limit, in the end 0.
     ///
     /// # Errors
     /// When the given amounts cannot be applied.
@@ -105,7 +105,7 @@ impl<'a> Bench<'a> {
             let refused = match self.within(&limits_m, goals) {
                 Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m => return Ok(amounts),
                 Ok(amounts) => {
-                    // So far that handle is another garment: a level lies elsewhere.
+                    // Moved so far, the handle makes another garment, in which a level lies elsewhere.
                     let Some(place) = self.misleading(&amounts, &limits_m, goals)? else {
                         return Ok(vec![0.0; limits_m.len()]);
                     };
@@ -122,7 +122,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Of the handles that move, the one without which the levels are missed least; `None` where none moves.
+    /// Of the handles that move, the one without which the levels miss least; `None` where none moves.
     fn misleading(&self, amounts: &[f64], limits_m: &[f64], goals: &[Goal]) -> Result<Option<usize>> {
         let mut least: Option<(f64, usize)> = None;
         for place in (0..amounts.len()).filter(|place| amounts[*place] != 0.0) {
@@ -137,8 +137,8 @@ impl<'a> Bench<'a> {
         Ok(least.map(|(_, place)| place))
     }
 
-    /// Least change within a limit of every handle, m. Soft goals draw all amounts towards 0. They are therefore met
-    /// again, and more firmly, by only those handles that they have chosen.
+    /// Least change within a limit for each handle, m. Soft goals shrink all amounts. So they are met a second time,
+    /// more firmly, by only those handles that the first time chose.
     fn within(&self, limits_m: &[f64], others: &[Goal]) -> Moved<Amounts> {
         let mut limits: Vec<[f64; 2]> = limits_m.iter().map(|limit_m| [-limit_m, *limit_m]).collect();
         let mut amounts = self.settled(vec![0.0; limits.len()], &limits, others)?;
@@ -152,7 +152,7 @@ impl<'a> Bench<'a> {
             let firm = |goal: &Goal| Goal { gives: goal.gives.map(|gives| gives / FIRMER), ..goal.clone() };
             amounts = self.settled(amounts, &limits, &others.iter().map(firm).collect::<Vec<_>>())?;
         }
-        // What nobody cuts so exactly is left out, the least first, and the others make up for it.
+        // Amounts too small to cut are set to 0, the least first, and the other handles make up for them.
         while let Some(place) = least_noise(&amounts) {
             (limits[place], amounts[place]) = ([0.0; 2], 0.0);
             amounts = self.settled(amounts, &limits, others)?;
@@ -162,9 +162,9 @@ impl<'a> Bench<'a> {
         Ok(drawn)
     }
 
-    /// Least change within limits of each handle, m, started from `amounts`. It minimises the sum of the magnitudes,
-    /// by squares that are weighted by the amounts of the round before (iteratively reweighted least squares), so that
-    /// few handles move.
+    /// Least change within limits for each handle, m, starting from `amounts`. It minimises the sum of magnitudes, so
+    /// that few handles move, by iteratively reweighted least squares: the weights come from the amounts of the round
+    /// before.
     fn settled(&self, mut amounts: Amounts, limits: &[[f64; 2]], others: &[Goal]) -> Moved<Amounts> {
         for _ in 0..ROUNDS {
             let now = eases(&self.style.moved(&self.moves(&amounts))?, self.body);
@@ -185,8 +185,8 @@ impl<'a> Bench<'a> {
         Ok(amounts)
     }
 
-    /// Sum over the levels of the departure from their bands once handles have moved, m. Departures within the
-    /// rounding of amounts do not count.
+    /// Sum over the levels of their departures from the bands, m, after handles move by `amounts`. Departures within
+    /// the rounding of amounts count as 0.
     fn missed_m(&self, amounts: &[f64]) -> Result<f64> {
         let now = eases(&self.moved(amounts)?, self.body);
         let missed = |level: &String| {
@@ -207,12 +207,12 @@ impl<'a> Bench<'a> {
     /// Returns the style with its handles moved by their amounts, m.
     ///
     /// # Errors
-    /// When one of the handles cannot be moved so far.
+    /// When a handle cannot move so far.
     pub fn moved(&self, amounts: &[f64]) -> Result<Style> {
         self.style.moved(&self.moves(amounts)).origin(Origin::Alter)
     }
 
-    /// Finds the handles that can be moved, their sensitivities, and those that cannot be moved.
+    /// Finds the handles that can move, with their sensitivities, and the reasons why others cannot.
     fn see_handles(&mut self) {
         let asks_else = self.wish.targets.keys().any(|name| !self.has_level(name));
         for handle in self.style.handles().into_iter().filter(|handle| !self.wish.without.contains(handle)) {
@@ -234,7 +234,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Reasons for which levels are missed, a sentence each.
+    /// Reasons why levels are missed, a sentence for each.
     pub fn reasons(&self, amounts: &[f64], levels: &[AlteredLevel]) -> Vec<String> {
         let limit_mm = self.wish.limit_mm;
         let reason = |missed: &AlteredLevel| {
@@ -261,7 +261,8 @@ impl<'a> Bench<'a> {
         levels.iter().filter(|level| !level.is_met()).map(reason).collect()
     }
 
-    /// Ease at every level: before, as promised, and as achieved by the pattern that is written.
+    /// Ease at every level: before, promised by `changed`, and achieved by `again`, which is read from the written
+    /// files.
     pub fn levels(&self, changed: &Style, again: &Style) -> Vec<AlteredLevel> {
         let (promised, achieved) = (eases(changed, self.body), eases(again, self.body));
         let level = |(level, before_m): (&String, &f64)| {
@@ -282,7 +283,7 @@ fn drawn_mm(amount_m: f64) -> f64 {
     (mm(amount_m) / DRAWN_MM).round() * DRAWN_MM
 }
 
-/// Handle with the least amount, of those that would be drawn though they are less than is made.
+/// Handle with the least amount among those whose drawn amount is not 0 but less than is worth making.
 fn least_noise(amounts: &[f64]) -> Option<usize> {
     let is_noise = |place: &usize| {
         let drawn_mm = drawn_mm(amounts[*place]).abs();

@@ -1,4 +1,4 @@
-//! The drape of a changed pattern by FEM-GS: its readings, and their sensitivity to the handles.
+//! Drapes of a changed pattern by FEM-GS: their readings, and the sensitivity of readings to the handles.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,13 +22,12 @@ use spec::JobSpec;
 use spec::versions::FIELD_SPACING_M;
 use store::{InOrigin, Origin, Result};
 
-/// Movement of a handle by which the response of a drape is found, m. It is so small that the mesh can follow without
-/// being made anew.
+/// Movement of a handle by which the response of a drape is found, m: so small that the mesh can deform along.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
 
-/// Seeds of the starts from which scatter is estimated.
+/// Seeds of the drapes from which scatter is estimated.
 const STARTS: [u64; 4] = [0, 1, 2, 3];
-/// Least scatter that is believed of a few starts, mm and degrees, and kPa.
+/// Least scatter that an estimate from a few drapes may claim: mm, degrees, or kPa.
 const LEAST_SCATTER: f64 = 1.0;
 const LEAST_SCATTER_KPA: f64 = 0.02;
 
@@ -43,13 +42,13 @@ impl<'a> FittingRoom<'a> {
     /// Prepares the body of a job.
     ///
     /// # Errors
-    /// When the body bounds no solid.
+    /// When the body's surface is not closed.
     pub fn new(spec: &'a JobSpec, body: &'a Body) -> Result<Self> {
         let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).origin(Origin::Field)?;
         Ok(Self { spec, body, field })
     }
 
-    /// Drapes a style as its study does. Returns its outcome, and the ease of the drape at every level.
+    /// Drapes a style as its study does. Returns the outcome, and the ease of the drape at every level.
     ///
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
@@ -85,8 +84,8 @@ impl<'a> FittingRoom<'a> {
         Ok((redraped, place.readings(garment, &drape.positions)?))
     }
 
-    /// Scatter of readings between coarse drapes from starts that differ a little: standard deviations, in the units
-    /// of the readings. A drape comes to rest in one of many ways that are nearly alike.
+    /// Scatter of readings between coarse drapes from slightly different starts: standard deviations, in the units of
+    /// the readings. Drapes scatter since cloth can come to rest in many nearly equal ways.
     ///
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
@@ -112,7 +111,7 @@ impl<'a> FittingRoom<'a> {
         Ok(all.first().map_or_else(Readings::new, |first| first.iter().filter_map(scatter).collect()))
     }
 
-    /// Meshes of a style up to the last but one.
+    /// Meshes of a style except the finest.
     fn coarse(&self, style: &Style) -> Result<Meshes> {
         let mut meshes = Meshes::of(style, self.spec.edge_length_m)?;
         if meshes.0.len() > 1 {
@@ -122,7 +121,7 @@ impl<'a> FittingRoom<'a> {
     }
 
     /// Sensitivity of all readings of a drape to each handle, per metre. The drape is coarser than that of the study.
-    /// It is taken as sliding without friction, since a new drape finds its place in that way.
+    /// It slides without friction, since a newly sewn drape would find its place freely.
     ///
     /// # Errors
     /// When the style cannot be meshed, or the simulator refuses.
@@ -148,7 +147,7 @@ impl<'a> FittingRoom<'a> {
         let rested = response.positions();
         let answer = |handle: Handle| -> Result<Sensitivity> {
             let moved = |by_m: f64| style.moved_mesh(garment, handle, by_m);
-            // What a style that is changed already cannot do any more answers nothing.
+            // A handle that cannot move on a changed style has no effect.
             let (Ok(more), Ok(less)) = (moved(TAKEN_ALONG_M), moved(-TAKEN_ALONG_M)) else {
                 return Ok(Sensitivity::new());
             };
@@ -164,7 +163,7 @@ impl<'a> FittingRoom<'a> {
         Ok(Answers { of_handles, is_stable: response.is_stable() })
     }
 
-    /// A style in the fabric of the job.
+    /// Adds the job's fabric to a style and its meshes.
     fn garb(&self, style: &Style, meshes: Meshes) -> Garb {
         Garb { style: style.clone(), meshes: Arc::new(meshes), fabric: self.spec.fabric.clone() }
     }
@@ -186,11 +185,12 @@ struct Draped {
 pub struct Answers {
     /// Sensitivity of the readings to each handle, in their units per metre.
     pub of_handles: Vec<Sensitivity>,
-    /// True if the drape is a stable equilibrium: every displacement costs energy.
+    /// True if the drape is a stable equilibrium: every displacement raises its energy.
     pub is_stable: bool,
 }
 
-/// Mesh at an amount of a handle, extrapolated from two meshes that differ by as much either way.
+/// Mesh of a garment with a handle moved by `by_m`, by linear extrapolation from two meshes that differ by as much to
+/// either side.
 fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     let share = by_m / (2.0 * TAKEN_ALONG_M);
     let rest: Vec<V2> =
@@ -198,7 +198,7 @@ fn along(garment: &Garment, [less, more]: [&Garment; 2], by_m: f64) -> Garment {
     garment.with_rest(rest)
 }
 
-/// Differences of readings per unit of `between`.
+/// Differences of readings divided by `between`.
 fn changes(after: &Readings, before: &Readings, between: f64) -> BTreeMap<String, f64> {
     let change =
         |(name, after): (&String, &Reading)| Some((name.clone(), (after.value - before.get(name)?.value) / between));

@@ -1,8 +1,8 @@
-//! Alterations: the least change of a pattern's handles so that a size fits somebody, and the changed pattern.
+//! Alterations: the least movement of a pattern's handles (named lengths that can be changed, [`Handle`]) so that a
+//! size fits somebody; and the changed pattern.
 //!
-//! Ease follows from the flat pattern (`bench`). Quantities of a drape, such as a level hem or a pressure, are
-//! predicted by the linear response of the drape to the handles, and checked by draping again (`fitting_room`,
-//! `readings`).
+//! Ease follows from the flat pattern (`bench`). Readings of a drape, such as the level of a hem or a pressure, are
+//! predicted by its linear response to the handles, and checked by draping again (`fitting_room`, `readings`).
 
 mod bench;
 mod fitting_room;
@@ -30,45 +30,46 @@ use store::{InOrigin, Origin, Result, StudyError};
 
 /// Movement of a handle by which its effect is found, m.
 const STEP_M: f64 = 0.002;
-/// Departure of an ease from its target that counts as none, mm: the step of amounts.
+/// Departure of an ease from its target that counts as none, mm: the step of drawn amounts.
 const SLACK_MM: f64 = 0.5;
-/// Greatest number of drapes by which a change is found. The first is of the pattern as it is.
+/// Greatest number of drapes in a search, the first of them of the unchanged pattern.
 const MOST_DRAPES: usize = 3;
 
-/// Change of every level (m per m) or reading (its unit per m) with a handle.
+/// Derivative of every level (m per m) or reading (its unit per m) with respect to a handle.
 type Sensitivity = BTreeMap<String, f64>;
 
-/// Default of the greatest amount of a handle either way, mm.
+/// Greatest amount of a handle in either direction by default, mm.
 pub const ALTER_LIMIT_MM: f64 = 60.0;
 
-/// An alteration as it is asked for.
+/// Request for an alteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wish {
-    /// Garment; needed where the study has several.
+    /// Name of the garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Subject; needed where the study has several.
+    /// Name of the subject; needed where the study has several.
     pub subject: Option<String>,
-    /// Size that is changed.
+    /// Name of the size to change.
     pub size: String,
-    /// Least and greatest ease of levels, mm, in place of that of the intended fit; and of readings of the drape, in
-    /// their units.
+    /// Least and greatest values: of ease at levels, mm, in place of the intended fit's; and of readings of the drape,
+    /// in their units.
     pub targets: BTreeMap<String, [f64; 2]>,
-    /// Greatest amount of a handle either way, mm.
+    /// Greatest amount of a handle in either direction, mm.
     pub limit_mm: f64,
-    /// Handles that stay.
+    /// Handles that must not move.
     pub without: Vec<Handle>,
-    /// Handles with given amounts, mm. If there are any, nothing else is changed.
+    /// Given amounts of handles, mm. If there are any, no other handle moves.
     pub moves_mm: Vec<(Handle, f64)>,
-    /// True if the changed pattern is draped, though no reading of the drape is asked for.
+    /// True to drape the changed pattern even without a target for a reading.
     pub is_draped: bool,
-    /// True if all sizes of the garment are changed alike and written as a nest. The grade stays.
+    /// True to change all sizes of the garment alike and write them as a nest. The grade stays.
     pub is_nest: bool,
-    /// Standard of the DXF file of the changed pattern.
+    /// Standard for the DXF file of the changed pattern.
     pub standard: Standard,
 }
 
 impl Wish {
-    /// Wish for the ease of the intended fit, of a subject in a size of a garment, by any handle and without a drape.
+    /// Request for the ease of the intended fit, for a subject in a size of a garment, by any handle and without a
+    /// drape.
     #[must_use]
     pub fn of(garment: &str, subject: &str, size: &str) -> Self {
         Self {
@@ -93,29 +94,29 @@ pub struct MovedHandle {
     pub handle: &'static str,
     /// Amount by which it moves, mm.
     pub amount_mm: f64,
-    /// Effect of a positive amount.
+    /// Effect of a positive amount, in words.
     pub does: &'static str,
-    /// True if the amount is half of a girth, which then changes by twice as much.
+    /// True if the amount is half of a girth, so that the girth changes by twice the amount.
     pub is_half_girth: bool,
 }
 
-/// A level before and after.
+/// Ease at a level, before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredLevel {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest target ease, mm.
+    /// Least and greatest target ease, mm; `None` without a target.
     pub target_mm: Option<[f64; 2]>,
     /// Ease before, mm.
     pub before_mm: f64,
     /// Ease that the change promises, mm.
     pub promised_mm: f64,
-    /// Ease of the pattern as it is written and read again, mm.
+    /// Ease of the written pattern when it is read again, mm.
     pub achieved_mm: f64,
 }
 
 impl AlteredLevel {
-    /// Position of an ease, mm, relative to the target; `None` where there is no target.
+    /// Position of an ease, mm, relative to the target; `None` without a target.
     #[must_use]
     pub fn sits(&self, ease_mm: f64) -> Option<Sits> {
         self.target_mm.map(|[least, most]| match ease_mm {
@@ -125,36 +126,36 @@ impl AlteredLevel {
         })
     }
 
-    /// True if the achieved ease lies within the target, or there is none.
+    /// True if the achieved ease lies within the target, or the level has none.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.sits(self.achieved_mm).is_none_or(|sits| sits == Sits::AsMeant)
     }
 }
 
-/// A quantity that may be asked for, with its present value.
+/// A quantity that may have a target, with its present value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Standing {
-    /// Level or reading.
+    /// Name of the level or reading.
     pub name: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// Present value, in its unit.
+    /// Present value, in `unit`.
     pub value: f64,
-    /// True of the ease of the flat pattern at a level; false of a reading of the drape.
+    /// True for the ease of the flat pattern at a level, false for a reading of the drape.
     pub is_ease: bool,
 }
 
-/// A quantity of the drape before and after.
+/// A reading of the drape, before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlteredReading {
-    /// Name of the quantity, such as `off_neck_side`.
+    /// Name of the reading, such as `off_neck_side`.
     pub reading: String,
     /// `mm`, `deg` or `kPa`.
     pub unit: &'static str,
-    /// Least and greatest value that is asked for.
+    /// Least and greatest target value.
     pub target: [f64; 2],
-    /// Value on the pattern as it was.
+    /// Value on the drape of the unchanged pattern.
     pub before: f64,
     /// Value that the change promises.
     pub promised: f64,
@@ -170,22 +171,22 @@ impl AlteredReading {
     }
 }
 
-/// True if a value lies in a band, or outside by at most a twentieth of its width.
+/// True if a value lies in a band, or outside by at most a twentieth of the band's width.
 fn within([least, most]: [f64; 2], value: f64) -> bool {
     let near = 0.05 * (most - least);
     (least - near..=most + near).contains(&value)
 }
 
-/// Drape of the changed pattern on the body.
+/// Drape of the changed pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Redraped {
-    /// True if it came to rest.
+    /// True if the cloth came to rest.
     pub converged: bool,
-    /// Error indicator of its measurements.
+    /// Error indicator EI.
     pub ei: f64,
     /// Deepest penetration into the body, mm.
     pub penetration_max_mm: f64,
-    /// Height of the hem in front less that behind, mm.
+    /// Height of the hem in front minus its height behind, mm.
     pub hem_front_over_back_mm: Option<f64>,
     /// Greatest pressure, kPa.
     pub most_kpa: Option<f64>,
@@ -208,46 +209,45 @@ impl Redraped {
     }
 }
 
-/// A change of a pattern.
+/// An altered pattern.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Alteration {
     /// Name of the garment in the study.
     pub garment: String,
     /// Name of the subject in the study.
     pub subject: String,
-    /// Size that is changed.
+    /// Name of the changed size.
     pub size: String,
-    /// The handles that move.
+    /// Handles that move.
     pub moves: Vec<MovedHandle>,
     /// Ease at every level, from the neck down.
     pub levels: Vec<AlteredLevel>,
-    /// Readings of the drape that are asked for.
+    /// Readings of the drape that have a target.
     pub readings: Vec<AlteredReading>,
-    /// Number of times the garment was draped.
+    /// Number of times that the garment was draped.
     pub drapes: usize,
-    /// Handles that cannot be moved here and levels that are missed, with reasons; other remarks.
+    /// Reasons for handles that cannot move and levels that are missed; other remarks.
     pub remarks: Vec<String>,
-    /// Drape of the changed pattern, where one is asked for.
+    /// Drape of the changed pattern, where the request has one.
     pub drape: Option<Redraped>,
-    /// The changed pattern, its seam file, and a sheet of old and new outlines, by file name.
+    /// Changed pattern, its seam file, and a sheet of old and new outlines, by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Alteration {
-    /// True if everything that is asked for is achieved.
+    /// True if all targets are met.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.levels.iter().all(AlteredLevel::is_met) && self.readings.iter().all(AlteredReading::is_met)
     }
 }
 
-/// Finds the least change that gives every level its target ease and the drape the readings that are asked for, or
-/// applies the given amounts.
+/// Finds the least change that brings every level and reading with a target into it, or applies the given amounts.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and for a target that is
-/// neither a level nor a reading. Others when body, pattern or simulator refuse, or a handle cannot move so far.
+/// neither a level nor a reading. Others when body, pattern or simulator fail, or a handle cannot move so far.
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
@@ -291,14 +291,14 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     })
 }
 
-/// Drapes a style on a body by FEM-GS, as its study does. Returns its outcome, and the ease of the drape at every
+/// Drapes a style on a body by FEM-GS, as its study does. Returns the outcome, and the ease of the drape at every
 /// level.
 pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
     FittingRoom::new(spec, body)?.outcome(style)
 }
 
-/// Returns the quantities that may be asked for of a size on a subject with their present values: ease at every level,
-/// and readings of the drape.
+/// Quantities that may have a target, for a size on a subject, with their present values: ease at every level, and
+/// readings of the drape.
 ///
 /// # Errors
 /// As [`alter`].
@@ -319,11 +319,11 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
 }
 
-/// Jobs and target of an alteration, found in the study.
+/// Jobs and target ease of a request, found in the study.
 struct Asked {
-    /// Job of the garment's size on the subject.
+    /// Job of the requested size on the subject.
     spec: JobSpec,
-    /// Jobs of the garment's other sizes on the same subject.
+    /// Jobs of the garment's other sizes on the subject.
     others: Vec<JobSpec>,
     /// Target ease of the garment.
     target: Target,
@@ -337,7 +337,7 @@ fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
     let subject = one("subject", wish.subject.as_deref(), of_garment().map(|job| job.subject.clone()).collect())?;
     let size = one("size", Some(&wish.size), of_garment().map(|job| job.size.clone()).collect())?;
     let mut on_subject: Vec<JobSpec> = of_garment().filter(|job| job.subject == subject).cloned().collect();
-    // Of several simulators the first: size by size once.
+    // Takes each size once, by the first simulator.
     let mut seen = BTreeSet::new();
     on_subject.retain(|job| seen.insert(job.size.clone()));
     let Some(place) = on_subject.iter().position(|job| job.size == size) else {
@@ -353,8 +353,8 @@ fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
     Ok(Asked { spec, others: on_subject, target })
 }
 
-/// Returns the name that is asked for among those known, whatever its case, or the only one where none is asked for.
-/// `what` is also the flag that asks for it.
+/// Returns the known name that equals `asked` without regard to case; without `asked`, the only known name. `what` is
+/// the kind of thing, and its flag.
 pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));

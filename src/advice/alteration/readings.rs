@@ -1,4 +1,4 @@
-//! Readings of a drape: balance, gaps, pressure, and positions of its seams.
+//! Readings of a drape: balance, gaps, pressure, positions of seams.
 
 use std::collections::BTreeMap;
 
@@ -15,10 +15,10 @@ use sim::Fabric;
 use sim::sewn::Sewn;
 use store::{InOrigin, Origin, Result};
 
-/// Number of directions either way of front, back, right or left that count to it: a quarter of all in total.
+/// Number of directions to either side of front, back, right or left that belong to it: a quarter of all directions.
 const QUARTER: usize = DIRECTIONS / 8;
 
-/// A quantity of a drape.
+/// A reading of a drape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Value in its unit.
@@ -30,14 +30,14 @@ pub struct Reading {
 /// Readings of a drape by name.
 pub type Readings = BTreeMap<String, Reading>;
 
-/// A style on a body: lines of the style on a mesh, of which readings are taken.
+/// A style on a body, with the lines of the style on its mesh.
 pub struct Place<'a> {
     body: &'a Body,
     surface: Surface,
     garment: &'a Garment,
     fabric: &'a Fabric,
-    /// Lines on the mesh: of the shoulder from the neck outwards, of the inseam from the fork down, and of the centre
-    /// front and back from the neck down.
+    /// Lines of the shoulder, from the neck outwards. Likewise the inseam from the fork down, and the centre front and
+    /// back from the neck down.
     shoulder: Vec<MaterialLine>,
     inseam: Vec<MaterialLine>,
     necks: [Vec<MaterialLine>; 2],
@@ -45,7 +45,7 @@ pub struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// Lays the lines of a style on its mesh.
+    /// Places the lines of a style on its mesh.
     ///
     /// # Errors
     /// When the body has no surface.
@@ -61,8 +61,8 @@ impl<'a> Place<'a> {
         Ok(Self { body, surface, garment, fabric, shoulder, inseam, necks, style })
     }
 
-    /// Reads a drape with vertices at `positions`. `drawn` is the mesh as it is cut, which may differ a little from
-    /// that on which the lines lie.
+    /// Reads a drape whose vertices are at `positions`. `drawn` is its flat mesh, which may differ slightly from the
+    /// mesh with the lines.
     ///
     /// # Errors
     /// When a triangle of the pattern mesh has no area.
@@ -103,7 +103,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Mean of the gaps that are known.
+/// Mean of the known gaps; `None` without any.
 fn mean<'g>(gaps_m: impl Iterator<Item = &'g Option<f64>>) -> Option<f64> {
     let known: Vec<f64> = gaps_m.flatten().copied().collect();
     (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)

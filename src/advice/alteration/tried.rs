@@ -1,4 +1,4 @@
-//! The search for an alteration: predicted by the response of the drape, draped, and corrected by the readings.
+//! Search for an alteration: predicted by the response of the drape, draped, and corrected by the readings.
 
 use crate::alteration::bench::{Amounts, Bench};
 use crate::alteration::fitting_room::{Answers, FittingRoom};
@@ -7,20 +7,20 @@ use crate::alteration::{AlteredReading, MOST_DRAPES, Redraped, Wish, within};
 use fit::alter::Goal;
 use store::{Result, StudyError};
 
-/// Movement of handles that is accepted for a reading that is off by its scatter, m.
+/// Movement of handles that is worth removing a miss of a reading by its scatter, m.
 const WORTH_M: f64 = 0.3e-3;
 
-/// An alteration, and the drapes by which it was found.
+/// A change of a pattern, and the drapes by which it was found.
 pub struct Tried {
     /// Amount of each handle of the bench, m.
     pub amounts: Amounts,
-    /// Readings of the pattern as it is; empty where no reading is asked for.
+    /// Readings of the unchanged pattern; empty where no reading has a target.
     before: Readings,
     /// Readings that the change promises.
     promised: Readings,
     /// Drape of the changed pattern.
     pub after: Option<(Redraped, Readings)>,
-    /// Number of times the garment was draped.
+    /// Number of times that the garment was draped.
     pub drapes: usize,
     /// Remarks on the search.
     pub remarks: Vec<String>,
@@ -37,7 +37,7 @@ impl Tried {
         Ok(Self { amounts, before, promised, after: None, drapes: 0, remarks: Vec::new() })
     }
 
-    /// As [`Self::flat`], and drapes the changed pattern. If that fails, the change stays, and a remark tells of it.
+    /// Finds the change as [`Self::flat`] does, and drapes the changed pattern. A failure to drape becomes a remark.
     ///
     /// # Errors
     /// As [`Self::flat`].
@@ -49,8 +49,8 @@ impl Tried {
         }
     }
 
-    /// Finds a change that meets the readings that are asked for. It is predicted, draped, and corrected, until the
-    /// readings are met or [`MOST_DRAPES`] is reached. Of these changes the one that misses least is returned.
+    /// Finds a change that meets the targets of readings: predicts, drapes and corrects until they are met, or
+    /// [`MOST_DRAPES`] is reached. Returns the change that misses least.
     ///
     /// # Errors
     /// When a target is neither a level nor a reading, a handle cannot move, or the simulator refuses.
@@ -65,7 +65,7 @@ impl Tried {
         let mut best = Self { amounts: at_start, promised: before.clone(), before, after: None, drapes: 1, remarks };
         best.after = Some((redraped, now.clone()));
         let mut amounts = best.amounts.clone();
-        // What ease asks for is known exactly, what a drape answers is not: ease first, then what that leaves.
+        // Ease is known exactly, readings are not. So ease comes first, and readings correct the rest.
         let mut by_ease = Some(bench.found(&[])?).filter(|found| *found != amounts);
         for drapes in 2..=MOST_DRAPES {
             let next = match by_ease.take() {
@@ -102,7 +102,7 @@ impl Tried {
         self.after.as_ref().map_or(f64::MAX, |(_, readings)| missed(wish, readings))
     }
 
-    /// Readings that were asked for, before and after.
+    /// Readings with a target, before and after.
     pub fn readings(&self, wish: &Wish) -> Vec<AlteredReading> {
         let Some((_, after)) = &self.after else { return Vec::new() };
         let reading = |(name, target): (&String, &[f64; 2])| {
@@ -133,8 +133,8 @@ fn known(bench: &Bench, readings: &Readings) -> Result<()> {
     }
 }
 
-/// Goals of the readings, linear in the amounts, about the drape `now` with the handles at `amounts`. A reading is
-/// weighted by its scatter.
+/// Goals for the readings, linear in the amounts about the drape `now`, whose handles are at `amounts`. The weight of a
+/// reading depends on its scatter.
 fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts: &[f64]) -> Vec<Goal> {
     let goal = |(name, [least, most]): (&String, &[f64; 2])| {
         let value = now.get(name)?.value;
@@ -142,14 +142,14 @@ fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts
         let sensitivity: Vec<f64> = of_handles.map(|answer| answer.get(name).copied().unwrap_or(0.0)).collect();
         let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
         let inside = 0.25 * (most - least);
-        // What the coarse drape does not have is answered by no handle, and asked for firmly: it is missed, and said so.
+        // A reading that the coarse drape lacks is a firm goal that no handle serves: it is missed, and reported.
         let gives = scatter.get(name).map(|scatter| scatter.value.powi(2) / WORTH_M);
         Some(Goal { value: value - done, sensitivity, band: [least + inside, most - inside], gives })
     };
     wish.targets.iter().filter_map(goal).collect()
 }
 
-/// Sum over the readings that are asked for of their departures, in widths of their bands.
+/// Sum of the departures of readings from their targets, each divided by the width of its target.
 fn missed(wish: &Wish, readings: &Readings) -> f64 {
     let departure = |(name, target): (&String, &[f64; 2])| {
         let value = readings.get(name)?.value;

@@ -1,4 +1,4 @@
-//! The changed pattern as files, read again from them.
+//! Changed patterns as files, and the styles read again from these files.
 
 use crate::error::AdviceError;
 use pattern::dxf::{self, Standard};
@@ -11,17 +11,17 @@ use store::{InOrigin, Origin, Result};
 
 /// A changed pattern in files.
 pub struct Written {
-    /// Files by name: the pattern, its seam file where it has one, and a sheet of old and new outlines.
+    /// Files by name: the pattern, its seam file if it has one, and a sheet of old and new outlines.
     pub files: Vec<(String, Vec<u8>)>,
-    /// Style that is read from the files.
+    /// Style as read from the files.
     pub again: Style,
 }
 
-/// Writes a job's style, changed by its handles, into files called `name`: DXF with its seam file, or GarmentCode JSON
-/// where the pattern holds its own seams.
+/// Writes a job's style with moved handles into files called `name`: DXF and seam file, or GarmentCode JSON where the
+/// pattern holds its own seams.
 ///
 /// # Errors
-/// When the pieces as they are drawn cannot be changed so, or the files cannot be read again.
+/// When the drawn pieces cannot be changed in this way, or the files cannot be read again.
 pub fn written(
     spec: &JobSpec,
     [style, changed]: [&Style; 2],
@@ -45,11 +45,11 @@ pub fn written(
     Ok(Written { files: files.collect(), again })
 }
 
-/// Writes all sizes of a garment, changed alike, into one DXF file called `name` with every piece in every size. The
-/// file is read again before it is returned.
+/// Writes all sizes of a garment, changed alike, into one DXF file called `name`, with every piece in every size. Reads
+/// the file again before returning it.
 ///
 /// # Errors
-/// When a size cannot be changed so or read again, or the pattern holds its own seams, of which no nest can be made.
+/// When a size cannot be changed in this way or read again, or the pattern holds its own seams, which no nest can.
 pub fn nest(
     spec: &JobSpec,
     others: &[JobSpec],
@@ -64,7 +64,7 @@ pub fn nest(
         let seams = job.seams.as_ref().ok_or_else(without_seams)?;
         let sized = redrawn(job, seams, moves)?;
         pieces.extend(sized.pieces.into_iter().map(|piece| Piece { size: Some(job.size.clone()), ..piece }));
-        // The seam file beside the nest is that of the asked size, the last.
+        // The requested size is the last, so the seam file beside the nest is that of this size.
         reseamed = Some(SourceFile { name: seams.name.clone(), bytes: sized.seams.into() });
     }
     size_order::sort(&mut pieces, |piece| piece.size.as_deref().unwrap_or_default());
@@ -77,14 +77,14 @@ pub fn nest(
     Ok((name, bytes))
 }
 
-/// The pieces of a job's size as drawn, changed.
+/// Pieces of a job's size as drawn, with the handles moved.
 fn redrawn(spec: &JobSpec, seams: &SourceFile, moves: &[(Handle, f64)]) -> Result<Redrawn> {
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
     let drawn = patterns::pieces(&spec.pattern, Some(&spec.size), unit)?;
     handle::redrawn(&drawn, &seams.bytes, &seams.name, moves).origin(Origin::Alter)
 }
 
-/// Texts in the head of a file.
+/// Texts for the head of a file.
 fn texts(spec: &JobSpec) -> [(String, String); 2] {
     [("Style Name".to_owned(), spec.garment.clone()), ("Units".to_owned(), "METRIC".to_owned())]
 }

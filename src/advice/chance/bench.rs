@@ -1,5 +1,5 @@
-//! Ease of all sizes on a subject of uncertain dimensions: linear about the median body, whose dimensions are changed
-//! one by one.
+//! Ease of all sizes on a subject whose dimensions are uncertain: linear about the median body, from bodies in which
+//! one dimension differs.
 
 use crate::chance::Question;
 use body::{Body, Dimension, Likely, Measurements};
@@ -11,23 +11,23 @@ use pattern::Style;
 use spec::bodies;
 use store::{InOrigin, Origin, Result};
 
-/// Standard deviations from the mean of a normal distribution to either end of its 80 % interval.
+/// Standard deviations from the mean of a normal distribution to an end of its 80 % interval.
 const REACH: f64 = 1.281_551_565_544_6;
 
 /// A level of a size.
 pub(super) struct Level {
     /// Level of the body, such as `chest`.
     pub name: String,
-    /// Least and greatest target ease, m.
+    /// Least and greatest target ease, m; `None` without a target.
     pub band_m: Option<[f64; 2]>,
-    /// Ease on the median person, m.
+    /// Ease on the median body, m.
     middle_m: f64,
-    /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of the bench's
-    /// dimensions.
+    /// Derivative of the ease with respect to the logarithm of each dimension, m, in the order of
+    /// the bench's `dimensions`.
     slopes: Vec<f64>,
-    /// Index of the part of the garment whose seams run through the level.
+    /// Index of the part of the garment to which the level belongs.
     part: usize,
-    /// Standard deviation of the garment's length there, m.
+    /// Standard deviation of the garment's length at the level, m.
     made_m: f64,
 }
 
@@ -45,8 +45,7 @@ impl Sized {
         self.levels.iter().map(|level| level.band_m).collect()
     }
 
-    /// Draws the errors of one garment's length at each level by the way it is made, m. Levels of the same part have
-    /// the same error.
+    /// Draws how far a made garment is off its pattern at each level, m. Levels of the same part share one draw.
     pub fn made_m(&self, draw: &mut Draw) -> Vec<f64> {
         let made: [f64; PARTS] = std::array::from_fn(|_| draw.normal());
         self.levels.iter().map(|level| level.made_m * made[level.part]).collect()
@@ -55,9 +54,9 @@ impl Sized {
 
 /// All sizes of a garment on a subject.
 pub(super) struct Bench {
-    /// Measurements that were read of the subject.
+    /// Measurements that were read on the subject.
     pub readings: Measurements,
-    /// Its sizes, in order.
+    /// Sizes of the garment, in order.
     pub sizes: Vec<Sized>,
     likely: Likely,
     middle: Measurements,
@@ -69,12 +68,12 @@ pub(super) struct Bench {
 /// Ease by level, m.
 type Eases = Vec<(String, f64)>;
 
-/// Number of parts of a garment that are sewn each by itself: trunk, sleeves, legs, shoulders, neck.
+/// Number of parts of a garment that err independently: trunk, sleeves, legs, shoulders, neck.
 const PARTS: usize = 5;
 
-/// Part that a level belongs to, and the standard deviation of its length over the tolerance of half of a girth. One
-/// of twenty garments lies outside its tolerance, which is two deviations. A whole girth has twice that of its half,
-/// and sleeves and legs three quarters of the trunk's, as makers allow [Proper Cloth].
+/// Part that a level belongs to, and the standard deviation of its length divided by the tolerance of half a girth. One
+/// of twenty garments lies outside its tolerance, which is therefore two deviations. The tolerance of a girth is twice
+/// that of its half, and that of sleeves and legs three quarters of the trunk's, as makers allow [Proper Cloth].
 fn part(level: &str) -> (usize, f64) {
     match level {
         "across_shoulder" => (3, 0.5),
@@ -86,8 +85,7 @@ fn part(level: &str) -> (usize, f64) {
 }
 
 impl Bench {
-    /// Prepares the sizes of a garment for a subject of whom some measurements were read. A subject that is a scan is
-    /// read by the tape on the scan.
+    /// Prepares the sizes of a garment for a subject with some read measurements. On a scan the tape reads more.
     pub fn new(
         styles: &[(String, Style)],
         target: &Target,
@@ -119,31 +117,31 @@ impl Bench {
         self.error_factor * dimension.reading_error()
     }
 
-    /// The 80 % interval of a dimension with its median, m or kg.
+    /// Ends of the 80 % interval of a dimension, with its median between them, m or kg.
     pub fn likely_at(&self, dimension: Dimension) -> Option<[f64; 3]> {
         let (middle, spread) = (self.middle.get(dimension)?, self.likely.spread(dimension));
         Some([-REACH, 0.0, REACH].map(|score| middle * (score * spread).exp()))
     }
 
-    /// Draws a person with the dimensions that the subject may have.
+    /// Draws a person whom the subject may be.
     pub fn person(&self, draw: &mut Draw) -> Measurements {
         self.likely.person(&std::array::from_fn(|_| draw.normal()))
     }
 
-    /// Draws the ease at every level of a size on a person, m, of a garment that is made as exactly as garments are.
+    /// Draws the ease of a size at every level on a person, m, with the errors of a made garment.
     pub fn eases_m(&self, size: &Sized, person: &Measurements, draw: &mut Draw) -> Vec<f64> {
         let off = self.off(&self.middle, person);
         size.levels.iter().zip(size.made_m(draw)).map(|(level, made_m)| level.on(&off) + made_m).collect()
     }
 
-    /// Differences of two people in the logarithms of the dimensions that are not known exactly; 0 where either lacks
-    /// one.
+    /// Differences between two people in the logarithms of the uncertain dimensions; 0 for a dimension that either
+    /// lacks.
     fn off(&self, from: &Measurements, to: &Measurements) -> Vec<f64> {
         let difference = |dimension: &Dimension| Some((to.get(*dimension)? / from.get(*dimension)?).ln());
         self.dimensions.iter().map(|dimension| difference(dimension).unwrap_or(0.0)).collect()
     }
 
-    /// The median body with a dimension one deviation less and more; `None` where there is no such body.
+    /// Median body with a dimension one standard deviation less, and more; `None` where no such body can be built.
     fn moved(&self, dimension: Dimension) -> [Option<Body>; 2] {
         [-1.0, 1.0].map(|side| {
             let value = self.middle.get(dimension).map(|value| value * (side * self.likely.spread(dimension)).exp());
@@ -151,7 +149,7 @@ impl Bench {
         })
     }
 
-    /// Levels of a size on the median body, or on a scan.
+    /// Levels of a size on the median body. For a scan they are corrected by the ease on the scan.
     fn levels(
         &self,
         style: &Style,
@@ -192,7 +190,8 @@ impl Bench {
                 part,
                 made_m: share * tolerance_m,
             };
-            // A scan has a shape of its own: its ease where it was read, moved to the middle person.
+            // A scan has its own shape. So the ease measured on it replaces that of the model, shifted to the median
+            // person.
             let own = own.as_ref().and_then(|eases| ease_at(eases, name));
             let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
             Level { middle_m, ..found }
@@ -202,7 +201,7 @@ impl Bench {
 }
 
 impl Level {
-    /// Ease on a person with these differences from the median one, m.
+    /// Ease on a person with these differences from the median body, m.
     fn on(&self, off: &[f64]) -> f64 {
         self.middle_m + self.slopes.iter().zip(off).map(|(slope, off)| slope * off).sum::<f64>()
     }

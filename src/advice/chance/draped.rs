@@ -1,4 +1,4 @@
-//! Draws of one size, draped: body, cloth and start are drawn, and the drapes are measured.
+//! Draped draws of one size: body, cloth and start are drawn, and the drapes measured.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,32 +23,32 @@ use spec::versions::FIELD_SPACING_M;
 use spec::{JobSpec, bodies};
 use store::{InOrigin, Origin, Result};
 
-/// Range of the distance at which pieces start from the body, in body depths: from the usual one to that of the thesis
-/// [T 4.4.2].
+/// Range of the distance at which pieces start from the body, in body depths: from the default to that of the thesis [T
+/// 4.4.2].
 const OFFSET_MU: [f64; 2] = [2.1, 4.1];
 
-/// Some draws of one size, draped by FEM-GS.
+/// Result of draping some draws of one size by FEM-GS.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedChance {
     /// Number of draws that were draped.
     pub draws: usize,
     /// Number of drapes that came to rest.
     pub at_rest: usize,
-    /// Probability that every level is within its target, by the lengths of the garment on the drape.
+    /// Probability that every level of the drape is within its target.
     pub fits: Share,
-    /// Lower end, middle and upper end of the 80 % interval of the ease on the drape, mm, by level.
+    /// Lower end, middle and upper end of the 80 % interval of the drape's ease, mm, by level.
     pub ease_mm: BTreeMap<String, [f64; 3]>,
-    /// Hem's height in front less that behind, mm: its 80 % interval, likewise.
+    /// Height of the hem in front minus its height behind, mm, likewise.
     pub hem_front_over_back_mm: Option<[f64; 3]>,
     /// Greatest pressure, kPa, likewise.
     pub most_kpa: Option<[f64; 3]>,
-    /// Cantilever's bending length along the grain line, mm, likewise.
+    /// Cantilever bending length along the grain line, mm, likewise.
     pub bending_length_mm: [f64; 3],
-    /// Draws that could not be draped, with the reason.
+    /// Reasons why draws could not be draped.
     pub refused: Vec<String>,
 }
 
-/// One draped draw.
+/// Measurements of one draped draw.
 struct Drawn {
     outcome: Outcome,
     eases_m: Vec<f64>,
@@ -108,8 +108,8 @@ fn drawn_and_draped(job: &JobSpec, bench: &Bench, size: &Sized, garb: &Garb, dra
     Ok(Drawn { eases_m, bending_m: garb.fabric.bending_lengths_m()[0], outcome })
 }
 
-/// Draws a cloth of a class, as stiff as one of the known cloths of its weight. A fabric that is one measured cloth
-/// stays as it is.
+/// Draws a cloth for a class: as stiff as one of the known cloths of its weight. A fabric that is a measured cloth
+/// stays.
 fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     let percentile = 100.0 * draw.share();
     let is_class = fabric.known().is_some_and(|known| known.kind == Kind::Class);
@@ -120,8 +120,8 @@ fn drawn_fabric(fabric: &Fabric, draw: &mut Draw) -> Fabric {
     Fabric { bending_warp_nm, bending_weft_nm, ..fabric.clone() }
 }
 
-/// Ease at a level by the garment's length on the drape, m: its flat length, stretched as the point of measure nearest
-/// to the level is. Not a number where the garment has no such level on this body.
+/// Ease at a level of the drape, m: the flat length times the stretch of the point of measure nearest to the level,
+/// less the body's length. NaN where the garment has no such level on this body.
 fn worn_ease_m(outcome: &Outcome, level: &str) -> f64 {
     let points: &[&str] = match level {
         "chest" | "bust" | "underbust" => &["half_chest"],

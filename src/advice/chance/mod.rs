@@ -1,5 +1,4 @@
-//! Probability that a garment fits: the unknowns of body, garment, cloth and start are drawn, and every draw is
-//! judged.
+//! Probability that a garment fits: the unknowns of body, garment, cloth and start are drawn, and every draw is judged.
 
 mod bench;
 mod draped;
@@ -26,57 +25,57 @@ use report::chart::{Probable, chance_chart};
 use spec::{JobSpec, Study};
 use store::{InOrigin, Origin, Result};
 
-/// A question after a probability of fit, and the draws that answer it.
+/// Question about the probability of fit, with the number of draws that answer it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Garment; needed where the study has several.
+    /// Name of the garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Subject; needed where the study has several.
+    /// Name of the subject; needed where the study has several.
     pub subject: Option<String>,
-    /// Size whose levels are told; by default the one that is worn most often.
+    /// Name of the size to report level by level; `None` for the one worn most often.
     pub size: Option<String>,
     /// Number of draws.
     pub draws: usize,
     /// Seed of the draws.
     pub seed: u64,
-    /// Factor on the errors of a trained measurer.
+    /// Factor on the measurement errors of a trained measurer.
     pub error_factor: f64,
-    /// Tolerance of half of a girth of the garment, mm: one of twenty garments is off by more.
+    /// Tolerance of half a girth of the garment, mm: one of twenty garments is off by more.
     pub tolerance_mm: f64,
-    /// Number of draws that are draped by FEM-GS.
+    /// Number of draws to drape by FEM-GS.
     pub fem: usize,
 }
 
-/// A dimension of the subject.
+/// A dimension of the subject, with its uncertainty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LikelyDimension {
-    /// Key, with its unit.
+    /// Key of the dimension; it ends in the unit.
     pub dimension: &'static str,
-    /// Value that was read, and the standard deviation of its error; `None` where nothing was read.
+    /// Value that was read, and the standard deviation of its error; `None` where it was not read.
     pub read: Option<[f64; 2]>,
     /// Lower end, median and upper end of the 80 % interval of the true value.
     pub likely: [f64; 3],
 }
 
-/// A level of a size.
+/// A level of a size, over all draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelChance {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Least and greatest target ease, mm; `None` where there is no target.
+    /// Least and greatest target ease, mm; `None` without a target.
     pub target_mm: Option<[f64; 2]>,
     /// Lower end, median and upper end of the 80 % interval of the ease, mm.
     pub ease_mm: [f64; 3],
-    /// Share of draws in which it is too tight.
+    /// Share of draws in which the level is too tight.
     pub tight: f64,
-    /// Share in which it is too loose.
+    /// Share of draws in which the level is too loose.
     pub loose: f64,
-    /// Share in which it is the worst level, and outside its target.
+    /// Share of draws in which the level is outside its target and the worst one.
     pub decides: f64,
 }
 
 impl LevelChance {
-    /// Share of draws in which it is within its target.
+    /// Share of draws in which the level is within its target.
     #[must_use]
     pub fn as_meant(&self) -> f64 {
         1.0 - self.tight - self.loose
@@ -88,29 +87,29 @@ impl LevelChance {
 pub struct SizeChance {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Probability that it is the size to wear.
+    /// Probability that this is the size to wear.
     pub wear: Share,
     /// Probability that every level is within its target.
     pub fits: Share,
-    /// Share of draws in which its worst level is too tight.
+    /// Share of draws in which the worst level is too tight.
     pub tight: f64,
-    /// Share in which its worst level is too loose.
+    /// Share of draws in which the worst level is too loose.
     pub loose: f64,
-    /// Share in which its worst level is farther from its target than a grade step, too tight counting double.
+    /// Share of draws in which the worst level departs from its target by more than a grade step, counting too tight
+    /// double.
     pub out_of_reach: f64,
-    /// Each level of the size, from the neck down.
+    /// Levels of the size, from the neck down.
     pub levels: Vec<LevelChance>,
 }
 
 impl SizeChance {
-    /// Words for its place: the size to wear, or only the nearest one, where it is out of reach in more than half of
-    /// the draws.
+    /// Words for the size to wear; for the nearest one where it is out of reach in more than half of the draws.
     #[must_use]
     pub fn place(&self) -> &'static str {
         if self.out_of_reach > 0.5 { "the nearest, though none fits," } else { "the one to wear" }
     }
 
-    /// The level that decides most often, where any does.
+    /// Level that decides most often; `None` where none ever does.
     #[must_use]
     pub fn decides(&self) -> Option<&LevelChance> {
         let most = self.levels.iter().max_by(|a, b| a.decides.total_cmp(&b.decides));
@@ -127,28 +126,28 @@ pub struct Chance {
     pub subject: String,
     /// Intended fit, as study files name it.
     pub intended: &'static str,
-    /// Number of draws that shares are counted over.
+    /// Number of draws.
     pub draws: usize,
     /// Seed of the draws: the same seed gives the same answer.
     pub seed: u64,
     /// Dimensions of the subject.
     pub body: Vec<LikelyDimension>,
-    /// Its sizes, in order.
+    /// Sizes of the garment, in order.
     pub sizes: Vec<SizeChance>,
-    /// The size whose levels are told.
+    /// Name of the size that is reported level by level.
     pub told: String,
-    /// Drapes of that size, where they are asked for.
+    /// Drapes of that size; `None` where none were asked for.
     pub drape: Option<DrapedChance>,
 }
 
 impl Chance {
-    /// The size whose levels are told.
+    /// The size that is reported level by level.
     #[must_use]
     pub fn told(&self) -> Option<&SizeChance> {
         self.sizes.iter().find(|size| size.size == self.told)
     }
 
-    /// Chart of the ease of every size, level by level, beside its targets.
+    /// Chart of the ease of every size at every level, with the targets.
     ///
     /// # Errors
     /// When the chart cannot be drawn.
@@ -170,8 +169,8 @@ impl Chance {
 /// Estimates the probabilities that the sizes of a garment fit a subject.
 ///
 /// # Errors
-/// [`store::StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or pattern
-/// refuse.
+/// [`store::StudyError::NotFound`] for a garment, subject or size that the study does not have. Others when body or
+/// pattern fail.
 pub fn chance(study: &Study, question: &Question) -> Result<Chance> {
     let (jobs, target) = asked(study, question)?;
     let first = jobs.first().ok_or(AdviceError::NoSize)?;
@@ -201,7 +200,7 @@ fn sizes_of(jobs: &[JobSpec]) -> Vec<String> {
     jobs.iter().map(|job| job.size.clone()).collect()
 }
 
-/// A job of each size of the garment on the subject, and the target ease.
+/// A job for each size of the garment on the subject, and the target ease.
 fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     let garments = study.garments.iter().map(|garment| garment.name.clone()).collect();
     let name = one("garment", question.garment.as_deref(), garments)?;
@@ -213,7 +212,7 @@ fn asked(study: &Study, question: &Question) -> Result<(Vec<JobSpec>, Target)> {
     Ok((jobs, garment.map_or_else(Target::default, |garment| garment.target.clone())))
 }
 
-/// Every dimension of the subject with its interval.
+/// Dimensions of the subject, with their intervals.
 fn known(bench: &Bench) -> Vec<LikelyDimension> {
     let scale = |dimension: Dimension, value: f64| (value * dimension.per_si() * 10.0).round() / 10.0;
     let likely_dimension = |dimension: Dimension| {
@@ -228,7 +227,7 @@ fn known(bench: &Bench) -> Vec<LikelyDimension> {
     Dimension::ALL.into_iter().filter_map(likely_dimension).collect()
 }
 
-/// Draws bodies and garments, and counts their verdicts.
+/// Draws bodies and garments, judges every draw, and counts.
 fn tallied(bench: &Bench, question: &Question) -> Vec<SizeChance> {
     let mut draw = Draw::new(question.seed);
     let mut drawn: Vec<Vec<Vec<f64>>> = vec![Vec::with_capacity(question.draws); bench.sizes.len()];

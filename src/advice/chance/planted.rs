@@ -1,5 +1,5 @@
-//! Calibration of the probabilities: people of known bodies are measured with errors and judged by the readings, and
-//! the truth is counted.
+//! Calibration of the probabilities: simulated people with known bodies are measured with errors and judged from the
+//! readings, and the judgement is compared with the truth.
 
 use std::thread;
 
@@ -18,67 +18,67 @@ use pattern::Style;
 use spec::{Study, bodies};
 use store::Result;
 
-/// A level over all people.
+/// A level, over all people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedLevel {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// Number of people who have it.
+    /// Number of people on whom the garment has the level.
     pub people: usize,
-    /// Share of them whose true ease lies in the 80 % interval that was told.
+    /// Share of these people whose true ease lies in the predicted 80 % interval.
     pub held: Share,
     /// Mean width of the interval, mm.
     pub width_mm: f64,
 }
 
-/// Reliability of probabilities within a range.
+/// Truth of the probabilities within a range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reliability {
     /// Least and greatest probability of the range.
     pub told: [f64; 2],
-    /// Number of cases, each a size on a person.
+    /// Number of cases; a case is a size on a person.
     pub cases: usize,
-    /// Mean probability.
+    /// Mean of the probabilities.
     pub mean: f64,
     /// Share of cases that came true.
     pub came_true: Share,
 }
 
-/// Calibration over simulated people of known bodies.
+/// Calibration on simulated people with known bodies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantedTally {
     /// Number of people, half of them women.
     pub people: usize,
-    /// Dimensions that were read of each.
+    /// Dimensions that were read on each person.
     pub read: Vec<&'static str>,
-    /// Share of true eases within the 80 % interval, over all levels that have a target.
+    /// Share of true eases within the 80 % interval, over all levels with a target.
     pub held: Share,
-    /// The same by level, over the people who have it.
+    /// The same share, level by level.
     pub levels: Vec<PlantedLevel>,
-    /// Reliability of the probability that a size fits, over all sizes.
+    /// Truth of the probability that a size fits, over all sizes.
     pub fits: Vec<Reliability>,
-    /// Reliability of the probability that a size is the one to wear, over all sizes.
+    /// Truth of the probability that a size is the one to wear, over all sizes.
     pub wear: Vec<Reliability>,
 }
 
 /// Bounds of the ranges of probabilities.
 const RANGES: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
 
-/// Probabilities and intervals for one person, with the truth.
+/// Probabilities and intervals for one person, beside the truth.
 #[derive(Default)]
 struct Case {
     levels: Vec<CaseLevel>,
-    /// That a size fits.
+    /// Probabilities that a size fits.
     fits: Vec<Told>,
-    /// That a size is the one to wear.
+    /// Probabilities that a size is the one to wear.
     wear: Vec<Told>,
 }
 
-/// Ease of the size to wear at a level.
+/// Ease at a level of the size to wear.
 struct CaseLevel {
     level: String,
     has_target: bool,
-    /// The 80 % interval that was told, mm.
+    /// Predicted ends and median of the 80 % interval, mm.
     told_mm: [f64; 3],
     true_mm: f64,
 }
@@ -90,17 +90,17 @@ impl CaseLevel {
     }
 }
 
-/// A probability that was told, with the truth.
+/// A probability, and the truth.
 struct Told {
     probability: f64,
     came_true: bool,
 }
 
-/// Draws people of both sexes from the survey, and reads of each the dimensions that are known of the subject, with
-/// errors of `error_factor`. Counts how often the truth lies where [`chance`](crate::chance::chance()) says.
+/// Draws people of both sexes from the survey. On each reads the dimensions that are known of the subject, with errors
+/// of `error_factor`, and counts how often the truth lies where [`chance`](crate::chance::chance()) predicts.
 ///
 /// # Errors
-/// As [`chance`](crate::chance::chance()).
+/// Those of [`chance`](crate::chance::chance()).
 pub fn planted(study: &Study, question: &Question, people: usize, error_factor: f64) -> Result<PlantedTally> {
     let (jobs, target) = asked(study, question)?;
     let styles = jobs.iter().map(|job| Ok((job.size.clone(), stages::style(job)?))).collect::<Result<Vec<_>>>()?;
@@ -132,7 +132,7 @@ impl Plot<'_> {
     fn case(&self, number: usize) -> Result<Case> {
         let mut draw = Draw::new(Draw::new(self.question.seed ^ ((number as u64) << 32)).bits());
         let sex = if number.is_multiple_of(2) { Sex::Female } else { Sex::Male };
-        // Whoever cannot be built, or is read as nobody is, is somebody else.
+        // Draws again if no body can be built, or if the readings fit nobody.
         let (body, bench) = loop {
             if let Some(found) = self.planted(sex, &mut draw) {
                 break found;
@@ -173,8 +173,8 @@ impl Plot<'_> {
         Ok(case)
     }
 
-    /// Body of a person, and the bench of the readings of it; `None` where the body cannot be built or the readings
-    /// are of nobody.
+    /// Body of a drawn person, and the bench of their readings; `None` where the body cannot be built or the readings
+    /// fit nobody.
     fn planted(&self, sex: Sex, draw: &mut Draw) -> Option<(Body, Bench)> {
         let person = Likely::anybody(sex).person(&std::array::from_fn(|_| draw.normal()));
         let body = bodies::build_body(&person).ok()?;
@@ -217,7 +217,7 @@ fn tally(cases: &[Case], read: &[Dimension]) -> PlantedTally {
     }
 }
 
-/// Probabilities in ranges, with the shares that came true.
+/// Groups probabilities by ranges, with the share that came true in each.
 fn reliability<'a>(told: impl Iterator<Item = &'a Told>) -> Vec<Reliability> {
     let told: Vec<&Told> = told.collect();
     let last = RANGES.len() - 2;

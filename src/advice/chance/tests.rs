@@ -38,7 +38,7 @@ fn shares_of_a_size_add_up_and_its_likely_ease_is_that_of_the_flat_pattern() {
         assert!((decides - (1.0 - size.fits.share)).abs() < 1e-12, "{}: {decides}", size.size);
     }
     let small = found.told().expect("told");
-    // `toile fit` has 111 mm; a chest that was read is nearly what was read.
+    // `toile fit` says 111 mm. The chest was read, so its median is nearly that.
     let chest = small.levels.iter().find(|level| level.level == "chest").expect("covered");
     assert!((chest.ease_mm[1] - 111.0).abs() < 5.0, "{:?}", chest.ease_mm);
     let width = chest.ease_mm[2] - chest.ease_mm[0];

@@ -1,4 +1,4 @@
-//! Check of a grading by FEM-GS: some of the people whom a size fits are dressed.
+//! Check of a grading by FEM-GS: some of the people whom a size fits wear it.
 
 use crate::alteration;
 use crate::grading::knobs::Band;
@@ -8,12 +8,12 @@ use geom::units::mm;
 use spec::{JobSpec, bodies};
 use store::Result;
 
-/// Departure of an ease on a drape from its band that counts as none, m: it is written as 0.
+/// Departure of a draped ease from its band that counts as none, m: it would be written as 0.
 const SLACK_M: f64 = 0.5e-3;
-/// Greatest penetration of the cloth into the body that counts as none, m.
+/// Deepest penetration of the cloth into the body that counts as none, m.
 const INSIDE_M: f64 = 1e-3;
 
-/// Drapes a share of the people whom a size fits, evenly among them, each in the size to wear.
+/// Drapes the size to wear on a share of the people whom it fits, taken evenly among them.
 ///
 /// # Errors
 /// When a body cannot be built, or the simulator refuses.
@@ -34,7 +34,7 @@ pub(super) fn agree(spec: &JobSpec, sizes: &Judged<'_>, crowd: Crowd<'_>, share:
     Ok(DrapedAgain { people: count, agree: count - against.len(), against })
 }
 
-/// Objections of a drape to a fit.
+/// Objections of a drape: reasons why the size does not fit.
 fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<String> {
     let mut against = Vec::new();
     if !outcome.converged {

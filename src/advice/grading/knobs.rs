@@ -1,5 +1,5 @@
-//! Handles by which a pattern is graded: one for each level that has a band, and those that follow the first of them
-//! as in the pattern's own grade.
+//! Handles by which a pattern is graded (knobs): one for each level that has a band. Other handles follow the first of
+//! them, as in the pattern's own grade.
 
 use crate::error::AdviceError;
 use crate::grading::people::{self, Figure};
@@ -7,19 +7,19 @@ use fit::coverage::{Asked, Asks};
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
 
-/// Step in which sizes are drawn, m.
+/// Step of amounts in which sizes are drawn, m.
 pub const STEP_M: f64 = 1e-3;
 /// Movement of a handle by which its effect is found, m.
 const TRIED_M: f64 = 5e-3;
-/// Least change of a level, m per m, of a handle that may be the one for it.
+/// Least change of a level, m per m, by a handle that may be chosen for the level.
 const STRONG: f64 = 0.3;
-/// Shares of the greatest amount that are tried in turn, where a handle cannot move so far.
+/// Shares of the greatest amount, tried in turn where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
 
-/// Slope below which no handle follows: over the whole range it would move by less than a step.
+/// Slope below which a handle does not follow: over the whole range it would move by less than a step.
 const SLIGHT: f64 = 0.01;
-/// Handles that change a width, and so may be chosen for a level. A length is never shortened so that a level is not
-/// reached.
+/// Handles that change a width; only these may be chosen for a level. Shortening a garment until it
+/// no longer reaches a level is no way to fit it.
 const WIDTHS: [Handle; 10] = [
     Handle::Chest,
     Handle::Waist,
@@ -32,9 +32,9 @@ const WIDTHS: [Handle; 10] = [
     Handle::Bicep,
     Handle::Cuff,
 ];
-/// Handles of girths of the trunk.
+/// Handles of girths of the trunk, which grow alike where the pattern has no grade.
 const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
-/// Bound of an ease without limits, m.
+/// Bound that stands for none, m.
 const ANY_M: f64 = 1e3;
 
 /// A level with its target ease.
@@ -49,19 +49,19 @@ pub struct Band {
 /// A pattern with the handles that change from size to size.
 pub struct Knobs<'a> {
     style: &'a Style,
-    /// Handles that are turned.
+    /// Handles that are turned, one for each level.
     pub handles: Vec<Handle>,
-    /// Handles that follow the first of them, with their slopes, m per m.
+    /// Handles that follow the first of these, with their slopes, m per m.
     pub followers: Vec<(Handle, f64)>,
-    /// Amount of each handle per amount of the first in the pattern's own grade, m per m.
+    /// Amount of each handle per amount of the first, m per m, in the pattern's own grade.
     pub habits: Vec<f64>,
     /// Least and greatest amount of each handle, steps.
     pub limits: Vec<[i32; 2]>,
 }
 
 impl<'a> Knobs<'a> {
-    /// Chooses the handles of a style that change the levels of somebody. `own` are the pattern's own sizes, the style
-    /// among them.
+    /// Chooses the handles of a style that change the levels on `somebody`. `own` are the pattern's own sizes, of which
+    /// the style is one.
     ///
     /// # Errors
     /// When no handle changes a level.
@@ -79,7 +79,7 @@ impl<'a> Knobs<'a> {
         let others = all.iter().copied().filter(|handle| !handles.contains(handle));
         let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
         let followers = others.filter_map(follower).collect();
-        // Where there is no grade to learn from the girths of the trunk go together.
+        // Without a grade to learn from, girths of the trunk grow alike.
         let alike = |handle: &Handle| if ALIKE.contains(handle) { 1.0 } else { 0.0 };
         let habits = handles.iter().map(|handle| slope(*handle).unwrap_or_else(|| alike(handle))).collect();
         let mut knobs = Self { style, handles, followers, habits, limits: Vec::new() };
@@ -87,7 +87,7 @@ impl<'a> Knobs<'a> {
         Ok(knobs)
     }
 
-    /// Greatest amounts of a handle either way, steps.
+    /// Greatest amounts of a handle in both directions, steps.
     fn limit(&self, knob: usize, limit_m: f64) -> [i32; 2] {
         let steps = |sign: f64| {
             let turned = |share: &f64| {
@@ -101,7 +101,7 @@ impl<'a> Knobs<'a> {
         [steps(-1.0), steps(1.0)]
     }
 
-    /// Handles of a size with their amounts, m, in the order in which they are moved. All amounts are whole steps.
+    /// Handles of a size with their amounts, m, in the order in which they move. `turns` are in steps.
     pub fn moves(&self, turns: &[i32]) -> Vec<(Handle, f64)> {
         let amounts_m: Vec<f64> = turns.iter().map(|turn| f64::from(*turn) * STEP_M).collect();
         let mut moves = self.moves_by(&amounts_m);
@@ -110,7 +110,7 @@ impl<'a> Knobs<'a> {
         moves
     }
 
-    /// As [`Self::moves`] for amounts of the knobs in m, without rounding.
+    /// Moves as [`Self::moves`] does, for amounts of the knobs in m, without rounding.
     fn moves_by(&self, amounts_m: &[f64]) -> Vec<(Handle, f64)> {
         let lead_m = amounts_m.first().copied().unwrap_or(0.0);
         let followers = self.followers.iter().map(|(handle, slope)| (*handle, slope * lead_m));
@@ -121,19 +121,19 @@ impl<'a> Knobs<'a> {
         moves
     }
 
-    /// Returns the style in a size.
+    /// Returns the style of a size.
     ///
     /// # Errors
-    /// When a handle cannot be moved so far.
+    /// When a handle cannot move so far.
     pub fn drawn(&self, turns: &[i32]) -> Result<Style> {
         self.style.moved(&self.moves(turns)).origin(Origin::Grade)
     }
 
-    /// Requirements of every person on a size at each level, linear in the turns: from the ease on the base and the
-    /// effect of each knob. Where the base does not cover a level of somebody, any length will do.
+    /// Requirements of every person on a size at each level, linear in the turns: the ease on the base, plus the effect
+    /// of each knob. A level that the base does not cover on a person requires nothing.
     ///
     /// # Errors
-    /// When a knob cannot be turned at all.
+    /// When a knob cannot turn at all.
     pub fn asks(&self, figures: &[Figure], bands: &[Band]) -> Result<Vec<Asks>> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let base = people::eases(self.style, figures, &levels);
@@ -161,9 +161,8 @@ impl<'a> Knobs<'a> {
     }
 }
 
-/// Corrects the requirements of every person by their ease on a size as it is drawn with some turns, which differs
-/// from the linear prediction. A level that the base covers and the size does not makes the size one that does not
-/// fit.
+/// Corrects the requirements of every person by their true ease on a size as drawn with `turns`, which differs from the
+/// linear prediction. Where the base covers a level and the size does not, the size does not fit.
 pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], bands: &[Band]) {
     for (asks, eases) in asks.iter_mut().zip(eases) {
         for ((asked, ease_m), band) in asks.iter_mut().zip(eases).zip(bands) {
@@ -180,7 +179,7 @@ pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], ban
     }
 }
 
-/// Chooses a handle for each level, as far as there are any: the strongest pairs first, and no handle for two levels.
+/// Chooses a handle for each level, where there is one: the strongest pairs first, no handle for two levels.
 fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     let levels = changes.first().map_or(0, Vec::len);
     let wide = (0..all.len()).filter(|k| WIDTHS.contains(&all[*k]));
@@ -198,7 +197,7 @@ fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
     taken.into_iter().map(|(k, _)| all[k]).collect()
 }
 
-/// Change of each level of somebody with a handle, m per m; 0 where the handle cannot be moved.
+/// Change of each level on somebody by a handle, m per m; 0 where the handle cannot move.
 fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
     let moved = |by_m: f64| style.moved(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels));
     match (moved(-TRIED_M), moved(TRIED_M)) {
@@ -212,8 +211,8 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
     }
 }
 
-/// Change of the point of measure of a handle per change of that of the first, in the pattern's own grade, by least
-/// squares over its sizes. `None` where the grade does not tell.
+/// Change of the point of measure of `handle` per change of that of `lead` in the pattern's own grade, by least squares
+/// over its sizes. `None` where the grade does not tell.
 fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
@@ -240,7 +239,7 @@ mod tests {
             let changes: Vec<Vec<f64>> = changes.iter().map(|levels| levels.to_vec()).collect();
             assert_eq!(chosen(&all, &changes), expect);
         };
-        // Chest, waist, and a hip that the waist changes more than the hem does.
+        // Levels: chest, waist, and a hip that the waist's handle changes more than the hem's.
         let tee = [[2.0, 0.3, 0.0], [0.0, 2.0, 1.2], [0.0, 0.1, 0.8], [0.9, 0.0, 0.0], [0.0, 0.5, 2.5]];
         check(&tee, &[Handle::Chest, Handle::Waist, Handle::Hem]);
         let weak = [[2.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.2, 0.1], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];

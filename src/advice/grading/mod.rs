@@ -1,9 +1,9 @@
-//! Grading for a population: the sizes that fit the most people, as a nest with its rules, a size chart and a
-//! specification sheet, beside the pattern's own sizes on people who were held out.
+//! Grading for a population: the sizes that fit the most people, as a nest with rules, a size chart and a specification
+//! sheet. They are compared with the pattern's own sizes on people held out of the search.
 //!
 //! `people` draws and builds the people, `knobs` chooses the handles by which the pattern is graded, and
 //! `fit::coverage` seeks the sizes. `tally` counts the people whom they fit, `nest` draws the sizes and reads them
-//! again, `drape` dresses some of the people whom they fit, and `picture` draws the people.
+//! again, `drape` dresses some of these people, and `picture` draws the people.
 
 mod drape;
 mod knobs;
@@ -30,38 +30,38 @@ use spec::{JobSpec, Study, patterns};
 use store::{Result, StudyError};
 use wardrobe::seams::Specification;
 
-/// Greatest amount of a handle either way, m.
+/// Greatest amount of a handle in either direction, m.
 const LIMIT_M: f64 = 0.150;
-/// Share of the people that must be won for each step by which a size departs from the pattern's own grade.
+/// Share of the people that a size must win for each step by which it departs from the pattern's own grade.
 const PRICE: f64 = 5e-5;
-/// Shares of the greatest amounts that are tried in turn, where a size cannot be drawn.
+/// Shares of the greatest amounts, tried in turn where a size cannot be drawn.
 const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
-/// Greatest number of times the sizes are measured as drawn, and sought anew.
+/// Greatest number of rounds in which sizes are measured as drawn and sought again.
 const ROUNDS: usize = 4;
 /// Accepted counts of sizes and of people.
 const SIZES: std::ops::RangeInclusive<usize> = 1..=12;
 const PEOPLE: std::ops::RangeInclusive<usize> = 20..=20_000;
 
-/// A grading as it is asked for: population and garment.
+/// Request for a grading: population and garment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradeWish {
-    /// Garment; needed where the study has several.
+    /// Name of the garment; needed where the study has several.
     pub garment: Option<String>,
-    /// Number of sizes; by default that of the pattern.
+    /// Number of sizes; `None` for that of the pattern.
     pub sizes: Option<usize>,
     /// Number of people for whom the sizes are sought.
     pub people: usize,
-    /// Number of other people on whom they are judged.
+    /// Number of people held out, on whom the sizes are judged.
     pub held_out: usize,
-    /// Seed of the draw.
+    /// Seed of the draw of people.
     pub seed: u64,
-    /// Size of the pattern that the others are made of; by default the middle one.
+    /// Name of the base: the pattern's size from which the others are made. `None` for the middle one.
     pub base: Option<String>,
-    /// True if the steps between sizes are all the same.
+    /// True to make all steps between sizes equal.
     pub is_even: bool,
-    /// Levels that are not to be considered.
+    /// Levels that need not fit.
     pub without: Vec<String>,
-    /// Share of the people whom a size fits who are draped.
+    /// Share to drape of the people whom a size fits.
     pub draped: f64,
 }
 
@@ -81,12 +81,12 @@ impl Default for GradeWish {
     }
 }
 
-/// A handle of a size with its amount.
+/// A handle of a size, with its amount.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Turn {
     /// Name of the handle.
     pub handle: &'static str,
-    /// Amount beside the base pattern, mm.
+    /// Amount relative to the base, mm.
     pub amount_mm: f64,
 }
 
@@ -95,98 +95,97 @@ pub struct Turn {
 pub struct Range {
     /// Key of the dimension, such as `chest_girth_mm`.
     pub dimension: &'static str,
-    /// 5th percentile, median and 95th percentile, in the unit of its key.
+    /// 5th percentile, median and 95th percentile, in the unit of the key.
     pub values: [f64; 3],
 }
 
-/// A size of a set.
+/// A size of a set, with shares of the people held out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeShare {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Share of the people held out whom it fits, %.
+    /// Share whom the size fits, %.
     pub fits_percent: f64,
-    /// Share of the people held out who wear it: it fits, and no smaller one does, %.
+    /// Share who wear the size, since it fits and no smaller one does, %.
     pub worn_percent: f64,
-    /// Amounts of handles beside the base pattern; empty of the pattern's own sizes.
+    /// Amounts of handles relative to the base; empty for the pattern's own sizes.
     pub turns: Vec<Turn>,
-    /// Dimensions of the people held out who wear it; empty where nobody does.
+    /// Dimensions of the people who wear the size; empty where nobody does.
     pub wearers: Vec<Range>,
 }
 
 /// A set of sizes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SizeSet {
-    /// `own` or `new`.
+    /// `own` for the pattern's own sizes, or `new`.
     pub set: &'static str,
-    /// Share of the people for whom the sizes were sought whom a size fits, %.
+    /// Share of the people of the search whom a size fits, %.
     pub sought_percent: f64,
     /// Share of the people held out whom a size fits, %.
     pub held_out_percent: f64,
-    /// Half of the 95 % interval of that share, percentage points.
+    /// Half of the 95 % interval of that share, in percentage points.
     pub within_percent: f64,
-    /// Its sizes, the smallest first.
+    /// Sizes, the smallest first.
     pub sizes: Vec<SizeShare>,
 }
 
-/// Results of both sets at a level.
+/// Shares of both sets at a level: the pattern's own sizes, then the new ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelShare {
     /// Level of the body, such as `chest`.
     pub level: String,
     /// Least and greatest target ease, mm.
     pub target_mm: [f64; 2],
-    /// Share of the people held out whose size to wear is within the target, %, of the pattern's own sizes and of the
-    /// new ones.
+    /// Share of the people held out whose size to wear is within the target here, %.
     pub within_percent: [f64; 2],
-    /// Share of the people whom no size fits for whom this level is the worst, %, likewise.
+    /// Share of the people held out whom no size fits for whom this level is the worst, %.
     pub fails_percent: [f64; 2],
 }
 
-/// A part of the people held out.
+/// Shares of both sets in a part of the people held out: the pattern's own sizes, then the new ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartShare {
     /// Least and greatest girth of the body at the first level, mm.
     pub from_to_mm: [f64; 2],
-    /// Share of the part whom a size fits, %, of the pattern's own sizes and of the new ones.
+    /// Share of the part whom a size fits, %.
     pub fits_percent: [f64; 2],
 }
 
-/// Result of draping some of the people whom a size fits.
+/// Result of dressing some of the people whom a size fits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DrapedAgain {
     /// Number of people who were draped.
     pub people: usize,
     /// Number of people whom the size fits on the drape too.
     pub agree: usize,
-    /// Objections of each of the other drapes.
+    /// Objections of each other drape.
     pub against: Vec<String>,
 }
 
-/// A grade that fits a population, beside the pattern's own.
+/// A grading for a population, beside the pattern's own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Grading {
     /// Name of the garment in the study.
     pub garment: String,
-    /// Name of the size that the grade starts from.
+    /// Name of the base size.
     pub base: String,
     /// Intended fit, as study files name it.
     pub intended: &'static str,
     /// Sex of the people.
     pub sex: Sex,
-    /// Number of people for whom the sizes were sought, and of people held out, without those who could not be built.
+    /// Numbers of people whose bodies could be built: of the search, and held out.
     pub people: [usize; 2],
-    /// Handles that are turned for a level each, and handles that follow the first of them.
+    /// Handles that are turned, one for each level; and handles that follow the first of these.
     pub handles: [Vec<&'static str>; 2],
-    /// The pattern's own sizes and the new ones.
+    /// Both sets: the pattern's own sizes, and the new ones.
     pub sets: Vec<SizeSet>,
-    /// Every level that has a band.
+    /// Levels that have a band.
     pub levels: Vec<LevelShare>,
-    /// The level that parts are made by, and fifths of the people held out by it.
+    /// Level by which the people held out are divided, and fifths of them by their girth there.
     pub parts: (String, Vec<PartShare>),
     /// Greatest distance between a size as drawn and as the rules make it, mm.
     pub apart_mm: f64,
-    /// Result of drapes, where they are asked for.
+    /// Result of drapes; `None` where none were asked for.
     pub drapes: Option<DrapedAgain>,
     /// Points of measure of the new sizes.
     pub sheet: Specification,
@@ -199,8 +198,8 @@ pub struct Grading {
 ///
 /// # Errors
 /// [`StudyError::NotFound`] for a garment or size that the study does not have. Others for counts out of range, a
-/// garment that women and men wear, a pattern that holds its own seams, when body or pattern refuse, and when the
-/// rules do not make the sizes again.
+/// garment that women and men wear, a pattern that holds its own seams; when body or pattern fail, or the rules do not
+/// make the sizes again.
 pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let asked = Asked::of(study, wish)?;
     let without_seams = || AdviceError::GradeWithoutSeams { pattern: asked.spec.pattern.name.clone() };
@@ -208,7 +207,7 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let own = asked.own()?;
     let base = &own[asked.base];
     let drawn = people::drawn(asked.sex, [wish.people, wish.held_out], wish.seed);
-    // Somebody alone tells the levels, and whether one is measured at a height of its own.
+    // One person is enough to tell the levels, and if one is measured at a height of its own.
     let first = people::figures(&drawn[0][..1], false);
     let somebody = first.first().ok_or(AdviceError::NoFirstPerson)?;
     let covered = somebody.covered(base);
@@ -265,7 +264,7 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     })
 }
 
-/// People, with the levels at which a garment is to fit them.
+/// People, and the levels at which a garment must fit them.
 #[derive(Clone, Copy)]
 struct Crowd<'a> {
     figures: &'a [Figure],
@@ -275,21 +274,21 @@ struct Crowd<'a> {
 /// A set of sizes, judged on people.
 struct Judged<'a> {
     title: &'static str,
-    /// Pattern of each size, in order.
+    /// Patterns of the sizes, in order.
     styles: &'a [Style],
-    /// Name of each size, in the same order.
+    /// Names of the sizes, in the same order.
     names: &'a [String],
     tally: &'a Tally,
 }
 
-/// A grading as it is asked for, found in the study.
+/// Request for a grading, found in the study.
 struct Asked<'a> {
     entry: &'a GarmentEntry,
     /// A job of the base size.
     spec: JobSpec,
-    /// The base among the pattern's own sizes.
+    /// Index of the base among the pattern's own sizes.
     base: usize,
-    /// Number of sizes that are sought.
+    /// Number of sizes to find.
     count: usize,
     sex: Sex,
 }
@@ -301,7 +300,7 @@ impl<'a> Asked<'a> {
         let missing = || AdviceError::NotWorn { garment: name.clone() };
         let entry = study.garments.iter().find(|entry| entry.name == name).ok_or_else(missing)?;
         let names: Vec<String> = entry.sizes.iter().map(|size| size.name.clone()).collect();
-        // The lower one of two in the middle.
+        // The lower one, where two are in the middle.
         let middle = names.len().saturating_sub(1) / 2;
         let base = match &wish.base {
             Some(base) => one("size", Some(base), names.clone())?,
@@ -332,7 +331,7 @@ impl<'a> Asked<'a> {
         Ok(Self { entry, spec: spec.ok_or_else(missing)?, base: index, count, sex })
     }
 
-    /// The pattern's own sizes.
+    /// Styles of the pattern's own sizes.
     fn own(&self) -> Result<Vec<Style>> {
         let unit = self.spec.unit.as_deref().and_then(patterns::unit_of);
         let style = |size: &spec::file::SizeFile| {
@@ -344,7 +343,7 @@ impl<'a> Asked<'a> {
         self.entry.sizes.iter().map(style).collect()
     }
 
-    /// Names of the new sizes: those of the pattern where there are as many.
+    /// Names of the new sizes: those of the pattern, where it has as many.
     fn names(&self) -> Vec<String> {
         if self.entry.sizes.len() == self.count {
             return self.entry.sizes.iter().map(|size| size.name.clone()).collect();
@@ -353,7 +352,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// The levels that a base covers and that have a band, girths of the trunk first.
+/// Levels that the base covers and that have a band, girths of the trunk first.
 fn bands(entry: &GarmentEntry, covered: &[Covered], without: &[String]) -> Result<Vec<Band>> {
     let is_covered = |level: &str| covered.iter().any(|known| known.level == level);
     if let Some(other) = without.iter().find(|level| !is_covered(level)) {
@@ -368,14 +367,14 @@ fn bands(entry: &GarmentEntry, covered: &[Covered], without: &[String]) -> Resul
     if bands.is_empty() { Err(AdviceError::NoTarget { garment: entry.name.clone() }.into()) } else { Ok(bands) }
 }
 
-/// The person whose body is the median of all at a level.
+/// Person in the middle of all, by girth at a level.
 fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
     let mut all: Vec<&Figure> = figures.iter().collect();
     all.sort_by(|a, b| a.girth_m(level).unwrap_or(0.0).total_cmp(&b.girth_m(level).unwrap_or(0.0)));
     all.get(all.len() / 2).copied()
 }
 
-/// Seeks sizes. Where one cannot be drawn, since its handles do not go so far together, all get tighter limits.
+/// Seeks sizes. Where one cannot be drawn, since its handles cannot move so far together, tightens all limits.
 fn sizes(knobs: &Knobs<'_>, crowd: Crowd<'_>, count: usize, series: Series, seed: u64) -> Result<Turns> {
     let asks: Vec<Vec<Asks>> = vec![knobs.asks(crowd.figures, crowd.bands)?; count];
     let mut refused = None;
@@ -392,8 +391,7 @@ fn sizes(knobs: &Knobs<'_>, crowd: Crowd<'_>, count: usize, series: Series, seed
     refused.map_or(Ok(Vec::new()), Err)
 }
 
-/// Seeks sizes, measures them as they are drawn, and seeks again near them by the measured eases. Returns the best
-/// sizes as drawn.
+/// Seeks sizes, measures them as drawn, and seeks again near them with the measured eases. Returns the best sizes.
 fn as_drawn(knobs: &Knobs<'_>, crowd: Crowd<'_>, search: &Search<'_>, seed: u64) -> Result<Turns> {
     let Crowd { figures, bands } = crowd;
     let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();

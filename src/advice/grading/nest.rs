@@ -1,5 +1,5 @@
-//! The sizes as files: a DXF file each, and the base size of the nest with its rules, read again and compared with the
-//! sizes as drawn.
+//! The sizes as files: a DXF file each, and the base size with the rules of the nest. These are read again and compared
+//! with the sizes as drawn.
 
 use crate::error::AdviceError;
 use crate::grading::Asked;
@@ -16,12 +16,12 @@ use spec::patterns;
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// Greatest distance of a size that the rules make from the size as drawn, m.
+/// Greatest accepted distance between a size as drawn and as the rules make it, m.
 const APART_M: f64 = 0.1e-3;
 
-/// The sizes as they are written.
+/// The sizes, written and read again.
 pub struct Nest {
-    /// Each size, read from the file that the rules make.
+    /// Each size, as the rules make it.
     pub styles: Vec<Style>,
     /// Greatest distance between a size as drawn and as the rules make it, m.
     pub apart_m: f64,
@@ -32,7 +32,7 @@ pub struct Nest {
 /// Draws the sizes, writes them as rules, and reads them again.
 ///
 /// # Errors
-/// When a handle cannot be moved so far, the sizes are no nest, or the rules do not make them again.
+/// When a handle cannot move so far, the sizes are no nest, or the rules do not make the sizes again.
 pub fn drawn(
     asked: &Asked<'_>,
     seams: &SourceFile,
@@ -66,7 +66,7 @@ pub fn drawn(
         }
     }
     let nest = nest.ok_or(AdviceError::EmptyNest)?;
-    // The sample is the size in the middle, as pattern makers have it.
+    // The sample is the size in the middle, as usual.
     let sample = &names[names.len().saturating_sub(1) / 2];
     let Ungraded { pieces, table, .. } = grade::ungrade(&nest, sample).origin(Origin::Grade)?;
     let texts = texts(sample).into_iter().chain([grade::named_in_pattern(&whole)]).collect::<Vec<_>>();
@@ -83,7 +83,7 @@ pub fn drawn(
     Ok(Nest { styles, apart_m, files })
 }
 
-/// Sizes that the written sample size and rules make, and their greatest distance from the nest, m.
+/// Sizes that the written sample size and rules make, with their greatest distance from the nest, m.
 fn again(nest: &PatternFile, written: &[u8], rules: &[u8], name: &str) -> Result<(PatternFile, f64)> {
     let sample = dxf::read(written, &format!("{name}.dxf"), None).origin(Origin::Grade)?;
     let table = grade::read(rules, &format!("{name}.rul")).origin(Origin::Grade)?;
@@ -120,7 +120,7 @@ mod tests {
     use std::path::Path;
     use wardrobe::catalogue;
 
-    /// The sizes of a garment of a study by turns of its knobs, and the knobs that it has.
+    /// Sizes of a study's garment by turns of its knobs, and the names of the knobs.
     fn made(study: &str, garment: &str, turns: &[Vec<i32>]) -> Result<(Nest, Vec<&'static str>)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(study);
         let study = Study::load(&folder, &catalogue::known(None)?)?;

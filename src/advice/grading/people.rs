@@ -1,4 +1,4 @@
-//! The people of a population: drawn from the survey, built, and reduced to the measurements that ease needs.
+//! People of a population: drawn from the survey, built, and reduced to the measurements that ease needs.
 
 use std::num::NonZero;
 use std::thread;
@@ -11,20 +11,20 @@ use pattern::Style;
 use pattern::pom::Stand;
 use spec::bodies;
 
-/// Change of the seed for the people held out.
+/// Change of the seed for the people held out, so that others are drawn.
 const HELD_OUT: u64 = 0x68_656c_646f_7574;
-/// Spacing of the heights at which the girth of a trunk is kept, and distance that they reach beyond waist and hip, m.
+/// Spacing of the heights at which girths of the trunk are kept, and reach of these heights beyond waist and hip, m.
 const APART_M: f64 = 0.010;
 const BEYOND_M: f64 = 0.100;
 
 /// A person, reduced to the measurements that ease needs.
 pub struct Figure {
-    /// Measurements with which the person was drawn.
+    /// Measurements with which the person's body was built.
     pub measurements: Measurements,
     stand: Stand,
     girths: Girths,
-    /// Height above the floor and girth of the trunk, m, upwards. Empty where no level of the garment is measured at a
-    /// height of its own.
+    /// Heights above the floor and girths of the trunk there, m, from the lowest up. Empty where every level of the
+    /// garment is measured at the height of the body's own level.
     trunk: Vec<[f64; 2]>,
 }
 
@@ -32,12 +32,12 @@ pub struct Figure {
 pub struct Covered {
     /// Level of the body, such as `chest`.
     pub level: String,
-    /// True if the body is measured there at a height of its own.
+    /// True if the body is measured at another height than that of its own level.
     pub has_own_height: bool,
 }
 
 impl Figure {
-    /// Reduces a built body.
+    /// Reduces a body to a figure.
     pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
         let stand = ease::stand(body);
         let (from_m, to_m) = (stand.hip_m.min(stand.waist_m) - BEYOND_M, stand.hip_m.max(stand.waist_m) + BEYOND_M);
@@ -48,7 +48,7 @@ impl Figure {
         Self { measurements: measurements.clone(), stand, girths: body.girths.clone(), trunk }
     }
 
-    /// Ease of a style at each of some levels, m: `None` where the style does not cover it.
+    /// Ease of a style at each of some levels, m; `None` where the style does not cover the level.
     pub fn eases(&self, style: &Style, levels: &[String]) -> Vec<Option<f64>> {
         let found = ease::lengths(style, &self.stand);
         let ease_at = |level: &String| {
@@ -58,7 +58,7 @@ impl Figure {
         levels.iter().map(ease_at).collect()
     }
 
-    /// Every level that a style covers, from the neck down.
+    /// Levels that a style covers, from the neck down.
     pub fn covered(&self, style: &Style) -> Vec<Covered> {
         let found = ease::lengths(style, &self.stand).into_iter();
         let covered = found.map(|length| Covered { has_own_height: length.height_m.is_some(), level: length.level });
@@ -81,13 +81,13 @@ impl Figure {
     }
 }
 
-/// Draws people of a sex, and people held out from another seed.
+/// Draws people of a sex, and from another seed the people held out.
 pub fn drawn(sex: Sex, counts: [usize; 2], seed: u64) -> [Vec<Measurements>; 2] {
     let seeds = [seed, seed ^ HELD_OUT];
     [0, 1].map(|k| population::people(sex, counts[k], &mut Draw::new(seeds[k])))
 }
 
-/// Builds the figures of people, in their order. People who cannot be built are left out.
+/// Builds the figures of people, in order. Leaves out people whose bodies cannot be built.
 pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
     let figure = |person: &Measurements| {
         let body = bodies::build_body(person).ok()?;
@@ -96,12 +96,12 @@ pub fn figures(people: &[Measurements], has_trunk: bool) -> Vec<Figure> {
     of_all(people, figure).into_iter().flatten().collect()
 }
 
-/// Ease of a style on every person at some levels, m.
+/// Ease of a style on every person at each of some levels, m.
 pub fn eases(style: &Style, figures: &[Figure], levels: &[String]) -> Vec<Vec<Option<f64>>> {
     of_all(figures, |figure| figure.eases(style, levels))
 }
 
-/// Maps all items on all cores, in their order.
+/// Maps all items on all cores; results are in the order of the items.
 pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec<U> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let share = all.len().div_ceil(threads).max(1);

@@ -1,4 +1,4 @@
-//! Scatter plot of people by two girths with the boxes of the sizes: the pattern's own beside the new ones.
+//! Scatter plot of people by two girths, with a box for each size: the pattern's own sizes beside the new ones.
 
 use std::fmt::Write;
 
@@ -13,11 +13,11 @@ use results::scatter::{self, COLOURS, Panel, axis, escaped};
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 460.0;
 const MARGIN: f64 = 60.0;
-/// Greatest number of people that are drawn.
+/// Greatest number of people in the picture.
 const MOST: usize = 800;
 
-/// Draws people held out by the first and the last girth that has a band, in the colour of the size that fits, grey
-/// where none does. A box is the range of girths that a size fits at both levels.
+/// Draws people held out by the first and the last trunk girth that has a band: in the colour of the size that fits,
+/// grey where none does. A box shows the girths that a size fits at both levels.
 pub(super) fn svg(figures: &[Figure], bands: &[Band], sets: &[Judged<'_>], garment: &str) -> String {
     let girths: Vec<&Band> = bands.iter().filter(|band| order(&band.level) < GIRTHS).collect();
     let across = girths.first().copied().or(bands.first());
@@ -56,10 +56,10 @@ pub(super) fn svg(figures: &[Figure], bands: &[Band], sets: &[Judged<'_>], garme
     svg
 }
 
-/// Number of levels that are girths of the trunk.
+/// Number of levels that are girths of the trunk, the first in their order.
 const GIRTHS: usize = 5;
 
-/// Least and greatest girth of a body that a style fits at two levels, for somebody of that stature, mm.
+/// Least and greatest body girth, mm, that a style fits at two levels, for a person of the stature of `somebody`.
 fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f64; 2]; 2]> {
     let levels = bands.map(|band| band.level.clone());
     let eases = somebody.eases(style, &levels);
@@ -71,7 +71,7 @@ fn fitted_mm(somebody: &Figure, style: &Style, bands: [&Band; 2]) -> Option<[[f6
     Some([fitted(0)?, fitted(1)?])
 }
 
-/// Colour of a size; grey of none.
+/// Colour of a size; grey for `None`.
 fn colour(size: Option<usize>) -> &'static str {
     size.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()])
 }
@@ -79,11 +79,11 @@ fn colour(size: Option<usize>) -> &'static str {
 /// Draws a person in the colour of a size.
 fn draw_dot(svg: &mut String, panel: &Panel, [x, y]: [f64; 2], size: Option<usize>) {
     let (x, y, colour) = (panel.across(x), panel.up(y), colour(size));
-    // Writing into a text does not fail, here and below.
+    // Writing to a `String` does not fail, here and below.
     let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>");
 }
 
-/// Draws the range of girths that a size fits.
+/// Draws the box of girths that a size fits.
 fn draw_box(svg: &mut String, panel: &Panel, [across, up]: [[f64; 2]; 2], size: usize) {
     let right = panel.left + PANEL;
     let [from, to] = across.map(|x| panel.across(x).clamp(panel.left, right));
@@ -98,7 +98,7 @@ fn draw_box(svg: &mut String, panel: &Panel, [across, up]: [[f64; 2]; 2], size: 
     );
 }
 
-/// Draws the legend of the colours, with shares.
+/// Draws the legend: colours of the sizes, with shares.
 fn draw_legend(svg: &mut String, panel: &Panel, set: &Judged<'_>, people: usize) {
     let tally = set.tally;
     let share = |size: Option<usize>| {

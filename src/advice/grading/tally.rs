@@ -1,5 +1,4 @@
-//! Tally of the people whom sizes fit, by the rule of the view `v_size`: a size fits if every level that has a band is
-//! within it.
+//! Tally of the people whom sizes fit. As in the view `v_size`, a size fits if the ease of every level is in its band.
 
 use crate::grading::knobs::Band;
 use crate::grading::people::{self, Figure};
@@ -11,15 +10,15 @@ use pattern::Style;
 
 /// Weight of an ease that is too tight, relative to one that is too loose, as in `v_fit`.
 const TIGHT: f64 = 2.0;
-/// Weight of a level that a size does not cover and the base does, m.
+/// Departure that counts for a level which the base covers and the size does not, m: more than any ease departs.
 const UNCOVERED_M: f64 = 1.0;
-/// Number of parts that people are divided into.
+/// Number of parts into which the people are divided.
 const PARTS: usize = 5;
 /// Standard errors in half of a 95 % interval.
 const NORMAL_95: f64 = 1.96;
 /// Percentiles of a size chart.
 const PERCENTILES: [f64; 3] = [0.05, 0.5, 0.95];
-/// Girths of the trunk before others, from the top down.
+/// Girths of the trunk, from the top down; they stand before other levels.
 const ORDER: [&str; 5] = ["chest", "bust", "underbust", "waist", "hip"];
 
 /// Position of a level in lists.
@@ -31,20 +30,20 @@ pub fn order(level: &str) -> usize {
 #[derive(Clone, Copy, Debug)]
 struct Worst {
     level: usize,
-    /// Weighted departure from its band, m: 0 where all levels lie in their bands.
+    /// Weighted departure from the level's band, m; 0 where all levels are in their bands.
     weight_m: f64,
 }
 
 /// Fit of every size of a set on every person.
 pub struct Tally {
-    /// By size and person.
+    /// Worst level, by size and then person.
     worst: Vec<Vec<Worst>>,
-    /// Levels that are outside their bands on the size to wear, by person.
+    /// True for a level outside its band on the size to wear, by person and then level.
     off: Vec<Vec<bool>>,
 }
 
 impl Tally {
-    /// Judges sizes on people. A level of a person that the base does not cover is not considered.
+    /// Judges sizes on people. Ignores levels that the base does not cover on a person.
     pub fn of(styles: &[Style], base: &Style, figures: &[Figure], bands: &[Band]) -> Self {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let asked = people::eases(base, figures, &levels);
@@ -58,7 +57,7 @@ impl Tally {
         Self::of_weights(&styles.iter().map(weights).collect::<Vec<_>>())
     }
 
-    /// Judges by weighted departures, by size, person and level.
+    /// Judges by weighted departures: by size, then person, then level.
     fn of_weights(weights: &[Vec<Vec<f64>>]) -> Self {
         let worst_of = |weights: &Vec<f64>| {
             let all = weights.iter().enumerate().map(|(level, weight_m)| Worst { level, weight_m: *weight_m });
@@ -73,7 +72,7 @@ impl Tally {
         Self { worst, off }
     }
 
-    /// Index of the size to wear: the one whose worst level is best, of equals the smaller.
+    /// Index of the size to wear: the one whose worst level is best; the smaller of equals.
     pub fn wears(&self, person: usize) -> usize {
         to_wear(&self.worst, person)
     }
@@ -91,7 +90,7 @@ impl Tally {
         percent((0..self.people()).filter(|person| self.is_fitted(*person)).count(), self.people())
     }
 
-    /// Summary of the set on the people held out. `sought` is its tally on the others.
+    /// Summary of a set of sizes on the people held out. `sought` is its tally on the people of the search.
     pub fn set(&self, set: &'static str, names: &[String], sought: &Self, figures: &[Figure]) -> SizeSet {
         let held_out_percent = self.fitted_percent();
         let share = held_out_percent / 100.0;
@@ -121,7 +120,7 @@ impl Tally {
         percent(self.off.iter().filter(|off| !off[level]).count(), self.people())
     }
 
-    /// Share of the people whom no size fits for whom a level is the worst, %.
+    /// Share of the people whom no size fits for whom this level is the worst, %.
     fn fails_percent(&self, level: usize) -> f64 {
         let unfitted = || (0..self.people()).filter(|person| !self.is_fitted(*person));
         let fails = unfitted().filter(|person| self.worst[self.wears(*person)][*person].level == level).count();
@@ -129,8 +128,8 @@ impl Tally {
     }
 }
 
-/// Weighted departure of an ease, m. `asked` is the ease on the base: the level is considered only where the base
-/// covers it.
+/// Weighted departure of an ease from its band, m. `asked` is the ease on the base; without it the level does not
+/// count.
 fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f64 {
     match (ease_m, asked) {
         (_, None) => 0.0,
@@ -162,7 +161,7 @@ fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
     DIMENSIONS.into_iter().filter_map(range).collect()
 }
 
-/// Results of both sets at each level.
+/// Shares of both sets at each level.
 pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     let level = |(number, band): (usize, &Band)| LevelShare {
         level: band.level.clone(),
@@ -173,7 +172,7 @@ pub fn levels(bands: &[Band], sets: [&Tally; 2]) -> Vec<LevelShare> {
     bands.iter().enumerate().map(level).collect()
 }
 
-/// Shares of both sets in parts of the people, by their girth at the first level.
+/// Shares of both sets in parts of the people, divided by girth at the first level.
 pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, Vec<PartShare>) {
     let level = bands.first().map_or_else(String::new, |band| band.level.clone());
     let girth_mm = |person: &usize| figures[*person].girth_m(&level).map_or(0.0, mm);
@@ -211,7 +210,7 @@ mod tests {
 
     #[test]
     fn the_smaller_of_two_that_fit_is_worn_and_who_is_not_fitted_fails_at_the_worst_level() {
-        // Two sizes, four people, two levels.
+        // Weighted departures: two sizes, four people, two levels.
         let small = vec![vec![0.0, 0.0], vec![0.02, 0.0], vec![0.0, 0.01], vec![0.09, 0.03]];
         let large = vec![vec![0.0, 0.0], vec![0.0, 0.0], vec![0.05, 0.0], vec![0.02, 0.04]];
         let tally = Tally::of_weights(&[small, large]);
@@ -221,7 +220,7 @@ mod tests {
         let set = tally.set("new", &names, &tally, &[]);
         assert_eq!((set.held_out_percent, set.sizes[0].fits_percent, set.sizes[1].fits_percent), (50.0, 25.0, 50.0));
         assert_eq!((set.sizes[0].worn_percent, set.sizes[1].worn_percent), (25.0, 25.0));
-        // The third fails by the second level alone, the fourth by both, most by the second.
+        // The third person fails by the second level alone; the fourth by both, and most by the first.
         assert_eq!((tally.within_percent(0), tally.within_percent(1)), (75.0, 50.0));
         assert_eq!((tally.fails_percent(0), tally.fails_percent(1)), (0.0, 100.0));
     }

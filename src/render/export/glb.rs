@@ -1,4 +1,4 @@
-//! Binary glTF 2.0 [Khronos 2021]: a JSON chunk that describes, and a binary chunk that holds the numbers.
+//! Binary glTF 2.0 [Khronos 2021]: a JSON chunk that describes the file, and a binary chunk with the numbers.
 
 use serde_json::{Value, json};
 
@@ -14,7 +14,7 @@ const ARRAY_BUFFER: u32 = 34962;
 /// Buffer target for indices.
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The binary buffer under construction, with its views and accessors.
+/// Binary chunk under construction, with its views and accessors.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,
@@ -104,8 +104,8 @@ fn mesh(part: &Part<'_>, buffer: &mut Buffer) -> Value {
     mesh
 }
 
-/// Transforms a vector to the axes of glTF: `z` (up) becomes `y`, and `y` (the front) becomes `z`. `x` changes its
-/// sign, so that orientation is preserved.
+/// Turns a vector to the axes of glTF: `z` (up) becomes `y`, and `y` (front) becomes `z`. `x` changes its sign, which
+/// keeps the orientation.
 fn turned(v: &V3) -> [f32; 3] {
     [-v.x as f32, v.z as f32, v.y as f32]
 }

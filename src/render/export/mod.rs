@@ -1,7 +1,7 @@
 //! Export of meshes to files of other programs: glTF, OBJ, PLY, STL.
 //!
-//! Lengths are in metres. OBJ, PLY and STL have the axes of Toile (`x` to the subject's right, `y` to the front, `z`
-//! up). glTF has its own (`y` up, the subject faces `z`).
+//! Lengths are in metres. OBJ, PLY and STL have Toile's axes: `x` to the subject's right, `y` to the front, `z` up. In
+//! glTF `y` is up, and the subject faces `z`.
 
 mod glb;
 mod text;
@@ -19,9 +19,9 @@ pub struct Part<'a> {
     pub mesh: &'a TriMesh,
     /// Colour of each vertex.
     pub colours: Vec<Rgb>,
-    /// Place of each vertex in its pattern piece, m; these are the texture coordinates.
+    /// Position of each vertex in the flat pattern piece, m, written as texture coordinates.
     pub places: Option<&'a [V2]>,
-    /// Name of a map, and its value at each vertex.
+    /// Name of a map and its value at each vertex.
     pub values: Option<(&'a str, &'a [f64])>,
 }
 
@@ -32,7 +32,8 @@ pub enum MeshFormat {
     Glb,
     /// Wavefront OBJ: every part as an object, colours after the coordinates, texture coordinates.
     Obj,
-    /// Stanford PLY, binary: the parts as one mesh, with colours, values (`value`, NaN without) and the part's number.
+    /// Stanford PLY, binary: the parts as one mesh, with colours, values (`value`, NaN for a part without) and part
+    /// numbers.
     Ply,
     /// STL, binary: the parts as one mesh, coloured by triangle.
     Stl,

@@ -91,8 +91,8 @@ pub(super) fn stl(parts: &[Part<'_>]) -> Vec<u8> {
     file
 }
 
-/// Colour of a triangle in the STL variant of VisCAM, MeshLab and others: the mean of its corners in five bits each,
-/// blue lowest. The highest bit marks that there is a colour.
+/// Colour of a triangle, as VisCAM and MeshLab read it from STL: the mean of its corners, five bits a channel, blue
+/// lowest. The highest bit says that there is a colour.
 fn face_colour(corners: [Rgb; 3]) -> u16 {
     let mean = |channel: fn(&Rgb) -> u8| corners.iter().map(|colour| u16::from(channel(colour))).sum::<u16>() / 3;
     1 << 15 | (mean(|c| c.0) >> 3) << 10 | (mean(|c| c.1) >> 3) << 5 | mean(|c| c.2) >> 3

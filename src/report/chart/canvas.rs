@@ -1,6 +1,6 @@
-//! A canvas for charts, with a few kinds of marks and a fixed type size.
+//! Canvas for charts, with a few kinds of marks and one type size.
 //!
-//! Units are half CSS pixels, so that whole numbers place marks finely enough.
+//! Lengths are in half CSS pixels, so that whole numbers place marks finely enough.
 
 use super::super::{ReportError, theme};
 use plotters::coord::Shift;
@@ -34,7 +34,7 @@ fn colour(rgb: Rgb) -> RGBColor {
     RGBColor(rgb.0, rgb.1, rgb.2)
 }
 
-/// Draws an SVG of a height.
+/// Draws an SVG of a given height.
 pub(super) fn draw(
     height: i32,
     paint: impl FnOnce(&Canvas<'_>) -> Result<(), ReportError>,
@@ -77,7 +77,7 @@ impl Canvas<'_> {
             Align::Right => HPos::Right,
         };
         let style = if bold { FontStyle::Bold } else { FontStyle::Normal };
-        // In SVG plotters divides the given size by 1.24.
+        // For SVG, plotters divides the given size by 1.24.
         let ink = colour(ink);
         let style = ("sans-serif", f64::from(TYPE) * 1.24, style).into_text_style(&self.area);
         let style = style.color(&ink).pos(Pos::new(anchor, VPos::Center));
@@ -105,7 +105,7 @@ impl Canvas<'_> {
         self.area.draw(&PathElement::new(points, colour(ink).stroke_width(width))).map_err(refused)
     }
 
-    /// Draws the mark of a series, which differs from others in shape and colour.
+    /// Draws the mark of a series, which has its own shape and colour.
     pub fn mark(&self, (x, y): (i32, i32), series: usize, hollow: bool) -> Result<(), ReportError> {
         let ink = colour(theme::SUBJECTS[series % theme::SUBJECTS.len()]);
         let fill = if hollow { colour(theme::PAPER).filled() } else { ink.filled() };
@@ -129,7 +129,7 @@ impl Canvas<'_> {
         self.area.draw(&Circle::new(at, 12, colour(fill).filled())).map_err(refused)
     }
 
-    /// Draws a key above a chart, marks and names in lines, and returns its height.
+    /// Draws a key above a chart: marks and names, broken into lines. Returns its height.
     pub fn key(&self, names: &[String], left: i32, top: i32) -> Result<i32, ReportError> {
         let (mut x, mut y) = (left, top + TYPE);
         for (series, name) in names.iter().enumerate() {
@@ -145,7 +145,7 @@ impl Canvas<'_> {
     }
 }
 
-/// A horizontal axis: the mapping of values to coordinates.
+/// Horizontal axis: maps values to coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     pub low: f64,

@@ -16,18 +16,18 @@ const SHARES: i32 = 150;
 pub struct Probable {
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Level, in words.
+    /// Name of the level in words.
     pub level: String,
-    /// Lower and upper end of the target for the ease, m.
+    /// Lower and upper end of the ease that is meant, m; `None` without a target.
     pub target_m: Option<[f64; 2]>,
     /// Lower end, median and upper end of the 80 % interval of the ease, m.
     pub ease_m: [f64; 3],
-    /// Probability that the ease is within its target.
+    /// Probability that the ease is within its target; `None` without a target.
     pub share: Option<f64>,
 }
 
-/// Draws a row for each level, and in it a line for each size. It has a bar for the target, a line for the 80 %
-/// interval, a mark at its median, and the probability of the target.
+/// Draws a group of rows for each level, with a row for each size: a bar for the target, a line for the 80 % interval,
+/// a mark at the median, and the probability of the target.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.

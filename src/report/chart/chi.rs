@@ -1,4 +1,4 @@
-//! Charts of chi by measurement: every run as a mark, or mean and standard deviation over the runs.
+//! Charts of chi by measurement: a mark for every run, or the mean and standard deviation over the runs.
 
 use super::super::data::{Measured, TryOn, measurements};
 use super::super::{ReportError, theme};
@@ -33,7 +33,7 @@ fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i3
 
 /// Draws chi of every run by measurement, the line at 1, and published values as hollow marks.
 ///
-/// Failed runs have no marks. The order of `runs` determines the marks, and `labels` names them.
+/// Failed runs have no marks. A run's place in `runs` determines its mark; `labels` names the runs.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -65,7 +65,8 @@ pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Char
     Ok(Chart::new("chi", title, svg, alt))
 }
 
-/// Draws the mean of chi by measurement as a bar from 1, with whiskers of one sample standard deviation over the runs.
+/// Draws the mean of chi over the runs for each measurement, as a bar from 1 with whiskers of one sample standard
+/// deviation.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.

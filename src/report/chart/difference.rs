@@ -1,4 +1,4 @@
-//! Charts of EI of FEM-GS less EI of Hybrid-GS: means with intervals by row, and every case against ease.
+//! Charts of EI of FEM-GS less EI of Hybrid-GS: means with intervals by row, and every case against its ease.
 
 use super::super::text::{number, signed};
 use super::super::{ReportError, theme};
@@ -15,17 +15,17 @@ pub struct Difference {
     pub label: String,
     /// Mean over subjects.
     pub mean: f64,
-    /// Its confidence interval, if there is one.
+    /// Confidence interval of the mean, if there is one.
     pub interval: Option<(f64, f64)>,
 }
 
-/// Half range of an axis around 0 that contains all values and the margin.
+/// Half range of an axis around 0 that contains all values and the margin of equivalence.
 fn reach(values: impl Iterator<Item = f64>) -> f64 {
     1.08 * values.filter(|v| v.is_finite()).fold(1.3 * MARGIN, |most, v| most.max(v.abs()))
 }
 
 /// Draws a row for each difference: a dot with its interval, the margin of equivalence as a band around 0, and a line
-/// at `whole`. `kind` becomes part of the name of the file.
+/// at `whole`. `kind` becomes part of the file name.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -77,7 +77,7 @@ fn side(difference: f64) -> render::Rgb {
     theme::simulator(if difference < 0.0 { fit::Simulator::Fem } else { fit::Simulator::Hybrid })
 }
 
-/// A case in the chart of the crossover.
+/// A case in the chart of differences against ease.
 struct Dot {
     ease_mm: f64,
     /// EI of FEM-GS less EI of Hybrid-GS.
@@ -86,7 +86,7 @@ struct Dot {
 }
 
 /// Draws the EI difference of every case against its ease, and the regression line. A band shows the interval in which
-/// the line crosses 0, if it is known. `None` without cases.
+/// the line crosses 0, where it is known. `None` without cases.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.

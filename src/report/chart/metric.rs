@@ -48,7 +48,7 @@ impl Metric {
         .filter(|value| value.is_finite())
     }
 
-    /// Value for a drape that agrees with its pattern, at which bars begin.
+    /// Value for a drape that agrees with its pattern; bars begin there.
     fn base(self) -> f64 {
         if self == Self::E { 1.0 } else { 0.0 }
     }
@@ -71,7 +71,7 @@ impl Metric {
 
 /// Draws one bar for each run, in the colour of its simulator and with its value.
 ///
-/// `labels` names subject and fabric of the runs. Runs with the same label stand together.
+/// `labels` names subject and fabric of each run. Runs with the same label are adjacent.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -111,7 +111,7 @@ pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[Stri
     Ok(Chart::new(&name.to_lowercase(), title, svg, alt))
 }
 
-/// Draws the bar of a run from the base to its value, with the number beyond its end.
+/// Draws the bar of a run from the base to its value, and the number beyond the bar's end.
 fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32) -> Result<(), ReportError> {
     let (base, middle) = (axis.at(metric.base()), upper + BAR / 2);
     let Some(value) = metric.value(run) else {

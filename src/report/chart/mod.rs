@@ -1,4 +1,4 @@
-//! Charts, drawn with plotters as SVG in which text stays text, and rasterised as PNG.
+//! Charts, drawn with plotters as SVG with selectable text, and rasterised as PNG.
 
 mod canvas;
 mod chance;
@@ -24,7 +24,7 @@ use super::{ReportError, theme};
 use image::imageops;
 use render::{RenderError, png, rasterise_svg};
 
-/// Longest side of a chart that is reduced for a PNG file, pixels.
+/// Longest side of a chart that is too large and therefore reduced for a PNG file, pixels.
 const PNG_SIDE: f32 = 8000.0;
 
 /// A drawn chart.
@@ -36,7 +36,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Makes a chart of a kind (`chi`) with a title.
+    /// Makes a chart of a kind, such as `chi`, with a title.
     fn new(kind: &str, title: &str, svg: String, alt: String) -> Self {
         Self { name: file_part(&format!("{title} {kind}").to_lowercase()), svg, alt }
     }
@@ -46,7 +46,7 @@ impl Chart {
         self.name = names.part(&self.name);
     }
 
-    /// Path of the chart in a report as a file with an extension, relative to its page.
+    /// Path of the chart as a file with an extension, relative to the report's page.
     #[must_use]
     pub fn address(&self, extension: &str) -> String {
         format!("charts/{}.{extension}", self.name)
@@ -64,7 +64,8 @@ impl Chart {
         &self.alt
     }
 
-    /// Encodes the chart as a PNG file on white, with the embedded font. A chart too large for a picture is reduced.
+    /// Encodes the chart as a PNG file on white, with the embedded font. Reduces a chart that is too large for a
+    /// picture.
     ///
     /// # Errors
     /// [`ReportError::Picture`] where the drawing cannot be rasterised.
@@ -81,7 +82,8 @@ impl Chart {
         Ok(png(&picture)?)
     }
 
-    /// SVG element for the page. Its neutral colours follow the scheme of the reader, and its size that of the column.
+    /// SVG element for the page. Its neutral colours follow the reader's light or dark scheme; it is as wide as the
+    /// column.
     pub(super) fn inline(&self) -> String {
         let alt = super::text::escape(&self.alt);
         let mut svg =

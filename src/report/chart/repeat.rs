@@ -1,4 +1,4 @@
-//! Chart of the range of chi over repeated simulations of a case, by measurement.
+//! Chart of the range of chi between repeated simulations of a case, by measurement.
 
 use super::super::spread::Repeats;
 use super::super::text::simulator_name;
@@ -12,8 +12,8 @@ const TOP: i32 = 80;
 /// Least range of the axis, in chi. Smaller differences do not matter.
 const LEAST: f64 = 1e-4;
 
-/// Draws a row for each measurement of a garment. For each simulator it has a dot at the mean range of chi over its
-/// cases, and a line to the greatest.
+/// Draws a row for each measurement of a garment. For each simulator it has a dot at the mean over the cases of the
+/// range of chi, and a line to the greatest range.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.

@@ -8,7 +8,7 @@ use super::canvas::{Align, Axis, TYPE, WIDTH, draw};
 /// Greatest number of points of a curve; more would not be visible.
 const POINTS: usize = 300;
 
-/// Draws the residual against the iteration on a logarithmic scale, one line for each run, named at its end.
+/// Draws the residual on a logarithmic scale against the iteration, one line for each run, named at its end.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -42,7 +42,7 @@ pub fn residual_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result
                 canvas.line(line, theme::SUBJECTS[series % theme::SUBJECTS.len()], 4)?;
             }
         }
-        // Names at the ends, moved apart where curves end together.
+        // Names at the ends of curves are moved apart where curves end together.
         ends.sort_unstable();
         let mut free = top;
         let mut room = ends.len() as i32;
@@ -71,7 +71,7 @@ pub fn residual_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result
     Ok(Chart::new("residual", title, svg, alt))
 }
 
-/// Iteration and decimal logarithm of the residual, thinned to about [`POINTS`] values; the last one is kept.
+/// Iteration and decimal logarithm of the residual, thinned to about [`POINTS`] values. Keeps the last.
 fn thin(history: &[(u32, f64)]) -> Vec<(f64, f64)> {
     let usable: Vec<(f64, f64)> =
         history.iter().filter(|(_, r)| *r > 0.0 && r.is_finite()).map(|&(i, r)| (f64::from(i), r.log10())).collect();

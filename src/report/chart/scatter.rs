@@ -1,4 +1,4 @@
-//! Scatter charts of EI of every run against its ease, and against its time.
+//! Scatter charts of EI of every run against ease, and against time.
 
 use super::super::data::TryOn;
 use super::super::text::simulator_name;
@@ -11,7 +11,7 @@ use fit::Simulator;
 const LEFT: i32 = 170;
 const TOP: i32 = 120;
 const BOTTOM: i32 = 620;
-/// Greatest number of runs whose names are written beside their dots.
+/// Greatest number of runs whose dots have names beside them.
 const NAMED: usize = 18;
 
 /// A run as a dot.
@@ -23,7 +23,7 @@ struct Dot {
 }
 
 /// Draws EI against the ease that decides the fit, with lines at the limits of the fit classes; `None` if no run has
-/// both.
+/// both values.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -34,7 +34,7 @@ pub fn ease_chart(runs: &[TryOn], cuts: &Cuts) -> Result<Option<Chart>, ReportEr
     scatter("EI against ease", "ease", "ease, mm   (left: tight, right: loose)", &dots, &ends, &lines)
 }
 
-/// Draws EI against wall-clock time; `None` if no run has both.
+/// Draws EI against wall-clock time; `None` if no run has both values.
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
@@ -51,8 +51,8 @@ fn dots(runs: &[TryOn], x: impl Fn(&TryOn) -> Option<f64>) -> Vec<Dot> {
     runs.iter().filter_map(dot).filter(|dot| dot.x.is_finite() && dot.ei.is_finite()).collect()
 }
 
-/// Draws a dot for each run in the colour of its simulator, and vertical `lines` with their names. The axis contains
-/// `ends` too.
+/// Draws a dot for each run in the colour of its simulator, and vertical `lines` with their names. The horizontal axis
+/// contains `ends` too.
 fn scatter(
     title: &str,
     kind: &str,
@@ -91,7 +91,7 @@ fn scatter(
     Ok(Some(Chart::new(kind, "ei against", svg, alt)))
 }
 
-/// Writes names beside the dots, each moved up until it covers no other.
+/// Writes names beside the dots, each moved up until it covers no other name.
 fn names(canvas: &Canvas<'_>, dots: &[Dot], across: &Axis, up: &Axis) -> Result<(), ReportError> {
     let mut taken: Vec<(i32, i32, i32)> = Vec::new();
     for dot in dots {

@@ -1,4 +1,4 @@
-//! Chart of cross sections: the body with the cloth of several sizes, and the gap around it.
+//! Chart of a cross section: the body with the cloth of several sizes, and the gap around the body.
 
 use super::super::text::number;
 use super::super::{ReportError, theme};
@@ -9,9 +9,9 @@ use geom::V2;
 use geom::units::mm;
 use render::Rgb;
 
-/// Number of directions of the curves.
+/// Number of directions in which the curves of the gap are drawn.
 const FINE: usize = 120;
-/// Number of sectors whose greatest gaps are written beside the section.
+/// Number of sectors around the body for each of which the greatest gap is written.
 const WRITTEN: usize = 8;
 /// Distance of the numbers from the cloth.
 const WRITTEN_OFF: f64 = 34.0;
@@ -22,12 +22,12 @@ const CURVES_LEFT: i32 = 880;
 /// Left end of the key.
 const KEY_LEFT: i32 = 790;
 
-/// A size in a section.
+/// A size that is worn, cut at a level.
 #[derive(Clone, Debug)]
 pub struct Worn<'a> {
-    /// Name in the key.
+    /// Name of the size in the key.
     pub label: String,
-    /// True if its gaps are written beside the section, as for the recommended size.
+    /// True if the gaps of this size are written beside the section, as those of the recommended size are.
     pub is_written: bool,
     /// Outlines of body and cloth.
     pub section: &'a Section,
@@ -72,8 +72,8 @@ fn gaps_in_words(section: &Section) -> String {
     format!("gap {} mm on average, from {} to {}", number(mean, 0), number(least, 0), number(greatest, 0))
 }
 
-/// Direction with the greatest gap in each sector. Sectors are centred at the front, the back and the sides, and
-/// between them.
+/// Direction of the greatest gap in each sector. Sectors are centred at the front, the back and the sides, and between
+/// them.
 fn greatest(section: &Section) -> Vec<Angle> {
     let sector_of = |angle: &Angle| (angle.deg * WRITTEN as f64 / 360.0).round() as usize % WRITTEN;
     let angles = section.gaps(FINE);
@@ -126,7 +126,7 @@ fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportE
     canvas.text((SQUARE.1, low - 12 - TYPE), "100 mm", theme::MUTED, Align::Right, false)
 }
 
-/// Draws the gap around the body, from the front over the subject's right.
+/// Draws the gap around the body, from the front via the subject's right.
 fn curves(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32, bottom: i32) -> Result<(), ReportError> {
     let rounds: Vec<Vec<(f64, Option<f64>)>> = sizes
         .iter()

@@ -11,20 +11,20 @@ use geom::units::mm;
 use render::Scale;
 use serde::Serialize;
 
-/// The script. It makes no network requests.
+/// Script of the viewer. It makes no network requests.
 pub(super) const SCRIPT: &str = include_str!("viewer.js");
-/// Its style sheet.
+/// Style sheet of the viewer.
 pub(super) const STYLE: &str = include_str!("viewer.css");
-/// Its element in the page, hidden until the script can draw.
+/// Element of the viewer in the page, hidden until the script can draw.
 pub(super) const FRAGMENT: &str = include_str!("viewer.html");
 
-/// Number of colours of a scale.
+/// Number of colours in a scale.
 const COLOURS: usize = 13;
 
 /// All drapes of a page, with their bodies, maps and measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drapes {
-    /// Unit vector to the front.
+    /// Unit vector towards the front of the bodies.
     front: [f64; 3],
     meshes: Vec<PackedMesh>,
     bodies: Vec<PackedBody>,
@@ -91,7 +91,7 @@ struct LevelMark {
     height_mm: f64,
 }
 
-/// A drape of the sewn cloth, as input.
+/// A drape of the sewn cloth, to be added to [`Drapes`].
 pub struct Drape<'a> {
     /// Garment, size, subject and simulator.
     pub names: [&'a str; 4],
@@ -101,7 +101,7 @@ pub struct Drape<'a> {
     pub positions: &'a [V3],
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: &'a [[usize; 3]],
-    /// Maps: name, scale, and the values at the vertices.
+    /// Maps: name, scale, and values of the vertices.
     pub maps: Vec<(&'static str, Scale, Vec<f64>)>,
     /// Measurements: name, text, and points along the line, m.
     pub lines: Vec<(String, String, Vec<V3>)>,
@@ -134,8 +134,8 @@ impl Drapes {
         self.bodies.iter().any(|body| body.subject == subject)
     }
 
-    /// Adds a body with its levels, given by name and height above the floor, m. It adds nothing if the mesh is too
-    /// large for a page.
+    /// Adds a body with its levels, given by name and height above the floor, m. Does nothing if the mesh is too large
+    /// for a page.
     pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<(String, f64)>) {
         let Some((mesh, topology)) = self.mesh(triangles) else { return };
         let (origin_mm, positions) = topology.places(positions);
@@ -144,7 +144,7 @@ impl Drapes {
         self.levels.insert(subject.to_owned(), levels.into_iter().map(mark).collect());
     }
 
-    /// Adds a drape; nothing if its mesh is too large for a page.
+    /// Adds a drape. Does nothing if its mesh is too large for a page.
     pub fn add(&mut self, drape: &Drape<'_>) {
         let Some((mesh, topology)) = self.mesh(drape.triangles) else { return };
         let (origin_mm, positions) = topology.places(drape.positions);
@@ -178,7 +178,7 @@ impl Drapes {
         });
     }
 
-    /// Index and topology of the mesh of some triangles. Drapes of one size share it.
+    /// Index and topology of the mesh with these triangles, which drapes of one size share.
     fn mesh(&mut self, triangles: &[[usize; 3]]) -> Option<(usize, Topology)> {
         let topology = Topology::of(triangles)?;
         let number = self.known.iter().position(|known| *known == topology).unwrap_or_else(|| {
@@ -190,8 +190,9 @@ impl Drapes {
         Some((number, topology))
     }
 
-    /// JSON that is safe within a script element of a page.
+    /// Returns JSON that is safe within a script element of a page.
     ///
+    /// # Errors
     /// When a number cannot be written.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
         Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))

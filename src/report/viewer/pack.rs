@@ -1,7 +1,7 @@
 //! Compression of meshes: vertices are numbered in the order in which triangles use them, and their positions are
-//! predicted from the triangle before.
+//! predicted from earlier triangles.
 //!
-//! `viewer.js` unpacks the data, and each of the two files documents the other.
+//! `viewer.js` unpacks the data. A change of either file needs one of the other.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Write;
@@ -15,18 +15,18 @@ use geom::units::mm;
 /// Quantisation step of positions, mm.
 pub const STEP_MM: f64 = 0.25;
 
-/// Triangles in an order in which each is adjacent to an earlier one where possible. Their vertices are numbered by
+/// Triangles in an order in which each is adjacent to an earlier one where possible. Vertices are numbered by their
 /// first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
-    /// Triangles in that order, with the new numbers of their vertices.
+    /// Triangles in this order, with the new numbers of their vertices.
     triangles: Vec<[usize; 3]>,
-    /// Indices of the vertices in the original mesh.
+    /// Index of each vertex in the original mesh, by its new number.
     pub vertices: Vec<usize>,
 }
 
 impl Topology {
-    /// Orders some triangles; `None` if there are more vertices than 16 bits can number.
+    /// Orders triangles; `None` for more vertices than 16 bits can number.
     #[must_use]
     pub fn of(triangles: &[[usize; 3]]) -> Option<Self> {
         let mut beside: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
@@ -59,7 +59,7 @@ impl Topology {
         self.triangles.len()
     }
 
-    /// Packs the triangles: for each vertex the next new number less its number.
+    /// Packs the triangles. A vertex is stored as the next unused number minus its own number.
     #[must_use]
     pub fn packed(&self) -> String {
         let mut next = 0;
@@ -71,7 +71,8 @@ impl Topology {
         deflated(&planes(&codes))
     }
 
-    /// Packs the positions of the vertices. Returns the lowest corner of their box, mm, and the packed positions.
+    /// Packs the positions of the vertices. Returns the lowest corner of their bounding box, mm, and the packed
+    /// positions.
     #[must_use]
     pub fn places(&self, positions: &[V3]) -> ([f64; 3], String) {
         let own: Vec<V3> = self.vertices.iter().map(|v| positions[*v]).collect();
@@ -89,14 +90,14 @@ impl Topology {
         (grid.origin_mm, deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>()))
     }
 
-    /// Packs values of the vertices as one byte each, 0 at the low end of a scale and 255 at its high end.
+    /// Packs values of the vertices into one byte each: 0 is `low`, 255 is `high`.
     #[must_use]
     pub fn values(&self, values: &[f64], low: f64, high: f64) -> String {
         let byte = |v: &usize| (255.0 * (values[*v] - low) / (high - low)).round().clamp(0.0, 255.0) as u8;
         deflated(&self.vertices.iter().map(byte).collect::<Vec<u8>>())
     }
 
-    /// Predictors of the positions of the vertices.
+    /// Predictor of the position of each vertex.
     fn predictions(&self) -> Vec<Prediction> {
         let mut found = Vec::with_capacity(self.vertices.len());
         let mut opposite: BTreeMap<[usize; 2], usize> = BTreeMap::new();
@@ -127,13 +128,13 @@ impl Topology {
 enum Prediction {
     /// The origin, for the first vertex.
     Origin,
-    /// The vertex with the number before.
+    /// The vertex numbered before.
     Before,
-    /// The parallelogram of two vertices of its triangle, and the one opposite their common edge.
+    /// Parallelogram: sum of the ends of an edge of an earlier triangle, less that triangle's third vertex.
     Across([usize; 3]),
 }
 
-/// Packs points along a line on the grid of some vertices, as steps from each to the next.
+/// Packs points along a line as steps from each to the next, on the grid of some vertices.
 #[must_use]
 pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     let grid = Grid { origin_mm };
@@ -147,13 +148,13 @@ pub fn line(points: &[V3], origin_mm: [f64; 3]) -> String {
     deflated(&codes.iter().flat_map(|axis| planes(axis)).collect::<Vec<u8>>())
 }
 
-/// Quantisation grid from a corner.
+/// Quantisation grid whose origin is a corner.
 struct Grid {
     origin_mm: [f64; 3],
 }
 
 impl Grid {
-    /// Grid from the lowest corner of some points, on a whole millimetre.
+    /// Grid with its origin at the lowest corner of some points, rounded down to whole millimetres.
     fn of(points: &[V3]) -> Self {
         let low = points.iter().copied().reduce(|low, p| low.inf(&p)).unwrap_or_default();
         Self { origin_mm: [low.x, low.y, low.z].map(|at| mm(at).floor()) }
@@ -172,7 +173,7 @@ fn sides(triangle: &[usize; 3]) -> [[usize; 2]; 3] {
     })
 }
 
-/// Zigzag code: 0, -1, 1, -2 ... become 0, 1, 2, 3 ... Steps that do not fit into 16 bits are clamped.
+/// Zigzag code: 0, -1, 1, -2 ... become 0, 1, 2, 3 ... Clamps steps that 16 bits cannot hold.
 fn zigzag(step: i32) -> u16 {
     let step = step.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
     ((step << 1) ^ (step >> 31)) as u16
@@ -184,7 +185,7 @@ fn planes(codes: &[u16]) -> Vec<u8> {
     bytes(0).chain(bytes(1)).collect()
 }
 
-/// Deflates bytes, and encodes them in base 64.
+/// Deflates bytes and encodes them in base 64.
 fn deflated(bytes: &[u8]) -> String {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     // Writing to a vector cannot fail.

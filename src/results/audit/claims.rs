@@ -5,12 +5,12 @@ use crate::audit::tables::{SUBJECTS, Sized, Tables};
 use crate::audit::{Audit, Finding, three};
 use fit::Simulator::{self, Fem, Hybrid};
 
-/// Greatest difference of a printed limit of a range from the number that it rounds: half of its last digit.
+/// Greatest difference between a printed limit of a range and the number that it rounds: half a unit of its last digit.
 const ROUNDING: f64 = 0.0005;
-/// Greatest difference of two EI that are called equivalent: a fifth of the thesis's mean EI.
+/// Greatest difference between two EI that count as equivalent: a fifth of the thesis's mean EI.
 const EQUIVALENT: f64 = 0.01;
 
-/// Result by the tables that contradicts a statement; `None` where the statement holds.
+/// Result from the tables that contradicts a statement; `None` where the statement holds.
 type Refuted = Option<String>;
 
 /// A statement of the text about the tables.
@@ -20,7 +20,7 @@ struct Claim {
     refute: fn(&Tables) -> Refuted,
 }
 
-/// A statistic of chi of one garment by one simulator on one subject; the lesser, the better.
+/// A statistic of chi for one garment, simulator and subject; less is better.
 type Figure = fn(&Tables, &Sized, Simulator, usize) -> f64;
 
 const EI: Figure = |tables, of, simulator, subject| tables.ei(of, simulator, subject);
@@ -112,14 +112,14 @@ fn sized((garment, size): (&str, &str)) -> Sized {
     Sized { garment: garment.into(), size: size.into() }
 }
 
-/// Range of chi of a garment, where it exceeds the stated limits.
+/// Range of chi of a garment; `None` within the stated limits.
 fn range(tables: &Tables, of: (&str, &str), simulator: Simulator, low: f64, high: f64) -> Refuted {
     let chis: Vec<f64> = (0..6).flat_map(|subject| tables.chis(&sized(of), simulator, subject)).collect();
     let (least, most) = chis.iter().fold((f64::MAX, f64::MIN), |(l, m), &chi| (l.min(chi), m.max(chi)));
     (least < low - ROUNDING || most > high + ROUNDING).then(|| format!("chi from {} to {}", three(least), three(most)))
 }
 
-/// Subjects on whom a statistic is not lower for the simulator that is said to be better.
+/// Subjects on whom a statistic is not lower for the simulator that the text calls better.
 fn favours(tables: &Tables, of: (&str, &str), simulator: Simulator, subjects: &[usize], figure: Figure) -> Refuted {
     let of = sized(of);
     let other = if simulator == Fem { Hybrid } else { Fem };
@@ -133,7 +133,7 @@ fn favours(tables: &Tables, of: (&str, &str), simulator: Simulator, subjects: &[
     (!cells.is_empty()).then(|| format!("not on {}", cells.join(", ")))
 }
 
-/// Accuracy by bending angle (Table 4-1), where bent is not more accurate than flat.
+/// Accuracy by bending angle (Table 4-1) where bent is not more accurate than flat.
 fn bending(tables: &Tables) -> Refuted {
     let error = |degrees: f64| {
         let cells = tables.prepositions.iter().filter(|cell| cell.bend_deg == degrees);
@@ -144,7 +144,7 @@ fn bending(tables: &Tables) -> Refuted {
         .then(|| format!("mean |chi - 1|: 180 degrees {more:.4}, flat {flat:.4}, 120 degrees {less:.4}"))
 }
 
-/// Measurements of the trousers S but the crotch whose mean |chi - 1| over all subjects is greater with Hybrid-GS.
+/// Measurements of the trousers S, except the crotch, whose mean |chi - 1| over all subjects is greater for Hybrid-GS.
 fn legs(tables: &Tables) -> Refuted {
     let of = sized(("male_trousers", "s"));
     let errors = |simulator| {
@@ -161,7 +161,7 @@ fn legs(tables: &Tables) -> Refuted {
     (!worse.is_empty()).then(|| format!("not {}", worse.join(", ")))
 }
 
-/// Subjects on whom the EI of trousers M differs between the simulators by more than [`EQUIVALENT`].
+/// Subjects on whom the EI of the trousers M differs between the simulators by more than [`EQUIVALENT`].
 fn equivalence(tables: &Tables) -> Refuted {
     let of = sized(("male_trousers", "m"));
     let apart: Vec<String> = [1, 2, 3]

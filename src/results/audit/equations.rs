@@ -3,7 +3,7 @@
 use crate::audit::{Audit, Finding};
 use geom::V3;
 
-/// Greatest difference that is rounding.
+/// Greatest difference that counts as rounding.
 const EXACT: f64 = 1e-9;
 
 /// Evaluates the printed equations (4.8), (4.9) and (4.20).
@@ -11,7 +11,7 @@ pub(super) fn check() -> Audit {
     Audit { recomputed: 3, findings: [rotation(), axis(), average()].into_iter().flatten().collect() }
 }
 
-/// (4.8) turns a vector about an axis, and so must keep its length.
+/// (4.8) rotates a vector about an axis, so the length must stay.
 fn rotation() -> Option<Finding> {
     let axis = V3::z_axis();
     let v = V3::new(1.0, 0.0, 1.0);
@@ -29,7 +29,7 @@ fn rotation() -> Option<Finding> {
     })
 }
 
-/// (4.9) is the axis of that rotation, and so must have length 1.
+/// (4.9) is the axis of that rotation, so its length must be 1.
 fn axis() -> Option<Finding> {
     let (from, to) = (V3::x(), V3::new(1.0, 1.0, 0.0).normalize());
     let cross = from.cross(&to);
@@ -44,7 +44,7 @@ fn axis() -> Option<Finding> {
     })
 }
 
-/// (4.20) is a mean of n numbers, and so must be 1 of ones.
+/// (4.20) is a mean of n numbers, so of ones it must be 1.
 fn average() -> Option<Finding> {
     let n = 6_u32;
     let printed = (0..=n).map(|_| 1.0).sum::<f64>() / f64::from(n);

@@ -8,7 +8,7 @@ use fit::Simulator;
 
 /// Upper bound of the number of measurements of a style of the thesis.
 const MOST_MEASUREMENTS: usize = 16;
-/// Error of a metric by the rounding of the lengths it is computed from.
+/// Error of a metric that comes from the rounding of the printed lengths.
 const BLUR: f64 = 1e-4;
 
 /// Checks every printed E, SD, EI and their averages.
@@ -20,12 +20,12 @@ pub(super) fn check(tables: &Tables) -> Audit {
     Audit { recomputed: tables.metrics.len() * 7, findings }
 }
 
-/// Ratios of a metric's garment on a subject, as they were computed for the tables.
+/// Ratios of a metric's garment on a subject, as they were computed for the tables: wrong ones included.
 fn ratios(tables: &Tables, metric: &Metric, subject: usize) -> Vec<f64> {
     tables.table(&metric.of, metric.simulator).into_iter().map(|row| as_computed(row, subject)).collect()
 }
 
-/// A metric by its definition: (6.2); (6.3) with root and divisor n - 1; (6.4).
+/// A metric by its definition: (6.2); (6.3), but with root and divisor n - 1; (6.4).
 fn value(metric: &str, chis: &[f64]) -> f64 {
     match metric {
         "E" => mean(chis),
@@ -62,7 +62,7 @@ fn row(tables: &Tables, metric: &Metric, instead: Option<usize>) -> Vec<Finding>
         });
     }
     let average = mean(&metric.printed);
-    // The average is of unrounded numbers: two roundings lie between it and the mean of the printed ones.
+    // The thesis averages unrounded numbers, so two roundings lie between its average and the mean of the printed ones.
     if (average - metric.average).abs() > 0.001 {
         findings.push(Finding {
             kind: "metric",
@@ -75,7 +75,7 @@ fn row(tables: &Tables, metric: &Metric, instead: Option<usize>) -> Vec<Finding>
     findings
 }
 
-/// Index of the measurement whose error alone is printed in place of most of the wrong EI.
+/// Index of the one measurement whose error is printed in place of most of the wrong EI.
 fn stand_in(tables: &Tables) -> Option<usize> {
     let mut votes = [0; MOST_MEASUREMENTS];
     for metric in tables.metrics.iter().filter(|metric| metric.metric == "EI") {
@@ -115,7 +115,7 @@ fn explain(metric: &Metric, chis: &[f64], printed: f64, instead: Option<usize>) 
     "another number comes out".into()
 }
 
-/// The SD of equation (6.3), as printed: divisor n, no root.
+/// SD by equation (6.3) as printed: divisor n, no root.
 fn deviation(tables: &Tables) -> Option<Finding> {
     let printed = tables.metrics.iter().filter(|metric| metric.metric == "SD");
     let cells: Vec<(f64, Vec<f64>)> =
@@ -131,7 +131,7 @@ fn deviation(tables: &Tables) -> Option<Finding> {
     })
 }
 
-/// Metrics that the text says are in its tables, and that are not.
+/// Metrics that the text places in its tables, where they are missing.
 fn missing(tables: &Tables) -> Vec<Finding> {
     let mut findings = Vec::new();
     for of in tables.garments() {
@@ -154,7 +154,7 @@ fn missing(tables: &Tables) -> Vec<Finding> {
     findings
 }
 
-/// Checks mean and SD of the subjects (Tables 6-3, 6-4), and the sex that their captions name.
+/// Checks mean and SD of the subjects (Tables 6-3, 6-4), and the sex in the captions.
 pub(super) fn subjects(tables: &Tables) -> Audit {
     let mut findings: Vec<Finding> = tables.summaries.iter().flat_map(|summary| statistics(tables, summary)).collect();
     let miscaptioned = tables.summaries.iter().filter(|s| s.captioned != s.sex && s.statistic == "mean");
@@ -169,7 +169,7 @@ pub(super) fn subjects(tables: &Tables) -> Audit {
     Audit { recomputed: tables.summaries.len() * 5, findings }
 }
 
-/// Table 6-13 is headed as the T-shirt's size S. The numbers tell the size whose E it prints.
+/// Checks Table 6-13, headed as the T-shirt's size S: the E that it prints are those of another size.
 fn heading(tables: &Tables) -> Option<Finding> {
     let printed: Vec<&Metric> = tables.metrics.iter().filter(|m| m.table == "6-13" && m.metric == "E").collect();
     let fits = |size: &str| {

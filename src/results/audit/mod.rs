@@ -1,4 +1,4 @@
-//! Audits: every number recomputed from those that it was made of, and the contradictions that are found.
+//! Audits: every number is computed again from its parts, and contradictions are listed.
 //!
 //! [`audit_thesis`] audits the printed tables of the thesis, [`audit_study`] the results of a study.
 
@@ -22,18 +22,18 @@ use store::{Result, Store, Table, Value};
 pub struct Finding {
     /// Kind of finding (`ratio`, `metric`, `copy`, ...).
     pub kind: &'static str,
-    /// Place of the number: table, row and subject; or the job.
+    /// Place of the number: table, row and subject; for a study, the job.
     pub place: String,
-    /// Number or statement as it stands there.
+    /// Number or statement as printed or stored.
     pub stated: String,
-    /// Number as it is recomputed.
+    /// Number as computed again.
     pub recomputed: String,
     /// Contradiction in words.
     pub says: String,
 }
 
 impl Finding {
-    /// Findings as a table for reading or for programs.
+    /// Returns findings as a table for people or programs.
     #[must_use]
     pub fn table(findings: &[Self]) -> Table {
         let text = |text: &str| Value::Text(text.to_owned());
@@ -48,13 +48,13 @@ impl Finding {
 /// Result of an audit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Number of numbers that were recomputed.
+    /// Number of numbers that were computed again.
     pub recomputed: usize,
     /// Contradictions that were found.
     pub findings: Vec<Finding>,
 }
 
-/// Recomputes the thesis's printed tables.
+/// Audits the printed tables of the thesis.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -62,7 +62,7 @@ pub fn audit_thesis(store: &Store) -> Result<Audit> {
     Ok(published::audit(&tables::Tables::read(&store.reader)?))
 }
 
-/// Measures the stored meshes of a study's results again, and compares them with the stored numbers.
+/// Measures the stored meshes of a study's results again, and compares the lengths with the stored ones.
 ///
 /// # Errors
 /// When there is no such study or the database cannot be read.
@@ -75,7 +75,7 @@ fn three(x: f64) -> String {
     format!("{x:.3}")
 }
 
-/// Numbers with three decimals, in a row.
+/// Numbers with three decimals, separated by blanks.
 fn threes(numbers: impl IntoIterator<Item = f64>) -> String {
     numbers.into_iter().map(three).collect::<Vec<_>>().join(" ")
 }

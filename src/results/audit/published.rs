@@ -6,7 +6,7 @@ use crate::audit::{Audit, claims, equations, metrics, ratios, references, struct
 /// One kind of check of the tables.
 type Check = fn(&Tables) -> Audit;
 
-/// Every kind of check, in the order of its findings.
+/// All kinds of check, in the order in which their findings are listed.
 const CHECKS: [Check; 7] =
     [ratios::check, metrics::check, structure::check, metrics::subjects, references::check, claims::check, |_| {
         equations::check()

@@ -1,4 +1,4 @@
-//! Ratios L3D / L2D, and mean and SD of each row.
+//! Ratios L3D / L2D, with the mean and SD of each row.
 
 use crate::audit::rounding::{blur, mean, prints_as, variance};
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
@@ -14,25 +14,25 @@ pub(super) fn check(tables: &Tables) -> Audit {
     Audit { recomputed: tables.rows.len() * 8, findings }
 }
 
-/// Ratio that a printed one was computed as: to the pattern or, in a chained row, to the subject before.
+/// Ratio as the thesis computed it: to the pattern length or, in a chained row, to L3D of the subject before.
 pub(super) fn as_computed(row: &Row, subject: usize) -> f64 {
     let chained = if is_chained(row) { chained(row, subject) } else { None };
     chained.unwrap_or_else(|| row.ratio(subject))
 }
 
-/// L3D of a subject over the L3D of the subject before.
+/// L3D of a subject divided by L3D of the subject before.
 fn chained(row: &Row, subject: usize) -> Option<f64> {
     let before = row.l3d_mm[subject.checked_sub(1)?];
     Some(row.l3d_mm[subject] / before)
 }
 
-/// True if a printed ratio is that of the lengths beside it.
+/// True if a printed ratio is that of the lengths printed beside it.
 fn holds(row: &Row, subject: usize) -> bool {
     let ratio = row.ratio(subject);
     prints_as(ratio, row.chi[subject], blur(ratio, row.l2d_mm))
 }
 
-/// True if some ratios of a row are not to the pattern and all but the first are to the subject before.
+/// True if a row is chained: some ratios are not to the pattern, and all but the first are to the subject before.
 fn is_chained(row: &Row) -> bool {
     let fits = |subject: usize| {
         let blur = blur(row.chi[subject], row.l3d_mm[subject - 1]);
@@ -75,7 +75,7 @@ fn summary(row: &Row) -> Option<Finding> {
     })
 }
 
-/// Greatest changes of E and of EI by the wrong ratios.
+/// Greatest changes of E and of EI caused by wrong ratios.
 fn shifts(tables: &Tables) -> Vec<Finding> {
     let of_garment = |of: Sized| {
         let cells =
@@ -106,7 +106,7 @@ fn shifts(tables: &Tables) -> Vec<Finding> {
     worst.into_iter().flatten().map(finding).collect()
 }
 
-/// Cases in which the wrong ratios change which simulator has the lower EI.
+/// Cases in which wrong ratios change which simulator has the lower EI.
 fn winners(tables: &Tables) -> Vec<Finding> {
     let mut findings = Vec::new();
     for of in tables.garments() {

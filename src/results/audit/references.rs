@@ -1,11 +1,11 @@
-//! Captions, references and words of the text, checked against the tables and figures that they speak of.
+//! Captions, references and words of the text, checked against the tables and figures that they name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::audit::tables::{Row, Tables};
 use crate::audit::{Audit, Finding};
 
-/// A table or figure of chapter 6 with its garment, size (`one` where there is only one) and simulator.
+/// Number of a table or figure of chapter 6, with its garment, size (`one` where there is only one) and simulator.
 type Label = (&'static str, [&'static str; 3]);
 
 /// Size that the captions of the measurement tables name; empty where they name none.
@@ -30,7 +30,7 @@ const CAPTIONED: [(&str, &str); 18] = [
     ("6-30", ""),
 ];
 
-/// Figures that chart those tables. They stand beside them; the size of the trousers is that of the section.
+/// Figures that chart these tables. They stand beside the tables; the size of the trousers is that of the section.
 const FIGURES: [Label; 18] = [
     ("Figure 6-7", ["male_tshirt", "s", "fem"]),
     ("Figure 6-9", ["male_tshirt", "s", "hybrid"]),
@@ -52,7 +52,7 @@ const FIGURES: [Label; 18] = [
     ("Figure 6-68", ["female_dress", "one", "hybrid"]),
 ];
 
-/// Sentences on the numbers of one table: the table or figure that they refer to first, and the chart of the numbers.
+/// Sentences about the numbers of one table: the table or figure that the text refers to, and the chart of the numbers.
 const SENTENCES: [(&str, &str); 9] = [
     ("Table 6-9", "Figure 6-16"),
     ("Table 6-14", "Figure 6-29"),
@@ -65,7 +65,7 @@ const SENTENCES: [(&str, &str); 9] = [
     ("Table 6-30", "Figure 6-68"),
 ];
 
-/// Iterations of the drape of Hybrid-GS: in 6.2.4 for all garments, in 5.5 for a T-shirt and for a loose dress.
+/// Iterations of Hybrid-GS's drape: in section 6.2.4 for all garments, in 5.5 for a T-shirt and for a loose dress.
 const DRAPE_STEPS: f64 = 40.0;
 const DRAPE_RANGES: [(&str, [f64; 2]); 2] = [("t-shirt", [20.0, 40.0]), ("loose dress", [50.0, 80.0])];
 
@@ -84,7 +84,7 @@ pub(super) fn check(tables: &Tables) -> Audit {
     Audit { recomputed: CAPTIONED.len() + SENTENCES.len() + DRAPE_RANGES.len(), findings }
 }
 
-/// Captions that name no size, of garments in several sizes.
+/// Captions without a size, for garments in several sizes.
 fn captions(tables: &Tables) -> Vec<Finding> {
     let mut bare: BTreeMap<&str, Vec<(&str, &str)>> = BTreeMap::new();
     for (table, size) in CAPTIONED {
@@ -105,7 +105,7 @@ fn captions(tables: &Tables) -> Vec<Finding> {
     bare.into_iter().map(finding).collect()
 }
 
-/// References to a table or figure of something else than the numbers that the sentence speaks of.
+/// References to another table or figure than that of the numbers in the sentence.
 fn references(tables: &Tables) -> Vec<Finding> {
     let shows = |label: &str| -> Option<[&str; 3]> {
         if let Some(table) = label.strip_prefix("Table ") {
@@ -144,7 +144,7 @@ fn iterations() -> Vec<Finding> {
     outside.map(finding).collect()
 }
 
-/// Words that stand in place of others.
+/// Words that stand in the place of others.
 fn words(tables: &Tables) -> Vec<Finding> {
     let rows: Vec<&Row> = tables.rows.iter().filter(|row| row.name.contains("Circumstance")).collect();
     let finding = |place: String, stated: &str, meant: &str, says: &str| Finding {

@@ -10,11 +10,11 @@ use geom::units::mm;
 use sim::{Drape, quality};
 use store::{ChiRow, JobFilter, JobRow, MetricsRow, Result, StageKind, Status, Store, Value, read, sql};
 
-/// Greatest difference of a stored and a measured length, m: lengths are stored as they were measured.
+/// Greatest difference between a stored and a measured length that counts as none, m.
 const SAME_M: f64 = 1e-9;
-/// Greatest difference of a stored and a recomputed metric.
+/// Greatest difference between a stored and a recomputed metric that counts as none.
 const SAME: f64 = 1e-9;
-/// Greatest penetration that is no defect, m.
+/// Deepest penetration that is no defect, m.
 const PENETRATION_M: f64 = 0.5e-3;
 
 /// Audits the current results of a study.
@@ -38,12 +38,12 @@ pub(super) fn audit(store: &Store, study: &str) -> Result<Audit> {
     Ok(audit)
 }
 
-/// Description of the job's cell.
+/// Name of the job's cell: garment, size, subject and simulator.
 fn place(job: &JobRow) -> String {
     format!("job {}: {} {} on {}, {}", job.id, job.garment, job.size, job.subject, job.simulator.as_str())
 }
 
-/// A job without a result, or with one that did not converge.
+/// Finding for a job without a result, or with one that did not converge.
 fn state(job: &JobRow) -> Option<Finding> {
     let says = match job.status {
         Status::Done => return None,
@@ -62,7 +62,7 @@ fn state(job: &JobRow) -> Option<Finding> {
     })
 }
 
-/// Measures a result's mesh again; returns the number of numbers that were recomputed.
+/// Measures the mesh of a result again. Returns the number of numbers computed.
 fn remeasure(store: &Store, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Finding>) -> Result<usize> {
     let stored = read::metrics(store, job.id)?;
     let read = || -> Result<_> {
@@ -80,7 +80,7 @@ fn remeasure(store: &Store, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Fi
     };
     let garment = meshes.finest()?;
     let again = measure::measure(garment, &drape.positions);
-    // The stage whose mesh is stored is the last one.
+    // The mesh is stored for the last stage only.
     let last: Vec<&ChiRow> = chis.iter().filter(|chi| chi.stage == drape.stage.as_str()).collect();
     for (row, chi) in last.iter().zip(&again).filter(|(row, chi)| differs(row, chi)) {
         let stated = format!("#{} {}: {:.3} of {:.3} mm", row.no, row.name, mm(row.l3d_m), mm(row.l2d_m));
@@ -110,7 +110,7 @@ fn differs(row: &ChiRow, chi: &Chi) -> bool {
     row.no != chi.no || (row.l3d_m - chi.l3d_m).abs() > SAME_M || (row.l2d_m - chi.l2d_m).abs() > SAME_M
 }
 
-/// Stored metrics that are not those of the measurements.
+/// Stored metrics that differ from those computed from the measurements.
 fn metrics(job: &JobRow, stored: &MetricsRow, again: &Metrics) -> Vec<Finding> {
     let pairs = [
         ("n", f64::from(stored.n), again.n as f64),
@@ -128,7 +128,7 @@ fn metrics(job: &JobRow, stored: &MetricsRow, again: &Metrics) -> Vec<Finding> {
         .collect()
 }
 
-/// Pattern lengths that differ from those of the same size elsewhere in the study.
+/// Pattern lengths that differ from those of the same size in another job of the study.
 fn pattern(job: &JobRow, chis: &[ChiRow], known: &mut BTreeMap<(String, String, u32), f64>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for chi in chis {
@@ -142,14 +142,14 @@ fn pattern(job: &JobRow, chis: &[ChiRow], known: &mut BTreeMap<(String, String, 
     findings
 }
 
-/// Lengths that are all equal to those of another subject.
+/// Finding for lengths that all equal those of another subject.
 fn copy(job: &JobRow, chis: &[ChiRow], known: &mut BTreeMap<Vec<u64>, (String, String)>) -> Option<Finding> {
     let key: Vec<u64> = chis.iter().map(|chi| chi.l3d_m.to_bits()).collect();
     let (subject, first) = known.entry(key).or_insert_with(|| (job.subject.clone(), place(job))).clone();
     (subject != job.subject).then(|| finding("copy", job, "two subjects", &first, "all lengths are equal"))
 }
 
-/// Results of a program with changes that are not committed, which nobody else can check out.
+/// Results of a program with uncommitted changes, which nobody else can check out.
 fn provenance(store: &Store, study: &str) -> Result<Vec<Finding>> {
     let table = sql::query(
         store,

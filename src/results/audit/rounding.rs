@@ -1,17 +1,17 @@
-//! Agreement of recomputed numbers with printed ones.
+//! Comparison of recomputed numbers with printed ones.
 
-/// Greatest difference of a recomputed number from one printed with three decimals: half of the last digit.
+/// Greatest difference between a number and its print with three decimals: half a unit of the last digit.
 const HALF_DIGIT: f64 = 0.0005 + 1e-6;
 
-/// Half of the last digit of a printed length, mm.
+/// Half a unit of the last digit of a printed length, mm.
 const HALF_DIGIT_MM: f64 = 0.005;
 
-/// True if a printed number is the recomputed one, rounded. `blur` is the error by the rounding of its parts.
+/// True if a printed number is the recomputed one, rounded. `blur` is the error from rounding in its parts.
 pub(super) fn prints_as(recomputed: f64, printed: f64, blur: f64) -> bool {
     (recomputed - printed).abs() <= HALF_DIGIT + blur
 }
 
-/// Error of a ratio of two printed lengths by their rounding. `ratio` is to the length `below_mm`.
+/// Error of a ratio of two printed lengths that their rounding causes. `below_mm` is the denominator.
 pub(super) fn blur(ratio: f64, below_mm: f64) -> f64 {
     HALF_DIGIT_MM * (1.0 + ratio) / below_mm
 }

@@ -1,17 +1,18 @@
-//! Contradictions within the tables: rows that are sums of others, copied columns, patterns that differ by simulator.
+//! Contradictions within the tables: rows that are sums of others, copied columns, and patterns that differ between the
+//! simulators.
 
 use crate::audit::tables::{Row, SUBJECTS, Sized, Tables};
 use crate::audit::{Audit, Finding};
 use fit::Simulator;
 
-/// Greatest difference of a printed length from the sum of two, mm: lengths are printed to 0.01 mm.
+/// Greatest difference between a printed length and the sum of two that counts as none, mm; lengths have 0.01 mm.
 const PRINTED_MM: f64 = 0.0101;
-/// Least difference of one pattern's length between two simulators that is no rounding, mm.
+/// Least difference between the simulators in a pattern length that is more than rounding, mm.
 const SAME_PATTERN_MM: f64 = 0.011;
-/// Ratio of a size step to the next one below which the step is no grading.
+/// Ratio of a size step to the next below which the step is no grading.
 const UNEVEN_GRADE: f64 = 0.02;
 
-/// Checks the tables as wholes.
+/// Checks the tables as a whole.
 pub(super) fn check(tables: &Tables) -> Audit {
     let mut findings = Vec::new();
     for of in tables.garments() {
@@ -27,7 +28,7 @@ pub(super) fn check(tables: &Tables) -> Audit {
     Audit { recomputed: tables.rows.len(), findings }
 }
 
-/// Rows whose six lengths are the sums of two other rows'.
+/// Rows in which all six lengths are sums of those of two other rows.
 fn sums(rows: &[&Row]) -> Vec<Finding> {
     let is_sum =
         |row: &Row, a: &Row, b: &Row| (0..6).all(|s| (row.l3d_mm[s] - a.l3d_mm[s] - b.l3d_mm[s]).abs() <= PRINTED_MM);
@@ -87,7 +88,7 @@ fn patterns(tables: &Tables, of: &Sized) -> Vec<Finding> {
     tables.table(of, Simulator::Fem).into_iter().filter_map(differs).collect()
 }
 
-/// Lengths that shrink from one size to the next, or that hardly change in the first of two steps.
+/// Pattern lengths that shrink from one size to the next, or hardly change in the first of two steps.
 fn grading(tables: &Tables) -> Vec<Finding> {
     let order = ["s", "m", "l"];
     let mut findings = Vec::new();

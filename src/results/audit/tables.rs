@@ -1,4 +1,4 @@
-//! The printed tables of the thesis as plain values.
+//! The printed tables of the thesis, as plain values.
 
 use rusqlite::{Connection, Row as SqlRow};
 
@@ -6,7 +6,7 @@ use fit::Simulator;
 use store::columns::simulator;
 use store::{InOrigin, Origin, Result};
 
-/// Subjects of every table, in its columns.
+/// Subjects in the columns of every table.
 pub(super) const SUBJECTS: [&str; 6] = ["i", "ii", "iii", "iv", "v", "vi"];
 
 /// A garment of one size.
@@ -66,13 +66,13 @@ pub(super) struct Metric {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Summary {
     pub table: String,
-    /// Sex in the caption.
+    /// Sex that the caption names.
     pub captioned: String,
     /// Sex whose subjects the table summarises.
     pub sex: String,
     /// `mean` or `sd`.
     pub statistic: String,
-    /// Chest, waist, hip, across-shoulder, neck.
+    /// Chest, waist, hip, across-shoulder, neck, cm.
     pub numbers: [f64; 5],
 }
 
@@ -83,7 +83,7 @@ pub(super) struct Preposition {
     pub chi: f64,
 }
 
-/// All printed tables, as the database holds them.
+/// All printed tables.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tables {
     pub rows: Vec<Row>,

@@ -1,4 +1,4 @@
-//! Cloths of a garment in a picture: weaves at true scale, a check, image files, piece by piece.
+//! Cloths of a garment in a picture: weaves at true scale, a check, image files, for each piece.
 
 use std::path::PathBuf;
 
@@ -31,7 +31,7 @@ enum Kind {
 /// A cloth of some or all pieces of a garment, written `[PIECE=]WHAT[#RRGGBB][@MM]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cloth {
-    /// Piece that is cut from it; without one, all pieces that no other cloth names.
+    /// Piece that is cut from this cloth; `None` for all pieces that no other cloth names.
     piece: Option<String>,
     kind: Kind,
     colour: Option<Rgb>,
@@ -40,12 +40,12 @@ pub struct Cloth {
 }
 
 impl Cloth {
-    /// The check in the simulator's colour.
+    /// Check in the simulator's colour.
     pub(super) const CHECK: Self = Self { piece: None, kind: Kind::Check, colour: None, repeat_mm: None };
 
-    /// Reads `[PIECE=]WHAT[#RRGGBB][@MM]`. WHAT is `fabric` (the weave of the garment's own fabric), `plain`, `twill`,
-    /// `jersey`, `rib`, `check` or an image file, and MM the length of one repeat. Without MM yarns have their true
-    /// size, and an image comes once on each piece.
+    /// Parses `[PIECE=]WHAT[#RRGGBB][@MM]`. WHAT is `fabric` (the weave of the garment's own fabric), `plain`, `twill`,
+    /// `jersey`, `rib`, `check` or an image file; MM is the length of one repeat. Without MM yarns have their true
+    /// size, and an image is shown once on each piece.
     ///
     /// # Errors
     /// [`StudyError::Refused`] for an empty name or a repeat that no cloth has.
@@ -80,7 +80,7 @@ impl Cloth {
         Ok(Self { piece, kind, colour, repeat_mm })
     }
 
-    /// Picture of one repeat, and its mapping onto the pieces.
+    /// Picture of one repeat, with its mapping onto the pieces.
     fn texture(&self, fabric: &Fabric, own: Rgb) -> Result<(Texture, Mapping)> {
         let colour = self.colour.unwrap_or(own);
         let woven = |weave: Weave| {
@@ -109,7 +109,7 @@ impl Cloth {
     }
 }
 
-/// Weave or knit of a fabric, told from the words of its name and from whether it has the stretch of a knit.
+/// Weave or knit of a fabric, inferred from words of its name and from the stretch of a knit.
 fn weave(fabric: &Fabric) -> Weave {
     let name = fabric.name.to_lowercase();
     let has = |wanted: &[&str]| name.split(|c: char| !c.is_alphanumeric()).any(|word| wanted.contains(&word));
@@ -124,7 +124,7 @@ fn weave(fabric: &Fabric) -> Weave {
     }
 }
 
-/// Texture of a garment that is cut from some cloths. A piece that none of them names keeps its simulator's colour.
+/// Textures of a garment cut from several cloths. A piece that no cloth names keeps its simulator's colour.
 pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: Rgb) -> Result<Print> {
     let bare = RgbaImage::from_pixel(1, 1, Rgba([own.0, own.1, own.2, 255]));
     let mut drawn = vec![(Texture::new(&bare), Mapping::Piece)];

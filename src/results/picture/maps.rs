@@ -1,5 +1,5 @@
-//! Fields that colour the cloth: stretch, tension, pressure, gap and chi. Each has one fixed scale, so that all
-//! pictures compare.
+//! Maps: fields that colour the cloth, such as stretch, tension, pressure, gap and chi. Each has one fixed scale, so
+//! that all pictures compare.
 
 use geom::V3;
 use pattern::Garment;
@@ -8,15 +8,15 @@ use render::Scale;
 /// Field or pattern that colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Map {
-    /// The simulator's own colour.
+    /// No map: the simulator's own colour.
     Plain,
     /// A woven check of 4 cm in the simulator's colour: it shows the grain and every distortion.
     Check,
-    /// Stretch: the greatest principal stretch, in percent beyond the pattern's own size.
+    /// Stretch: greatest principal stretch less 1, %.
     Stretch,
-    /// Tension: the greatest principal membrane force, N/m.
+    /// Tension: greatest principal membrane force, N/m.
     Tension,
-    /// Pressure of the cloth on the body, kPa, of FEM-GS only: it alone brings the two into equilibrium.
+    /// Pressure of the cloth on the body, kPa; only for FEM-GS, which alone brings the two into equilibrium.
     Pressure,
     /// Gap between cloth and body, mm.
     Gap,
@@ -26,14 +26,14 @@ pub enum Map {
 
 /// Stretch at the ends of its colour scale, %.
 const STRETCH_REACH: f64 = 8.0;
-/// Tension at the end of its colour scale, N/m. A strip 1 cm wide then carries 100 g.
+/// Tension at the end of the colour scale, N/m. A strip 1 cm wide then carries about 100 g.
 const TENSION_REACH: f64 = 100.0;
-/// Pressure at the end of its colour scale, kPa. From there on clothes are felt as tight; compression stockings press
-/// with 2 to 4.
+/// Pressure at the end of the colour scale, kPa. From there on clothes feel tight; compression stockings press with 2
+/// to 4 kPa.
 const PRESSURE_REACH_KPA: f64 = 2.0;
-/// Departure of chi from 1 at the ends of its colour scale, as in the report's tables.
+/// Departure of chi from 1 at the ends of the colour scale, as in the report's tables.
 const CHI_REACH: f64 = 0.15;
-/// Gap at the ends of its colour scale, mm; below 0 the cloth lies within the body.
+/// Gap at the ends of the colour scale, mm; below 0 the cloth lies inside the body.
 const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
@@ -55,7 +55,7 @@ impl Map {
         }
     }
 
-    /// Colour scale of its values; `None` of a map without values.
+    /// Colour scale of the map's values; `None` for a map without values.
     #[must_use]
     pub fn scale(self) -> Option<Scale> {
         match self {
@@ -69,7 +69,7 @@ impl Map {
     }
 }
 
-/// chi of the measurements at the vertices of the triangles that they run through; not a number elsewhere.
+/// Chi of each measurement, at the vertices of the triangles that its path runs through; NaN elsewhere.
 pub(super) fn chis(garment: &Garment, positions: &[V3]) -> Vec<f64> {
     let mut chis = vec![f64::NAN; positions.len()];
     for measurement in &garment.measurements {

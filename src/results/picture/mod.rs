@@ -1,4 +1,4 @@
-//! Pictures of results: the stored body and drape, rendered.
+//! Pictures of results: stored body and drape, rendered.
 
 mod cloth;
 mod maps;
@@ -27,31 +27,31 @@ use sim::{self, Drape, Fabric};
 use store::{InOrigin, JobId, Origin, Result, StageKind, Store, StudyError, Value, cache, read, sql};
 use wardrobe::catalogue::read_fabric;
 
-/// Greatest difference of height of cloth that counts as at a level of the body, m.
+/// Greatest distance in height from a level of the body at which cloth counts as at the level, m.
 const NEAR_M: f64 = 0.02;
-/// Depth within the body to which cloth shows on a gap map, m.
+/// Depth inside the body to which a gap map shows cloth, m.
 const WITHIN_M: f64 = 0.05;
 
-/// Index of a layer in a scene. The garments under the cloth come after it.
+/// Index of the body's layer in a scene, followed by the cloth and then by the garments under it.
 const BODY: usize = 0;
 const CLOTH: usize = 1;
 
-/// Number of results that are kept ready: those of a comparison, so that they can be turned quickly.
+/// Number of results kept ready, so that those of a comparison turn quickly.
 const SCENES_KEPT: usize = 3;
 
-/// Direction and enlargement from which a drape is seen.
+/// Direction and enlargement of a view on a drape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     /// Angle about the vertical from the front towards the subject's right, degrees.
     pub azimuth_deg: i32,
-    /// Enlargement of the picture about its middle, percent.
+    /// Enlargement of the picture about its middle, %.
     pub zoom_pct: u32,
-    /// Height of the picture's middle above the garment's, percent of half its height.
+    /// Height of the picture's middle above the garment's, % of half the garment's height.
     pub rise_pct: i32,
 }
 
 impl Look {
-    /// Camera in which some meshes are as large as they can be, times the enlargement.
+    /// Camera in which meshes fill the picture, times the enlargement.
     pub(crate) fn camera<'a>(self, meshes: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
         let Self { azimuth_deg, zoom_pct, rise_pct } = self;
         let frame = Zoom { zoom_pct, rise_pct }.of(Frame::enclosing(meshes, aspect(width, height)));
@@ -59,7 +59,7 @@ impl Look {
     }
 }
 
-/// A result ready for pictures: lit once, shown from any side.
+/// A result that is ready for pictures: lit once, shown from any side.
 struct Stage {
     scene: Scene,
     /// Body and cloth.
@@ -73,18 +73,18 @@ pub(crate) struct Dressed {
     stage: sim::Stage,
     pub garment: Garment,
     fabric: Fabric,
-    /// Heights of the body's levels, m.
+    /// Heights of the body's levels above the floor, m.
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
-    /// Garments under it, of an outfit.
+    /// Garments under the garment; empty unless it is a layer of an outfit.
     under: Vec<TriMesh>,
-    /// Positions of the garment at earlier stages, where the simulator has any.
+    /// Positions of the garment at earlier stages that the simulator keeps.
     earlier: Vec<sim::Staged>,
 }
 
 impl Dressed {
-    /// The lit scene of the pop-up, where there is one.
+    /// Lit scene of the pop-up; `None` where the simulator has no such stage.
     pub fn popup_scene(&self) -> Option<Result<Scene>> {
         let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
         let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
@@ -102,7 +102,7 @@ impl Dressed {
         Some(self)
     }
 
-    /// The cloth in its simulator's colour, yellow before the drape.
+    /// Material of the cloth: the simulator's colour, but yellow at the stage of pop-up.
     fn material(&self) -> Material {
         match (self.stage, self.simulator) {
             (sim::Stage::Sewn | sim::Stage::Popup, _) => Material::popup(),
@@ -111,19 +111,19 @@ impl Dressed {
         }
     }
 
-    /// Material of the cloth under a map: its wrong side, which has no values, is grey.
+    /// Material of the cloth under a map: grey on its wrong side, which shows no values.
     fn material_under(&self, map: Map) -> Material {
         let own = self.material();
         if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
     }
 
-    /// The cloth, welded along its seams.
+    /// Returns the cloth, welded along its seams.
     pub fn sewn(&self) -> Result<Sewn<'_>> {
         Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).origin(Origin::Render)
     }
 
-    /// Values of a map at the vertices of the cloth, in the unit of its scale; empty of a map without values, and not
-    /// a number where a vertex has none.
+    /// Values of a map at the vertices of the cloth, in the unit of the map's scale: NaN where a vertex has none. Empty
+    /// for a map without values.
     pub fn values(&self, map: Map) -> Result<Vec<f64>> {
         let positions = &self.cloth.positions;
         Ok(match map {
@@ -131,13 +131,13 @@ impl Dressed {
             Map::Stretch => self.sewn()?.stretches_pct(),
             Map::Tension => self.sewn()?.tensions_n_m(),
             Map::Chi => maps::chis(&self.garment, positions),
-            // Only FEM-GS brings cloth and body into balance.
+            // Only the drape of FEM-GS is in equilibrium with the body.
             Map::Pressure if (self.simulator, self.stage) != (Simulator::Fem, sim::Stage::Drape) => {
                 vec![f64::NAN; positions.len()]
             }
             Map::Pressure => self.sewn()?.pressures_kpa(),
             Map::Gap => {
-                // The field that contact asks ends a few centimetres off the body; a gap may be wider.
+                // The distance field that contact uses ends a few centimetres off the body; a gap may be wider.
                 let surface = |mesh| Surface::new(mesh).origin(Origin::Render);
                 let skin = surface(&self.body)?;
                 let layers = self.under.iter().map(surface).collect::<Result<Vec<_>>>()?;
@@ -150,12 +150,12 @@ impl Dressed {
         })
     }
 
-    /// The lit scene of a map, with the body as a dress form.
+    /// Lit scene of a map, with the body as a dress form.
     pub fn scene(&self, map: Map) -> Result<Scene> {
         self.scene_in(map, &[], None)
     }
 
-    /// The lit scene of a map. On a plain one the garment is cut from `cloths`, on a body with this colour of skin.
+    /// Lit scene of a map. On [`Map::Plain`] the garment is cut from `cloths`, and the body has the colour `skin`.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
         let own = [Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
@@ -163,7 +163,7 @@ impl Dressed {
         Scene::new(own.into_iter().chain(under).collect()).origin(Origin::Render)
     }
 
-    /// Shows another map in a scene of this result, which need not be lit again.
+    /// Shows another map in a scene of this result, without lighting it again.
     pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
         let (form, paint) = self.look(map, &[], None)?;
         let painted = scene.paint(BODY, form, Paint::Plain);
@@ -171,7 +171,7 @@ impl Dressed {
         painted.origin(Origin::Render)
     }
 
-    /// Material of the body, and paint of the cloth.
+    /// Material of the body and paint of the cloth.
     fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
         let values = self.values(map)?;
         let bare = skin.map_or_else(Material::form, Material::skin);
@@ -184,7 +184,7 @@ impl Dressed {
             None => (bare, Paint::Plain),
             Some(scale) => {
                 let form = Material::form_under_map();
-                // A garment that does not reach round the body lies within it: the gap map shows by how much.
+                // A garment that does not reach round the body lies inside it, and the gap map shows how deep.
                 let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
                 (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
             }
@@ -192,8 +192,8 @@ impl Dressed {
     }
 }
 
-/// Mean tension of a result's cloth around the trunk within [`NEAR_M`] of a level of the body, N/m; `None` where that
-/// level is not known, or no cloth lies there.
+/// Mean tension, N/m, of a result's cloth around the trunk within [`NEAR_M`] of a level of the body; `None` where the
+/// level is not known or no cloth lies there.
 pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
     let tensions = worn.values(Map::Tension)?;
@@ -205,15 +205,15 @@ pub(crate) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
 
-/// Ratio of width to height of a picture.
+/// Width of a picture divided by its height.
 fn aspect(width: u32, height: u32) -> f64 {
     f64::from(width.max(1)) / f64::from(height.max(1))
 }
 
-/// Results last shown, kept lit so that other views of them are quick.
+/// Results shown last, kept lit so that other views of them are quick.
 #[derive(Default)]
 pub struct Scenes {
-    /// The latest last.
+    /// Kept results, the latest last.
     kept: Vec<Kept>,
 }
 
@@ -225,8 +225,8 @@ struct Kept {
 }
 
 impl Scenes {
-    /// Returns a picture of a result from any side, on transparent ground, the garment as large as it can be times the
-    /// look's enlargement. The body is cut off at the edges. Meant for small pictures.
+    /// Picture of a result from any side, on transparent ground. The garment fills it, times the look's enlargement,
+    /// and the body is cut off at its edges. Meant for small pictures.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
@@ -252,8 +252,8 @@ impl Scenes {
     }
 }
 
-/// Writes a result's body and garment as a mesh file. Texture coordinates of the garment are its places in the
-/// pattern, m. A map colours it, and its values are kept in formats that have room for them.
+/// Writes body and garment of a result as a mesh file. Texture coordinates of the garment are positions in the pattern,
+/// m. A map colours it; formats with room for them also have the map's values.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
@@ -285,7 +285,7 @@ fn stage(store: &Store, id: JobId, map: Map) -> Result<Stage> {
     Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
 }
 
-/// Reads a result from the database.
+/// Reads a result with its garment as draped.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.

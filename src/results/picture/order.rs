@@ -13,12 +13,12 @@ const TURN_MS: u32 = 6000;
 /// Angle, enlargement and height of a close-up, as in [`Zoom`].
 const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
 
-/// Enlargement of a picture.
+/// Enlargement of a picture, and the height of its middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Zoom {
-    /// Enlargement of the garment, percent; at 100 it fills the picture.
+    /// Enlargement of the garment, %; at 100 it fills the picture.
     pub zoom_pct: u32,
-    /// Height of the picture's middle above the garment's, percent of half its height.
+    /// Height of the picture's middle above the garment's, % of half the garment's height.
     pub rise_pct: i32,
 }
 
@@ -34,11 +34,11 @@ impl Zoom {
 /// One picture of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shot {
-    /// From one of the four sides.
+    /// From one of the standard views.
     View(View),
-    /// From near, so that the cloth shows.
+    /// From near, to show the cloth.
     CloseUp,
-    /// An angle about the vertical from the front towards the subject's right, degrees.
+    /// Turned about the vertical by an angle from the front towards the subject's right, degrees.
     Turned(f64),
 }
 
@@ -55,24 +55,24 @@ impl Shot {
 /// Options of a picture.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// Shots, each a picture of its own.
+    /// Shots; each makes a picture.
     pub shots: Vec<Shot>,
-    /// Stages of the simulation, each a picture of its own: before and after.
+    /// Stages of the simulation; each makes a picture.
     pub stages: Vec<Stage>,
     /// Map that colours the cloth.
     pub map: Map,
-    /// Cloths of the garment, on a plain map.
+    /// Cloths of the garment, on [`Map::Plain`].
     pub cloths: Vec<Cloth>,
-    /// Colour of the skin; without one the body is a dress form.
+    /// Colour of the skin; `None` shows a dress form.
     pub skin: Option<Rgb>,
-    /// Enlargement; without one body and garment are shown as a whole.
+    /// Enlargement; `None` shows body and garment as a whole.
     pub zoom: Option<Zoom>,
-    /// Pixels across and down of each shot.
+    /// Pixels of each shot, across and down.
     pub size: (u32, u32),
 }
 
 impl Order {
-    /// Camera of a shot. `whole` encloses bodies and garments, `garments` the garments only.
+    /// Camera of a shot. `whole` encloses bodies and garments, `garments` only the garments.
     fn camera(&self, shot: Shot, whole: Frame, garments: Frame) -> Camera {
         let frame = self.zoom.map_or(whole, |zoom| zoom.of(garments));
         match shot {
@@ -93,7 +93,7 @@ impl Order {
         Ok(picture)
     }
 
-    /// Frames of all pictures: around bodies and garments, and around the garments only.
+    /// Frames for all pictures: around bodies and garments, and around only the garments.
     fn frames(&self, dressed: &[Dressed]) -> [Frame; 2] {
         let cloth = || dressed.iter().map(|worn| &worn.cloth);
         let all: Vec<&TriMesh> = dressed.iter().map(|worn| &worn.body).chain(cloth()).collect();
@@ -102,10 +102,10 @@ impl Order {
     }
 }
 
-/// Draws results as a PNG file: one shot of one result by itself, several of them on a sheet, all at one scale.
+/// Draws results as a PNG file: a single shot of a single result by itself, several on a sheet at one scale.
 ///
 /// # Errors
-/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage, or where a cloth names
+/// [`StudyError::NotFound`] for a job without a result, a stage that its simulator does not keep, or a cloth that names
 /// no piece. Others for a file that is no image.
 pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
     let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
@@ -136,7 +136,7 @@ pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> 
     picture.origin(Origin::Render)
 }
 
-/// Reads a result, with the garment at a stage of its simulation.
+/// Reads a result, with its garment at a stage of the simulation.
 fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     let worn = picture::dressed(store, id)?;
     let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
@@ -145,8 +145,7 @@ fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
     worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
 }
 
-/// Draws a result turned once about the vertical, as an animated PNG file of this number of pictures that repeats for
-/// ever.
+/// Draws a result that turns once about the vertical, as an endless animated PNG file of that many pictures.
 ///
 /// # Errors
 /// As [`pictures`].

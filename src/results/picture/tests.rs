@@ -10,12 +10,12 @@ use pattern::draft::Model;
 use sim::cloth::element::Element;
 use sim::{Silent, fabric, fem, hybrid};
 
-/// One square of the check, m, and in repeats.
+/// Side of a square of the check, m, and in repeats.
 const SQUARE_M: f64 = 0.02;
 const SQUARE: f64 = 0.5;
 
-/// The drafted T-shirt with triangles of 40 mm on the largest of the thesis's men: in size S, which strains, by FEM-GS, and
-/// in L by Hybrid-GS, which draws a garment that does not reach round the body within it.
+/// The drafted T-shirt, meshed at 40 mm, on the largest man of the thesis: in size S by FEM-GS, where it is strained,
+/// and in L by Hybrid-GS, which lets a garment that does not reach round the body lie inside it.
 fn dressed(simulator: Simulator) -> Dressed {
     let size = if simulator == Simulator::Fem { 0 } else { 2 };
     let measurements = Measurements::of(Sex::Male, 1.85)
@@ -57,24 +57,25 @@ fn dressed(simulator: Simulator) -> Dressed {
     }
 }
 
-/// A stretch of cloth along a line of the check, from where one square ends to where the next one does.
+/// A side of a square: the cloth along a line of the check from one crossing line to the next.
 #[derive(Clone, Default)]
 struct Side {
-    /// Share of the way that was met, in repeats: [`SQUARE`] where no border of a piece cuts it.
+    /// Part of the side that was found, in repeats: [`SQUARE`] where no border of a piece cuts it.
     met: f64,
-    /// Length on the pattern, on the garment, and what the stretch of the cloth makes of the former, m.
+    /// Length on the pattern; on the garment; and on the pattern times the stretch of the cloth, m.
     flat_m: f64,
     worn_m: f64,
     stretched_m: f64,
-    /// Its ends in space.
+    /// Ends of the side in space.
     ends: [V3; 2],
     normals: Vec<V3>,
 }
 
-/// Piece, and which line and which square of it.
+/// Piece, line on it, and square along the line.
 type Key = (usize, i64, i64);
 
-/// The sides along weft (`along` 0) or warp (1) on the lines whose other coordinate is a whole number of squares and `off`.
+/// Sides along weft (`along` 0) or warp (1). The other coordinate of their lines is a whole number of squares plus
+/// `off`.
 fn sides(worn: &Dressed, along: usize, off: f64) -> BTreeMap<Key, Side> {
     let print = cloth::print(&[Cloth::CHECK], &worn.garment, &worn.fabric, worn.material().front).unwrap();
     let mut sides: BTreeMap<Key, Side> = BTreeMap::new();
@@ -97,13 +98,13 @@ fn sides(worn: &Dressed, along: usize, off: f64) -> BTreeMap<Key, Side> {
     sides
 }
 
-/// Adds a part of a side that one triangle holds.
+/// Adds the part of a side that lies in one triangle.
 fn add(side: &mut Side, part: Side) {
     if side.met == 0.0 {
         *side = part;
         return;
     }
-    // Parts come in any order: the ends are the two points that are farthest apart.
+    // Parts come in any order, so the ends are the two points that are farthest apart.
     let points = [side.ends[0], side.ends[1], part.ends[0], part.ends[1]];
     let pairs = (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)));
     let farthest = pairs.max_by(|a, b| {
@@ -119,7 +120,7 @@ fn add(side: &mut Side, part: Side) {
     side.normals.extend(part.normals);
 }
 
-/// Calls `found` with each part of a line of the check that lies in a triangle, square by square.
+/// Calls `found` with each part of a check line that lies in a triangle, square by square.
 fn cut(
     worn: &Dressed,
     places: &[V2],
@@ -129,7 +130,7 @@ fn cut(
     mut found: impl FnMut(i64, Side),
 ) {
     let at = |v: usize| V2::new(places[v][along], places[v][1 - along]) / SQUARE;
-    // Where the line passes the triangle's border, as places along it with weights of the corners.
+    // Crossings of the line and the triangle's border: position along the line, and weights of the corners.
     let mut passes: Vec<(f64, [f64; 3])> = Vec::new();
     for k in 0..3 {
         let (a, b) = (at(triangle[k]), at(triangle[(k + 1) % 3]));
@@ -159,8 +160,8 @@ fn cut(
     }
 }
 
-/// Offset of the fastest change of brightness along a line of a picture through a place, pixels; `None` where it does not
-/// change.
+/// Offset from a point, pixels, of the fastest change of brightness along a line of a picture; `None` where brightness
+/// does not change.
 fn turn(picture: &RgbaImage, place: V2, direction: V2) -> Option<f64> {
     const REACH: i32 = 5;
     const FINE: f64 = 0.25;
@@ -188,7 +189,7 @@ fn turn(picture: &RgbaImage, place: V2, direction: V2) -> Option<f64> {
     })
 }
 
-/// Squares on the part of the front that faces the viewer: their sides as the picture shows them, less what they are, mm.
+/// Errors of squares on the part of the front that faces the viewer: side in the picture minus true side, mm.
 fn errors_in_the_picture(worn: &Dressed, along: usize) -> Vec<f64> {
     const PIXELS_PER_M: f64 = 1500.0;
     let front = worn.garment.pieces.iter().position(|piece| piece.role == Role::Front).unwrap();
@@ -202,7 +203,7 @@ fn errors_in_the_picture(worn: &Dressed, along: usize) -> Vec<f64> {
         let d = (p - chest) * PIXELS_PER_M;
         V2::new(f64::from(width) / 2.0 + d.dot(&right), f64::from(height) / 2.0 - d.dot(&up))
     };
-    // Through the middle of a row of squares, where only the squares along it change.
+    // The line runs through the middle of a row of squares, where only squares along the line change.
     let mut errors = Vec::new();
     for ((piece, ..), side) in sides(worn, along, 0.5) {
         let [a, b] = side.ends.map(place);

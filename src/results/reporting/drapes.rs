@@ -1,4 +1,4 @@
-//! Drapes in the page of a fit report, to be turned by the reader.
+//! Drapes in the page of a fit report, which its reader can turn.
 
 use crate::assessment::GarmentWorn;
 use crate::picture::{self, Map};
@@ -13,10 +13,10 @@ use report::viewer::{Drape, Drapes};
 use store::{JobId, JobRow, Result, StageKind, Store, sql};
 use wardrobe::catalogue;
 
-/// Maps that a reader may choose.
+/// Maps among which a reader may choose.
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
 
-/// All drapes of a study, with a mark on those in the size to wear.
+/// All drapes of a study, marked where they are in the size to wear.
 pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Result<Drapes> {
     let mut all = Drapes::default();
     for job in jobs.iter().filter(|job| job.status.has_result() && job.repeat == 1) {
@@ -60,7 +60,7 @@ fn add(store: &Store, job: &JobRow, is_to_wear: bool, all: &mut Drapes) -> Resul
     Ok(())
 }
 
-/// The points of measure that lie on the cloth, with their lengths as `v_pom` has them.
+/// Points of measure that lie on the cloth, with their lengths from `v_pom`.
 fn lines(store: &Store, id: JobId, garment: &Garment, positions: &[V3]) -> Result<Vec<(String, String, Vec<V3>)>> {
     let style: Style = catalogue::style_of(store, id)?;
     let points = style.points_of_measure();
@@ -74,7 +74,7 @@ fn lines(store: &Store, id: JobId, garment: &Garment, positions: &[V3]) -> Resul
     Ok(found)
 }
 
-/// Words for a point's length, flat and worn.
+/// Length of a point of measure in words, flat and draped.
 fn words(store: &Store, id: JobId, point: Point) -> Result<Option<String>> {
     let point = quoted(point.as_str());
     let sql = format!(
@@ -84,7 +84,7 @@ fn words(store: &Store, id: JobId, point: Point) -> Result<Option<String>> {
     Ok(sql::query(store, &sql)?.rows.first().map(|row| row[0].to_string()))
 }
 
-/// Points along a path over several pieces. A run that goes the other way is reversed.
+/// Points along a path over several pieces; runs in the opposite direction are reversed.
 fn along(runs: &[MaterialLine], positions: &[V3]) -> Vec<V3> {
     let mut line: Vec<V3> = Vec::new();
     for run in runs {

@@ -1,4 +1,4 @@
-//! Parts of a report besides its runs: verdicts, audit, subjects, fabrics, patterns, ease.
+//! Parts of a report other than runs: verdicts, audit, subjects, fabrics, patterns, ease.
 
 use crate::reporting::quoted;
 use crate::{picture, recommendation};
@@ -25,11 +25,11 @@ const MEASUREMENTS: [(&str, &str, &str, usize); 7] = [
     ("across_shoulder_mm", "Across shoulder", "mm", 0),
 ];
 
-/// Relative difference of a body from its given measurements beyond which the report tells of it.
+/// Relative difference between a body and its given measurements above which the report mentions it.
 const BODY_TOLERANCE: f64 = 0.01;
 
-/// A subject of a report: its given measurements and, where a body was dressed, those of the tape on it, both in order
-/// of [`MEASUREMENTS`].
+/// A subject of a report: given measurements and, where a body was dressed, tape measurements of that body, both in the
+/// order of [`MEASUREMENTS`].
 pub(super) struct BodyFacts {
     name: String,
     sex: String,
@@ -38,7 +38,7 @@ pub(super) struct BodyFacts {
     measured: Option<Vec<Option<f64>>>,
 }
 
-/// A body that is a scan: its file, and the guesses and repairs that were made when it was read.
+/// Scan that is a body: its file, and the guesses and repairs made when it was read.
 struct ScanFacts {
     file: String,
     notes: Vec<String>,
@@ -61,12 +61,12 @@ impl BodyFacts {
     }
 }
 
-/// Tape measurements of a body, in order of [`MEASUREMENTS`]. Mass is not measured.
+/// Tape measurements of a body, in the order of [`MEASUREMENTS`]; `None` for mass.
 fn readings(girths: &Girths) -> Vec<Option<f64>> {
     MEASUREMENTS.iter().map(|(key, ..)| girths.written(key)).collect()
 }
 
-/// Table of the subjects with the measurements of their bodies; as given where none was dressed.
+/// Table of the subjects, with the measurements of their bodies; where none was dressed, the given ones.
 pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     let column = |(_, name, unit, decimals): (&str, &str, &str, usize)| Column {
         name: name.to_owned(),
@@ -84,7 +84,7 @@ pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     SubjectTable { columns: MEASUREMENTS.map(column).to_vec(), rows: bodies.iter().map(row).collect() }
 }
 
-/// Differences of bodies from their given measurements.
+/// Bodies that differ from their given measurements.
 fn mismatches(bodies: &[BodyFacts]) -> Vec<String> {
     let mut told = Vec::new();
     for body in bodies {
@@ -143,7 +143,7 @@ pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Res
     Ok(tips)
 }
 
-/// Remarks that limit the numbers of the report.
+/// Remarks that limit what the report's numbers mean.
 pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyFacts]) -> Result<Vec<AuditNote>> {
     let mut notes = Vec::new();
     let mut note = |severity, text: String| notes.push(AuditNote { severity, text });
@@ -176,7 +176,7 @@ pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyF
     Ok(notes)
 }
 
-/// The subjects of a study, with the bodies that were dressed.
+/// Subjects of a study, with the bodies that were dressed.
 pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<BodyFacts>> {
     let keys = MEASUREMENTS.map(|(key, ..)| format!("subject.{key}")).join(", ");
     let table = sql::query(
@@ -212,7 +212,7 @@ pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<
     Ok(bodies)
 }
 
-/// The scan that a person's body is, read again for its notes.
+/// Scan of a person's body, read again for its notes.
 fn scan_facts(person: &Person) -> Option<ScanFacts> {
     let ScanFile { file, unit } = person.scan.as_ref()?;
     let read = bodies::read_scan(file, *unit, Some(person.measurements.sex));
@@ -220,7 +220,7 @@ fn scan_facts(person: &Person) -> Option<ScanFacts> {
     Some(ScanFacts { file: file.name.clone(), notes })
 }
 
-/// The subjects of the thesis, as printed.
+/// Subjects of the thesis, as printed.
 pub(super) fn published_bodies(store: &Store) -> Result<Vec<BodyFacts>> {
     let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
     let table = sql::query(
@@ -294,7 +294,7 @@ pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix
     Ok(matrices)
 }
 
-/// A value of a table as a number.
+/// Number in a cell of a table.
 pub(super) fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Real(number) => Some(*number),
@@ -303,7 +303,7 @@ pub(super) fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// A named value of a table.
+/// Named value from a cell of a table.
 fn fact((name, value): (&String, &Value)) -> Fact {
     let value = match value {
         Value::Real(number) if *number != 0.0 && number.abs() < 1e-3 => format!("{number:.3e}"),
@@ -316,7 +316,7 @@ fn fact((name, value): (&String, &Value)) -> Fact {
 pub(super) mod tests {
     use super::*;
 
-    /// Somebody, measured on a body that was dressed; of a scan, where that is one.
+    /// A subject with the body that was dressed, from the scan where one is given.
     pub(in crate::reporting) fn body(scan: Option<&str>) -> BodyFacts {
         let scan = scan.map(|file| ScanFacts { file: file.to_owned(), notes: vec!["14 holes closed".to_owned()] });
         BodyFacts { name: "a".into(), sex: "male".into(), scan, asked: vec![Some(1750.0)], measured: Some(vec![None]) }

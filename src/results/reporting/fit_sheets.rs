@@ -1,4 +1,4 @@
-//! Fit sheets: the fit of a garment on a subject in its sizes, for the fit report.
+//! Fit sheets for the fit report: the fit of a garment on a subject in its sizes.
 
 use crate::assessment::{GarmentWorn, SizeWorn};
 use crate::cross_section::{self, CutAt};
@@ -8,7 +8,7 @@ use pattern::pom::Point;
 use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
 use store::{Result, Store};
 
-/// The fit sheets of a study.
+/// Fit sheets of a study.
 pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
     worn.iter().map(|worn| sheet(store, worn)).collect()
 }
@@ -56,7 +56,7 @@ fn told(size: &SizeWorn) -> String {
     hem.into_iter().chain(most).collect::<Vec<_>>().join(" ")
 }
 
-/// Points of measure that any drape has, with their definitions.
+/// Points of measure that any drape has, with definitions.
 pub(super) fn definitions(worn: &[GarmentWorn]) -> Vec<Fact> {
     let has = |point: &Point| {
         let mut points = worn.iter().flat_map(|worn| &worn.sizes).flat_map(|size| &size.points);
@@ -70,17 +70,17 @@ fn plain(text: impl Into<String>) -> FitCell {
     FitCell { text: text.into(), ..FitCell::default() }
 }
 
-/// A whole number with a true minus sign, never before 0.
+/// Whole number with U+2212 as its minus sign; never a negative zero.
 fn whole(value: f64) -> String {
     format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
 }
 
-/// A whole number with its sign.
+/// Whole number with its sign.
 fn signed(value: f64) -> String {
     if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
 }
 
-/// Ease at every level beside its target.
+/// Table of the ease at every level, with its target.
 fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     let row = |level: &str| {
         let level_of = |size: &SizeSits| size.levels.iter().find(|known| known.level == level).cloned();
@@ -110,7 +110,7 @@ fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
     }
 }
 
-/// Balance, pressure, folds and gaps of the drapes.
+/// Table of balance, pressure, folds and gaps of the drapes.
 fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     let mut rows = Vec::new();
     let mut add = |name: &str, of: &dyn Fn(&SizeWorn) -> Option<(String, String)>| {
@@ -171,7 +171,7 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }
 }
 
-/// Names that any size has, each once, in their order.
+/// Names that occur in any size, each once, in order of appearance.
 fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> Vec<&'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     for name in sizes.iter().flatten().flat_map(|size| of(size)) {
@@ -182,7 +182,7 @@ fn names_among<'a>(sizes: &[Option<&'a SizeWorn>], of: impl Fn(&'a SizeWorn) -> 
     names
 }
 
-/// Points of measure, flat and worn.
+/// Table of points of measure, flat and draped.
 fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     let row = |point: Point| {
         let name = point.as_str();

@@ -1,4 +1,4 @@
-//! The report of a study: the data of its pages, and the raw files beside them.
+//! The report of a study: data of its pages, and raw files beside them.
 
 mod drapes;
 mod facts;
@@ -15,7 +15,7 @@ use report::{self, FileNames, Purpose, ReportData};
 use spec::patterns;
 use store::{InOrigin, JobFilter, Origin, PUBLISHED, Result, Store, Table, Value, evidence, read, sql};
 
-/// Views of the raw data, their files, and their descriptions.
+/// Raw data: view, file, description.
 const RAW: [(&str, &str, &str); 13] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
@@ -32,7 +32,7 @@ const RAW: [(&str, &str, &str); 13] = [
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
-/// Origin of bodies, for those that are built and for those that are scans.
+/// Sentences on the origin of bodies: those that are built, and those that are scans.
 const BUILT: &str = "A body is built from the measurements given.";
 const SCANNED: &str = "The body of a scan is the scan itself, cleaned and closed, and measured there.";
 
@@ -50,7 +50,7 @@ const METHODS: [&str; 5] = [
      lengths where the pattern length agrees within 0.5 mm.",
 ];
 
-/// Limits of bodies, for those that are built and for those that are scans.
+/// Sentences on the limits of bodies: those that are built, and those that are scans.
 const BUILT_LIMIT: &str =
     "Bodies that are built are shaped from a few measurements: where they differ from the person, so does the drape.";
 const SCANNED_LIMIT: &str =
@@ -61,8 +61,8 @@ const LIMITS: [&str; 1] = [
 ];
 
 /// Returns the files of a study's report by their relative paths: `index.html`, the other page, pictures, charts,
-/// drawings, CSV. Without a purpose, a study of both simulators opens with their comparison, and one of a single
-/// simulator with the fit.
+/// drawings, CSV. Without a purpose, `index.html` compares the simulators where the study has both, and else shows the
+/// fit.
 ///
 /// # Errors
 /// When there is no such study, or a stored result cannot be read.
@@ -140,42 +140,42 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     })
 }
 
-/// Chooses the texts of the bodies that there are: built ones, scans, or both.
+/// Chooses between texts for built bodies and for scans, or takes both.
 fn of_bodies<'a>(bodies: &[BodyFacts], [built, scanned]: [&'a str; 2]) -> impl Iterator<Item = &'a str> {
     let built = (!bodies.iter().all(BodyFacts::is_scan)).then_some(built);
     let scanned = bodies.iter().any(BodyFacts::is_scan).then_some(scanned);
     built.into_iter().chain(scanned)
 }
 
-/// Paragraphs on methods. The first begins with the origin of the bodies.
+/// Paragraphs on methods, the first on the origin of the bodies.
 fn methods<'a>(of_bodies: impl Iterator<Item = &'a str>) -> Vec<String> {
     let [first, rest @ ..] = METHODS;
     let first = of_bodies.chain([first]).collect::<Vec<_>>().join(" ");
     [first].into_iter().chain(rest.map(str::to_owned)).collect()
 }
 
-/// Rows of a contract view that belong to a study.
+/// Rows of a `v_*` view that belong to a study.
 fn of_study(store: &Store, view: &str, study: &str) -> Result<Table> {
     sql::query(store, &format!("SELECT * FROM {view} WHERE study = {}", quoted(study)))
 }
 
-/// Rows of two columns as named values.
+/// Rows with two columns, as named values.
 fn facts(store: &Store, sql: &str) -> Result<Vec<Fact>> {
     let row = |row: &Vec<Value>| Fact { name: row[0].to_string(), value: row[1].to_string() };
     Ok(sql::query(store, sql)?.rows.iter().map(row).collect())
 }
 
-/// The first value of a query as text.
+/// First value of a query, as text.
 fn one(store: &Store, sql: &str) -> Result<String> {
     Ok(sql::query(store, sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
 }
 
-/// A value of a table that is a length in millimetres, as metres.
+/// Length in m from a cell in mm.
 fn mm_value(value: &Value) -> f64 {
     geom::units::from_mm(facts::number(value).unwrap_or(f64::NAN))
 }
 
-/// A text as SQL literal.
+/// Text as an SQL literal.
 fn quoted(text: &str) -> String {
     format!("'{}'", text.replace('\'', "''"))
 }

@@ -1,4 +1,5 @@
-//! The report of the thesis's own printed numbers: the same page, chi recomputed from the printed lengths, misprints marked.
+//! Report on the thesis's own printed numbers: the same page, with chi recomputed from the printed lengths, and
+//! misprints marked.
 
 use std::collections::BTreeMap;
 
@@ -11,14 +12,14 @@ use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Seve
 use report::{self, Purpose, ReportData};
 use store::{InOrigin, Origin, PUBLISHED, Result, Store, Value, evidence, sql};
 
-/// Views of the raw data, their files, and their descriptions.
+/// Raw data: view, file, description.
 const RAW: [(&str, &str, &str); 2] = [
     ("v_published", "published.csv", "L2D, L3D and chi as printed, and chi recomputed"),
     ("v_published_metrics", "published-metrics.csv", "E, SD and EI as printed"),
 ];
 
-/// Difference of a printed chi from that of its printed lengths beyond which it is a misprint: more than the rounding
-/// of its last digit.
+/// Difference between a printed chi and the ratio of the printed lengths above which it is a misprint: more than
+/// rounding.
 const ROUNDING: f64 = 6e-4;
 
 const METHODS: [&str; 3] = [
@@ -37,7 +38,7 @@ const LIMITS: [&str; 3] = [
     "Pop-up sets the hem to its pattern length by construction; the hem counts as controlled.",
 ];
 
-/// The files of the report on the printed numbers.
+/// Files of the report on the printed numbers.
 pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> {
     let eases = published_eases(store)?;
     let evidence = evidence::evidence(store, PUBLISHED)?;
@@ -67,7 +68,7 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
     Ok(files)
 }
 
-/// Findings of the audit of the tables.
+/// Findings of the audit of the tables, as notes.
 fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
     let note = |finding: Finding| AuditNote {
         severity: Severity::Warning,
@@ -79,7 +80,7 @@ fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
     Ok(audit::audit_thesis(store)?.findings.into_iter().map(note).collect())
 }
 
-/// Proxy ease of every garment, size and subject.
+/// Substitute ease of every garment, size and subject ([`pairs`](store::evidence::pairs)).
 fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
     let table = sql::query(store,
         "SELECT garment, size, name, iif(garment = 'male_trousers', 'waist less hip', 'hem less chest'), l2d_mm,
@@ -98,7 +99,7 @@ fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
     Ok(eases)
 }
 
-/// Runs of every garment, size, subject and simulator of the tables.
+/// Runs for every garment, size, subject and simulator of the tables.
 fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
     let table = sql::query(store,
         "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
@@ -123,7 +124,7 @@ fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<
     Ok(runs)
 }
 
-/// A run of which only lengths are printed.
+/// Run that has nothing but printed lengths.
 fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> TryOn {
     TryOn {
         garment: garment.clone(),
@@ -183,7 +184,7 @@ fn verdict(answer: &Answer) -> Verdict {
     }
 }
 
-/// The eases, garment by garment.
+/// Matrices of the eases, one for each garment.
 fn matrices(eases: &BTreeMap<[String; 3], Ease>) -> Vec<EaseMatrix> {
     let distinct = |axis: usize, garment: &str| {
         let mut names: Vec<String> = Vec::new();

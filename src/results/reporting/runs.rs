@@ -1,4 +1,4 @@
-//! The runs of a report, with their pictures.
+//! Runs of a report, with their pictures.
 
 use std::thread;
 
@@ -14,23 +14,22 @@ use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, RawLink, Tr
 use sim::Stage;
 use store::{InOrigin, JobId, JobRow, MetricsRow, Origin, Result, Status, Store, Value, read, sql};
 
-/// Height of the frame over the least one around the garments: shoulders, neck and hips belong to a fit.
+/// Height of the frame, divided by the least one that holds the garments: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
-/// Number of runs whose pictures the page holds at full size within its 3 MB. Of more runs they are smaller on the
-/// page, but not in the files beside it.
+/// Number of runs whose pictures are at full size within the page's 3 MB. With more runs they are smaller on the page,
+/// but not in the files beside it.
 const FULL_SIZE: usize = 6;
-/// Least scale of a picture on the page: a smaller one would show nothing. A page of 108 runs is then about 9 MB,
-/// which can still be mailed.
+/// Least scale of a picture on the page: less would show nothing. A page of 108 runs then has about 9 MB, which can
+/// still be mailed.
 const LEAST_SHRINK: f64 = 0.38;
-/// Maps of a run: with four views and one picture more, two rows of five.
+/// Maps of a run. With the four views and one more picture they fill two rows of five.
 const MAPS: [(Map, &[View]); 3] = [
     (Map::Stretch, &[View::Front, View::Back]),
     (Map::Tension, &[View::Front, View::Back]),
     (Map::Gap, &[View::Front]),
 ];
 
-/// All runs with their pictures, which share one frame, and links to sheets of them. The files of the pictures are
-/// added to `files`.
+/// Runs with pictures, which share one frame, and links to contact sheets. Adds the picture files to `files`.
 pub(super) fn report_runs(
     store: &Store,
     study: &str,
@@ -93,7 +92,7 @@ fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Resul
     jobs.iter().map(run_of).collect()
 }
 
-/// Name of a job's garment without the seed that a sweep may have given it.
+/// Name of a job's garment, without the seed that a sweep gave it.
 fn case(store: &Store, job: &JobRow) -> Result<String> {
     let swept = reporting::one(
         store,
@@ -108,7 +107,7 @@ fn case(store: &Store, job: &JobRow) -> Result<String> {
     Ok(if swept.is_empty() { job.garment.clone() } else { swept })
 }
 
-/// Shortfall of a Hybrid-GS garment by level, for the caption of its gap map.
+/// Shortfall by level of a garment by Hybrid-GS, for the caption of its gap map.
 fn lacks(store: &Store, id: JobId) -> Result<Option<String>> {
     let sql = format!(
         "SELECT group_concat(printf('%.0f mm at the %s', body_girth_mm - garment_girth_mm, level), ', ')
@@ -179,7 +178,7 @@ fn report_run(store: &Store, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
     })
 }
 
-/// Pictures of a run, its four views for a sheet, and the files beside the page.
+/// Pictures of a run, its four views for a contact sheet, and the files beside the page.
 #[derive(Default)]
 struct Shots {
     views: Vec<Picture>,
@@ -192,11 +191,11 @@ struct Shots {
 #[derive(Clone, Copy)]
 struct Format {
     frame: Frame,
-    /// Scale of the pictures on the page.
+    /// Scale of the pictures on the page, relative to the files.
     shrink: f64,
 }
 
-/// Takes the pictures of some jobs in parallel, a thread each.
+/// Takes the pictures of jobs in parallel, with a thread for each.
 fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> Vec<Result<Shots>> {
     thread::scope(|scope| {
         let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
@@ -211,7 +210,7 @@ fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], format: Format) -> V
     })
 }
 
-/// Takes the pictures of a run: smaller on the page, and at full size in the files beside it.
+/// Makes the pictures of a run: reduced for the page, and at full size for the files.
 struct Photographer<'a> {
     job: &'a JobRow,
     format: Format,
@@ -223,7 +222,7 @@ impl Photographer<'_> {
         render::render(scene, &Camera::new(view, self.format.frame), PICTURE.0, PICTURE.1).origin(Origin::Render)
     }
 
-    /// Returns a picture for the page. The file beside it has the legend of its scale drawn in.
+    /// Keeps a shot as a file, with the legend of `scale` drawn in, and returns the picture for the page.
     fn keep(&mut self, shot: RgbaImage, name: &str, caption: String, scale: Option<&Scale>) -> Result<Picture> {
         let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.format.shrink).round() as u32);
         let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
@@ -240,7 +239,7 @@ impl Photographer<'_> {
     }
 }
 
-/// Takes the pictures of a run: four views, the pop-up (Hybrid-GS) or a check of 20 mm (FEM-GS), and the maps.
+/// Takes the pictures of a run: four views; the pop-up (Hybrid-GS) or a check of 20 mm (FEM-GS); the maps.
 fn shots(job: &JobRow, worn: &Dressed, format: Format) -> Result<Shots> {
     let mut photographer = Photographer { job, format, files: Vec::new() };
     let mut scene = worn.scene(Map::Plain)?;

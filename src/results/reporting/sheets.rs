@@ -1,4 +1,4 @@
-//! Contact sheets beside a report: all try-ons of a garment and size on one picture.
+//! Contact sheets beside a report: all drapes of a garment and size in one picture.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use report::FileNames;
 use report::data::RawLink;
 use store::{InOrigin, JobRow, Origin, Result};
 
-/// Pixels of a picture on the page.
+/// Size of a picture on the page, pixels.
 pub(super) const PICTURE: (u32, u32) = (480, 540);
 
 /// Longest side of a sheet, without labels, pixels.
@@ -17,8 +17,8 @@ const SHEET_SIDE: f64 = 5500.0;
 /// Number of jobs in a column of a sheet.
 const JOBS_HIGH: f64 = 10.0;
 
-/// Contact sheets with all try-ons of a garment and size. Each is made as soon as its last job is added, since all
-/// sheets of a large study would not fit into memory.
+/// Contact sheets of all garments and sizes. Each is made when its last job is added, since memory would not hold all
+/// sheets of a large study.
 pub(super) struct Sheets<'a> {
     study: &'a str,
     names: FileNames,
@@ -27,17 +27,17 @@ pub(super) struct Sheets<'a> {
 
 /// A sheet that is not yet complete.
 struct Sheet {
-    /// Number of jobs that are not yet on it.
+    /// Number of jobs still to be added.
     left: usize,
     columns: usize,
-    /// Pixels of a picture.
+    /// Size of a picture, pixels.
     size: [u32; 2],
     cells: Vec<Cell>,
 }
 
 impl Sheet {
-    /// Creates the sheet of a number of jobs. Many of them stand in several columns, so that it stays about square and
-    /// below [`SHEET_SIDE`].
+    /// Creates the sheet of `jobs` jobs. Many jobs stand in several columns, so that it is about square and within
+    /// [`SHEET_SIDE`].
     fn new(jobs: usize) -> Self {
         let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
         let rows = (jobs as f64 / beside).ceil();
@@ -60,7 +60,7 @@ impl Sheet {
 }
 
 impl<'a> Sheets<'a> {
-    /// Creates the empty sheets of a study's jobs.
+    /// Creates the empty sheets for a study's jobs.
     pub(super) fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
         let mut counts: BTreeMap<_, usize> = BTreeMap::new();
         for job in jobs {
@@ -73,7 +73,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Adds the pictures of a job. Returns the sheet that it completes, as a link and the file behind it.
+    /// Adds the pictures of a job. If they complete a sheet, returns a link to it and its file.
     pub(super) fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(RawLink, Vec<u8>)>> {
         let (garment, size) = (job.garment.as_str(), job.size.as_str());
         let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
@@ -91,7 +91,7 @@ impl<'a> Sheets<'a> {
                 let label = format!("all try-ons of {garment}, size {size}, on one sheet");
                 Ok(Some((RawLink { href: format!("pictures/{name}.jpg"), label }, picture)))
             }
-            // Thousands of runs fit on no sheet; each has its own pictures.
+            // No sheet holds thousands of runs; each run has its own pictures.
             Err(RenderError::Size { .. }) => Ok(None),
             Err(error) => Err(error).origin(Origin::Render),
         }

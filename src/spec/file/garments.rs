@@ -35,15 +35,15 @@ const GARMENT_KEYS: [&str; 15] = [
     "memory_limit_mb",
 ];
 
-/// Values that all garments of a file share.
+/// Values that are common to all garments of a file.
 pub(super) struct Common<'a> {
     /// Folder of the file.
     pub folder: &'a Path,
-    /// Fabrics that they may name.
+    /// Fabrics that a garment may name.
     pub fabrics: &'a BTreeMap<String, Fabric>,
-    /// Styles that they may name.
+    /// Styles that a garment may name.
     pub styles: &'a BTreeMap<String, KnownStyle>,
-    /// Edge length of the finest mesh, m, of garments that give none.
+    /// Edge length of the finest mesh, m, for garments that give none.
     pub edge_length_m: f64,
     /// Parameters of the simulators; those of a garment replace them.
     pub parameters: Parameters,
@@ -117,7 +117,7 @@ pub(super) fn garments(
     garments
 }
 
-/// Reports sizes that would be the same pieces: several sizes of one file that does not hold each of them.
+/// Reports several sizes that would have the same pieces, since their one pattern file does not hold each of them.
 fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], unit: Option<&str>) {
     let mut by_file: BTreeMap<String, Vec<&SizeFile>> = BTreeMap::new();
     for size in sizes {
@@ -125,7 +125,7 @@ fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], un
     }
     for sharing in by_file.into_values().filter(|sharing| sharing.len() > 1) {
         let pattern = &sharing[0].pattern;
-        // The reason why a file cannot be read is reported elsewhere.
+        // Elsewhere the reason is reported why a file cannot be read.
         let Some(held) = held_sizes(pattern, unit.and_then(unit_of)) else { continue };
         let mut taken = BTreeSet::new();
         for size in &sharing {
@@ -147,7 +147,7 @@ fn told_apart(reader: &mut Reader<'_>, place: &Place<'_>, sizes: &[SizeFile], un
     }
 }
 
-/// Names of the sizes that a pattern holds; `None` where it cannot be read.
+/// Names of the sizes that a pattern holds; `None` where the pattern cannot be read.
 fn held_sizes(pattern: &SourceFile, unit: Option<Unit>) -> Option<Vec<String>> {
     if pattern.holds_seams() {
         return Some(vec![String::new()]);
@@ -156,7 +156,7 @@ fn held_sizes(pattern: &SourceFile, unit: Option<Unit>) -> Option<Vec<String>> {
     Some(nest.sizes().into_iter().map(str::to_owned).collect())
 }
 
-/// Reads a style of the catalogue in all of its sizes, or in those that are named.
+/// Reads a style of the catalogue: the sizes that are named, or all.
 fn in_catalogue(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -185,12 +185,12 @@ fn in_catalogue(
     sewn
 }
 
-/// Names of the subjects who wear a garment: those that it names, or else all of the file.
+/// Names of the subjects who wear a garment: those that the garment names, or else all of the file.
 fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
     let Some(names) = reader.texts(garment, "subjects") else {
         return subjects.iter().map(|subject| subject.id.clone()).collect();
     };
-    // A subject that is in the file but wrong is reported once, at its own line.
+    // A subject with an error is reported once, at its own line, and not again as unknown.
     let known: BTreeMap<String, ()> = reader
         .tables(top, "subject", "subject")
         .iter()
@@ -229,7 +229,7 @@ pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) 
     garments
 }
 
-/// Reads the name of a garment, and gives it to the place for messages.
+/// Reads the name of a garment and adds it to the place, for messages.
 fn named<'t>(
     reader: &mut Reader<'_>,
     place: &mut Place<'t>,

@@ -1,7 +1,7 @@
 //! The study file `study.toml`: which subjects wear which garments, in which fabric, by which simulators.
 //!
-//! `docs/reference.md` lists its keys, and a test compares that page with the keys that are read here.
-//! The whole file is checked before anything runs, and all problems are reported at once.
+//! `docs/reference.md` lists its keys; a test compares that page with the keys read here. The whole file is checked
+//! before anything runs, and all problems are reported at once.
 
 mod garments;
 mod outfits;
@@ -33,14 +33,14 @@ use store::{InFile, Origin, Problem, Result, StudyError};
 pub struct Subject {
     /// Name in results.
     pub id: String,
-    /// The person, in the pose of the results.
+    /// Person, in the pose that results are about.
     pub person: Person,
-    /// Pose in which garments are put on, where the body then moves into another pose and carries them.
+    /// Pose in which garments are put on, if the body then moves to `person.pose` and carries them along.
     pub carried_from: Option<Pose>,
 }
 
 impl Subject {
-    /// The same subject in the pose in which garments are put on; `None` where that is the pose of the results.
+    /// The same subject in the pose in which garments are put on; `None` where garments are not carried.
     #[must_use]
     pub fn dressed(&self) -> Option<Self> {
         let (from, to) = (self.carried_from?, self.person.pose?);
@@ -49,7 +49,7 @@ impl Subject {
         Some(Self { id: format!("{name} {from}"), person, carried_from: None })
     }
 
-    /// True if a name is that of the subject, or of the person of whom it is one pose.
+    /// True if a name is that of the subject, or of the person whom the subject shows in one pose.
     #[must_use]
     pub fn is_called(&self, name: &str) -> bool {
         let of_pose = || self.person.pose.is_some_and(|pose| self.id == format!("{name} {pose}"));
@@ -60,17 +60,17 @@ impl Subject {
 /// A person who wears garments.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Person {
-    /// Known measurements of the body; of a scan, those that are taken on it.
+    /// Measurements of the body; for a scan, those taken on the scan.
     pub measurements: Measurements,
-    /// The scan that is the body, where there is one.
+    /// Scan that is the body; `None` where the body is built from measurements.
     pub scan: Option<ScanFile>,
-    /// Pose, where it differs from the one that the body is built or scanned in.
+    /// Pose; `None` for the pose in which the body is built or scanned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
 }
 
 impl Person {
-    /// Makes the body: the scan, or one that is built from the measurements, in its pose.
+    /// Makes the body, from the scan or from the measurements, in its pose.
     ///
     /// # Errors
     /// When no body has the measurements, or the scan cannot wear garments or take the pose.
@@ -96,10 +96,10 @@ impl From<Measurements> for Person {
 }
 
 impl ScanFile {
-    /// Reads a scan and measures it. Its unit and sex are inferred where they are not given.
+    /// Reads and measures a scan. Unit and sex are inferred where they are not given.
     ///
     /// # Errors
-    /// When it is no standing person.
+    /// When the scan is no standing person.
     pub fn read(self, sex: Option<Sex>) -> Result<ScannedPerson> {
         let found = bodies::whole_scan(&self.file, self.unit, sex)?;
         let person = Person { measurements: found.girths.measurements(found.sex), scan: Some(self), pose: None };
@@ -110,7 +110,7 @@ impl ScanFile {
 /// A person whose body is a scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScannedPerson {
-    /// The person, with the measurements of the scan.
+    /// Person, with the measurements taken on the scan.
     pub person: Person,
     /// Remarks on guesses and repairs.
     pub notes: Vec<String>,
@@ -119,9 +119,9 @@ pub struct ScannedPerson {
 /// A body scan of a study.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct ScanFile {
-    /// OBJ, PLY, STL or GLB.
+    /// Mesh file: OBJ, PLY, STL or GLB.
     pub file: SourceFile,
-    /// Unit of the file; inferred from its height where it is not given.
+    /// Unit of the file; `None` to infer it from the height.
     pub unit: Option<LengthUnit>,
 }
 
@@ -139,45 +139,45 @@ pub struct SizeFile {
 pub struct GarmentEntry {
     /// Name in results.
     pub name: String,
-    /// Identifiers of the subjects who wear it, in order.
+    /// Identifiers of the subjects who wear the garment, in order.
     pub subjects: Vec<String>,
     /// Seam file; `None` where the patterns hold their own seams (GarmentCode JSON).
     pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
-    /// Fabric that it is cut from.
+    /// Fabric that the garment is cut from.
     pub fabric: Fabric,
     /// Sizes, in order.
     pub sizes: Vec<SizeFile>,
-    /// Its style in the catalogue.
+    /// Name of the garment's style in the catalogue.
     pub style: String,
     /// Edge length of the finest cloth mesh, m.
     pub edge_length_m: f64,
-    /// Values of the simulators' parameters that are not the default ones.
+    /// Parameters of the simulators that differ from their defaults.
     pub parameters: Parameters,
-    /// Intended ease; no input of a result.
+    /// Intended ease, which results do not depend on.
     pub target: Target,
-    /// Names and values that a sweep gave it.
+    /// Names and values that a sweep gave the garment.
     pub swept: Vec<(String, String)>,
-    /// Priority, order and limits of its jobs.
+    /// Priority, order and limits of the garment's jobs.
     pub schedule: Schedule,
-    /// The outfit of which it is a layer.
+    /// Outfit of which the garment is a layer, if any.
     pub outfit: Option<WornWith>,
 }
 
-/// The place of a garment in an outfit.
+/// Place of a garment in an outfit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WornWith {
     /// Name of the outfit.
     pub name: String,
-    /// Its layer, the inmost 0.
+    /// Index of the garment's layer, the inmost 0.
     pub layer: usize,
-    /// All layers as garments of their own; sizes at the same index of their lists are worn together.
+    /// All layers as garments of their own. Sizes with the same index in each layer's list are worn together.
     pub layers: Vec<GarmentEntry>,
 }
 
 impl GarmentEntry {
-    /// Its name in the file, without the values that a sweep appends.
+    /// Name of the garment in the file, without the values that a sweep appends.
     #[must_use]
     pub fn unswept_name(&self) -> &str {
         self.swept.iter().rev().fold(&self.name, |name, (axis, value)| {
@@ -187,7 +187,7 @@ impl GarmentEntry {
     }
 }
 
-/// A study, checked and with all its inputs read.
+/// A study, checked and with all its inputs in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// Name of the study: that in the file, or that of its folder.
@@ -198,11 +198,11 @@ pub struct Study {
     pub subjects: Vec<Subject>,
     /// Garments, in order.
     pub garments: Vec<GarmentEntry>,
-    /// Layers of outfits, in order.
+    /// Layers of outfits as garments, in order.
     pub layers: Vec<GarmentEntry>,
     /// Simulators, in order.
     pub simulators: Vec<Simulator>,
-    /// Simulations of each cell.
+    /// Number of simulations of each combination of garment, size, subject and simulator.
     pub repeats: u32,
     /// Eases at which the fit classes meet.
     pub cuts: Cuts,
@@ -213,11 +213,11 @@ pub struct Study {
 pub struct Known {
     /// Subjects of the catalogue.
     pub subjects: BTreeMap<String, Person>,
-    /// Fabrics of the catalogue and the library.
+    /// Fabrics of the catalogue and of the program.
     pub fabrics: BTreeMap<String, Fabric>,
     /// Styles of the catalogue with their sizes.
     pub styles: BTreeMap<String, KnownStyle>,
-    /// Entries that were removed and stay stored: `subject male-ii`.
+    /// Entries that were removed but stay stored, such as `subject male-ii`.
     pub hidden: BTreeSet<String>,
 }
 
@@ -226,7 +226,7 @@ pub struct Known {
 pub struct KnownStyle {
     /// Seam file; `None` where the patterns hold their own seams.
     pub seams: Option<SourceFile>,
-    /// Its sizes.
+    /// Sizes of the style.
     pub sizes: Vec<KnownSize>,
 }
 
@@ -244,7 +244,7 @@ pub struct KnownSize {
 pub struct Placed<T> {
     /// Path of the file.
     pub file: PathBuf,
-    /// Its line, from 1.
+    /// Line of the entry, from 1.
     pub line: usize,
     /// Name of the entry.
     pub name: String,
@@ -253,7 +253,7 @@ pub struct Placed<T> {
 }
 
 impl<T> Placed<T> {
-    /// Converts the entry, and keeps its line.
+    /// Converts the entry; place and name stay.
     pub fn map<U>(self, make: impl FnOnce(T) -> U) -> Placed<U> {
         let Self { file, line, name, entry } = self;
         Placed { file, line, name, entry: make(entry) }
@@ -268,7 +268,7 @@ impl<T> Placed<T> {
 /// Seams and sizes of a garment: a `[[garment]]` without its fabric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sewn {
-    /// Seam file; `None` where a file brings sizes only.
+    /// Seam file; `None` where a file has sizes only.
     pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
@@ -283,19 +283,19 @@ pub fn study_file(path: &Path) -> PathBuf {
 }
 
 impl Study {
-    /// Sets limits of each simulation, in place of those of the file.
+    /// Sets limits of each simulation, which replace those of the file.
     pub fn limit(&mut self, limits: Limits) {
         for garment in self.garments.iter_mut().chain(&mut self.layers) {
             garment.schedule.limits = limits.or(garment.schedule.limits);
         }
     }
 
-    /// All garments that have results, in order: those worn alone, then the layers of outfits.
+    /// All garments that have results: those worn alone, then the layers of outfits.
     pub fn worn(&self) -> impl Iterator<Item = &GarmentEntry> {
         self.garments.iter().chain(&self.layers)
     }
 
-    /// Reads and checks a study: the file or its folder.
+    /// Reads and checks a study, by the path of its file or of its folder.
     ///
     /// # Errors
     /// [`StudyError::File`] with all problems; [`StudyError::Io`] when the file itself cannot be read.
@@ -306,7 +306,7 @@ impl Study {
     }
 }
 
-/// Reads the subjects of the text of a study file, or of a file with subjects only.
+/// Reads the subjects of a text: that of a study file, or of a file with nothing but subjects.
 pub fn subjects(path: &Path, text: &str, known: &Known) -> std::result::Result<Vec<Placed<Subject>>, Vec<Problem>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     parse::entries(path, text, |reader, top| {
@@ -315,18 +315,18 @@ pub fn subjects(path: &Path, text: &str, known: &Known) -> std::result::Result<V
     })
 }
 
-/// Reads the fabrics of the text of a study file, or of a file with fabrics only.
+/// Reads the fabrics of a text: that of a study file, or of a file with nothing but fabrics.
 pub fn fabrics(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Fabric>>, Vec<Problem>> {
     parse::entries(path, text, parse::own_fabrics)
 }
 
-/// Reads the garments of the text of a study file, or of a file with garments only, without their fabric.
+/// Reads the garments, without their fabrics, of a text: that of a study file, or of a file with nothing but garments.
 pub fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Sewn>>, Vec<Problem>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     parse::entries(path, text, |reader, top| garments::all_sewn(reader, top, folder))
 }
 
-/// True if the ending of a file is one of measurements, not of a mesh.
+/// True if a file's ending is one of measurements and not of a mesh.
 pub fn holds_measurements(path: &Path) -> bool {
     ["toml", "smis", "vit", "yaml", "yml", "json"]
         .iter()
@@ -334,7 +334,7 @@ pub fn holds_measurements(path: &Path) -> bool {
 }
 
 /// Reads measurements from a TOML file with the keys of a `[[subject]]`, or from a file of SeamlyMe, Valentina or
-/// GarmentCode. `sex` counts where such a file names none.
+/// GarmentCode. `sex` is used where such a file names none.
 ///
 /// # Errors
 /// All problems of the file at once.
@@ -348,11 +348,11 @@ pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> 
     body::read_foreign(&source.bytes, sex).map_err(in_file)
 }
 
-/// Makes the body of a file of measurements or of a mesh; returns it with remarks on guesses. `unit` and `sex` count
+/// Makes a body from a file of measurements or a mesh; returns it with remarks on guesses. `unit` and `sex` are used
 /// where they cannot be inferred from the file.
 ///
 /// # Errors
-/// When it cannot be used.
+/// When the file cannot be read, or no body can be made from it.
 pub fn read_body(path: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Body, Vec<String>)> {
     if holds_measurements(path) {
         return Ok((bodies::build_body(&read_measurements(path, sex)?)?, Vec::new()));

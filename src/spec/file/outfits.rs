@@ -1,4 +1,4 @@
-//! The `[[outfit]]` tables of a study file: garments worn over each other.
+//! The `[[outfit]]` tables of a study file: garments worn on top of each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,10 +8,11 @@ use crate::file::reader::{Place, Reader};
 use crate::file::values::{lookup, unique};
 use crate::file::{GarmentEntry, SizeFile, WornWith};
 
-/// Accepted numbers of layers. Contact keeps no more than five apart.
+/// Accepted numbers of layers; contact keeps at most five apart.
 const LAYERS: std::ops::RangeInclusive<usize> = 2..=5;
 
-/// Reads every layer of every outfit as a garment of its own, such as `office shirt`.
+/// Reads every layer of every outfit as a garment of its own. The layer `shirt` of the outfit `office` becomes `office
+/// shirt`.
 pub(super) fn outfits(reader: &mut Reader<'_>, top: &Place<'_>, garments: &[GarmentEntry]) -> Vec<GarmentEntry> {
     let known: BTreeMap<String, &GarmentEntry> =
         garments.iter().map(|garment| (garment.name.clone(), garment)).collect();
@@ -31,7 +32,7 @@ pub(super) fn outfits(reader: &mut Reader<'_>, top: &Place<'_>, garments: &[Garm
     all
 }
 
-/// The garments of an outfit, the inmost first.
+/// Garments of an outfit, the inmost first.
 fn layers<'k>(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -56,8 +57,8 @@ fn layers<'k>(
     Some(found.into_iter().copied().collect())
 }
 
-/// The sizes that are worn together, one of each layer: those that are named, or else all that the layers have in
-/// common, or else the only size of each.
+/// Sizes that are worn together, each with one size of every layer: those that the outfit names; else all that the
+/// layers have in common; else the only size of each layer.
 fn sizes(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Option<Vec<Vec<SizeFile>>> {
     let size_of = |layer: &GarmentEntry, name: &str| layer.sizes.iter().find(|size| size.name == name).cloned();
     if let Some(named) = reader.texts(place, "sizes") {
@@ -94,7 +95,7 @@ fn known_sizes(layer: &GarmentEntry) -> String {
     layer.sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// Names of the subjects who wear an outfit: all who wear every layer, or those among them that it names.
+/// Names of the subjects who wear an outfit: all who wear every layer, or those of them that the outfit names.
 fn wearers(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry]) -> Vec<String> {
     let first = layers.first().map_or(&[][..], |layer| &layer.subjects);
     let all: Vec<String> =
@@ -110,13 +111,13 @@ fn wearers(reader: &mut Reader<'_>, place: &Place<'_>, layers: &[&GarmentEntry])
     wanted.map(|name| (*name.get_ref()).to_owned()).collect()
 }
 
-/// Place of a key in the text, or of its table where it is missing.
+/// Span of a key in the text, or of its table where the key is missing.
 fn span(place: &Place<'_>, key: &str) -> std::ops::Range<usize> {
     place.table.get(key).map_or(place.span.clone(), Spanned::span)
 }
 
-/// The layers of an outfit as garments. Each waits for the layer under it, since one simulation drapes them all, and
-/// its result is kept.
+/// The layers of an outfit as garments. Each layer waits for the one under it: one simulation drapes all layers, and
+/// the later jobs take its cached drape.
 fn worn(outfit: &str, layers: &[&GarmentEntry], sizes: &[Vec<SizeFile>], subjects: &[String]) -> Vec<GarmentEntry> {
     let together: Vec<GarmentEntry> = layers
         .iter()

@@ -36,7 +36,7 @@ const STUDY_KEYS: [&str; 13] = [
     "memory_limit_mb",
 ];
 
-/// Reads the text of a study file; files that it names are looked up beside it.
+/// Reads the text of a study file. Paths in it begin at the file's folder.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     reader.hidden.clone_from(&known.hidden);
@@ -95,7 +95,7 @@ pub(super) fn entries<T>(
     reader.end(entries)
 }
 
-/// Reads a file with one entry: the table `[[key]]`, or the whole file where it has no such header.
+/// Reads the one entry of a file: its table `[[key]]`, or the whole file where it has no such header.
 fn sole<'t, T>(
     path: &'t Path,
     text: &'t str,
@@ -139,7 +139,7 @@ pub(super) fn fabric_file(path: &Path, text: &str) -> Result<Fabric, Vec<Problem
     })
 }
 
-/// Parses TOML. Where it is broken only those errors are reported, since all others would follow from them.
+/// Parses TOML. Reports syntax errors alone, since all other problems would follow from them.
 fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTable<'t>>), Vec<Problem>> {
     let mut reader = Reader::new(path, text);
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -193,7 +193,7 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-/// The known fabrics and those of the file; of two with the same name that of the file counts.
+/// Fabrics that the file may name: its own and the known ones. Of two with the same name the file's own counts.
 fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fabric>) -> BTreeMap<String, Fabric> {
     let mut fabrics = known.clone();
     fabrics.extend(own_fabrics(reader, top).into_iter().map(|placed| (placed.name, placed.entry)));
@@ -207,7 +207,7 @@ pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Place
     places.into_iter().filter_map(|place| own_fabric(reader, place, &mut names)).collect()
 }
 
-/// Reads one fabric; its name must differ from those before it.
+/// Reads one fabric, whose name must differ from those before it.
 fn own_fabric<'t>(
     reader: &mut Reader<'_>,
     mut place: Place<'t>,

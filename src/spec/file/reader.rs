@@ -1,4 +1,4 @@
-//! A reader of TOML that collects all problems: the line, the finding, and what would be accepted.
+//! A reader of TOML that collects all problems, each with its line, the finding and the accepted values.
 
 use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
@@ -10,23 +10,23 @@ use toml::de::{DeTable, DeValue};
 use crate::file::Placed;
 use store::{Problem, nearest};
 
-/// Reader of one file, with its problems.
+/// Reader of one file with the problems found so far.
 pub(super) struct Reader<'a> {
     path: &'a Path,
     text: &'a str,
-    /// Positions of the line feeds, bytes, ascending.
+    /// Positions of the line feeds, in bytes, ascending.
     ends: Vec<usize>,
     pub problems: Vec<Problem>,
-    /// Entries of the catalogue that were removed and stay stored: `subject male-ii`.
+    /// Entries of the catalogue that were removed but stay stored, such as `subject male-ii`.
     pub hidden: BTreeSet<String>,
 }
 
-/// A table of the file with its name for messages.
+/// A table of the file, with a name for messages.
 #[derive(Clone)]
 pub(super) struct Place<'t> {
-    /// `[fit]`, `subject ii`, ...
+    /// Name, such as `[fit]` or `subject ii`.
     pub name: String,
-    /// Place in the text, bytes.
+    /// Span in the text, bytes.
     pub span: Range<usize>,
     pub table: &'t DeTable<'t>,
 }
@@ -37,7 +37,7 @@ impl<'a> Reader<'a> {
         Self { path, text, ends, problems: Vec::new(), hidden: BTreeSet::new() }
     }
 
-    /// Adds a problem at a byte of the text.
+    /// Adds a problem at a span of the text.
     pub fn problem(&mut self, span: &Range<usize>, message: impl Into<String>) {
         let column = self.before(span).rsplit(|&byte| byte == b'\n').next().map_or(1, |line| {
             1 + line.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() // bytes that begin a character
@@ -46,7 +46,7 @@ impl<'a> Reader<'a> {
         self.problems.push(Problem { column: Some(column), ..problem });
     }
 
-    /// The line of a byte of the text, from 1.
+    /// Line where a span begins, from 1.
     pub fn line(&self, span: &Range<usize>) -> usize {
         1 + self.ends.partition_point(|end| *end < span.start)
     }
@@ -56,12 +56,12 @@ impl<'a> Reader<'a> {
         Placed { file: self.path.to_owned(), line: self.line(span), name: name.to_owned(), entry }
     }
 
-    /// The text before a place.
+    /// Text before a span.
     fn before(&self, span: &Range<usize>) -> &'a [u8] {
         &self.text.as_bytes()[..span.start.min(self.text.len())]
     }
 
-    /// Returns the value that was read, or all problems.
+    /// Ends reading: returns the value, or all problems.
     pub fn end<T>(mut self, read: T) -> Result<T, Vec<Problem>> {
         self.problems.sort_by_key(|problem| problem.line);
         if self.problems.is_empty() { Ok(read) } else { Err(self.problems) }
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         self.text(place, key)
     }
 
-    /// Optional number within a range.
+    /// Optional number, which must be within a range.
     pub fn number(&mut self, place: &Place<'_>, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
         self.checked(place, key, |number| {
             let accepted = || format!("`{key}` is {number}; accepted: {} to {}", range.start(), range.end());
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Optional number that a check accepts.
+    /// Optional number, which `check` must accept.
     pub fn checked(
         &mut self,
         place: &Place<'_>,
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
-        // A number that does not fit its type is outside of every range.
+        // A number that its type cannot hold is outside of every range.
         let accepted = check(number.unwrap_or(f64::INFINITY));
         accepted.map_err(|problem| self.problem(&value.span(), format!("{}: {problem}", place.name))).ok()
     }

@@ -9,7 +9,7 @@ use crate::schedule::{Limits, Schedule};
 
 /// Greatest limit of time, s: thirty days.
 const LONGEST_S: f64 = 30.0 * 86_400.0;
-/// Accepted limits of memory, MB. No process starts in less than the least.
+/// Accepted limits of memory, MB. A process does not even start in less than 50 MB.
 const MEMORY_MB: std::ops::RangeInclusive<f64> = 50.0..=4e6;
 /// Accepted priorities.
 const PRIORITY: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
@@ -22,7 +22,7 @@ pub(super) fn limits(reader: &mut Reader<'_>, place: &Place<'_>) -> Limits {
     }
 }
 
-/// Reads the schedule of a garment. It waits only for garments before it in the file, so that no circle can arise.
+/// Reads the schedule of a garment. A garment waits only for garments before it in the file, so that no circle arises.
 pub(super) fn schedule(
     reader: &mut Reader<'_>,
     place: &Place<'_>,
@@ -39,7 +39,7 @@ pub(super) fn schedule(
     }
 }
 
-/// Replaces the names of garments that are waited for by those that sweeps gave them.
+/// Replaces garment names in `after` by the names of the garments that sweeps made of them.
 pub(super) fn after_swept(mut garments: Vec<GarmentEntry>) -> Vec<GarmentEntry> {
     let names: Vec<[String; 2]> =
         garments.iter().map(|garment| [garment.unswept_name().to_owned(), garment.name.clone()]).collect();

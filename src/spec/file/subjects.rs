@@ -13,10 +13,10 @@ use crate::file::{Person, Placed, ScanFile, Subject};
 use body::{BodyError, LengthUnit, Measurements, Pose, Sex};
 use store::files::SourceFile;
 
-/// End of a message where a subject may also name an entry of the catalogue.
+/// End of a message where a subject may name an entry of the catalogue instead.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";
 
-/// Reads every `[[subject]]` table, with its problems noted in the reader.
+/// Reads every `[[subject]]` table.
 pub(super) fn subjects(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -75,8 +75,8 @@ fn pose(reader: &mut Reader<'_>, place: &Place<'_>, name: &Spanned<&str>) -> Opt
     read.map_err(|error: BodyError| reader.problem(&name.span(), format!("{}: {error}", place.name))).ok()
 }
 
-/// A subject in each of some poses, named after them; without poses the subject as it is. Garments are put on in the
-/// pose `from`, where it is given, and carried into the others.
+/// A subject in each of `poses`, named after them; the subject unchanged where there are none. With `from`, garments
+/// are put on in the pose `from` and carried into the others.
 fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<Subject> {
     let reached = |pose: &Pose| from.map_or(*pose, |from| from.then(*pose));
     let in_pose = |id: String, pose: Option<Pose>| {
@@ -89,7 +89,7 @@ fn posed(id: &str, person: &Person, poses: &[Pose], from: Option<Pose>) -> Vec<S
     poses.iter().map(reached).map(|pose| in_pose(format!("{id} {pose}"), Some(pose))).collect()
 }
 
-/// Reports a key that a subject of the catalogue or of a scan does not have.
+/// Reports keys that do not go together with `like` or a scan.
 fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
     if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
         let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
@@ -113,7 +113,7 @@ fn scanned(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, fol
     scan.read(sex).map(|read| read.person).map_err(problem).ok()
 }
 
-/// Reads measurements from the keys of a table; `or` ends the message where the sex is missing.
+/// Reads measurements from the keys of a table. `or` ends the message about a missing sex.
 pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
     let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
     let sex = word.and_then(|word| sex_of(reader, place, &word));

@@ -1,7 +1,7 @@
-//! `[parameters]` and `[[sweep]]` of a study file: other values of parameters, fabrics and edge lengths, and every
-//! combination of lists of them.
+//! `[parameters]` and `[[sweep]]` of a study file: values of parameters, fabrics and edge lengths, and all combinations
+//! of lists of values.
 //!
-//! A sweep makes a garment of each combination, named after it: `tshirt offset_mu=0.4 bend_angle_deg=120`.
+//! A sweep makes a garment of each combination and names it so: `tshirt offset_mu=0.4 bend_angle_deg=120`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,10 +19,10 @@ use sim::Fabric;
 
 /// Accepted edge lengths of a mesh, mm.
 pub(super) const EDGE_MM: std::ops::RangeInclusive<f64> = 2.0..=100.0;
-/// Greatest number of garments that a sweep may make of one.
+/// Greatest number of garments that a sweep may make of one garment.
 const MOST: usize = 10_000;
 
-/// One value of an axis.
+/// One value of a swept quantity.
 #[derive(Clone)]
 enum Setting {
     Fabric(Fabric),
@@ -31,7 +31,7 @@ enum Setting {
     Parameter(String, Json),
 }
 
-/// A swept quantity with its values.
+/// A swept quantity and its values.
 struct Axis {
     name: String,
     settings: Vec<(String, Setting)>,
@@ -53,7 +53,7 @@ pub(super) fn parameters(reader: &mut Reader<'_>, place: &Place<'_>) -> Paramete
     parameters
 }
 
-/// Replaces each garment that a sweep is about by the garments that the sweep makes of it.
+/// Replaces each garment of a sweep by the garments that the sweep makes of it.
 pub(super) fn swept(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
@@ -84,7 +84,7 @@ pub(super) fn swept(
     garments.into_iter().flat_map(|garment| made.remove(&garment.name).unwrap_or_else(|| vec![garment])).collect()
 }
 
-/// Names of the garments that a sweep is about: those that it names, or all.
+/// Names of the garments of a sweep: those that it lists, or all.
 fn chosen(reader: &mut Reader<'_>, place: &Place<'_>, garments: &[GarmentEntry]) -> Vec<String> {
     let known: BTreeMap<String, ()> = garments.iter().map(|garment| (garment.name.clone(), ())).collect();
     match reader.texts(place, "garments") {
@@ -131,7 +131,7 @@ fn apply(variant: &mut GarmentEntry, setting: &Setting, short: &str, text: &str)
     }
 }
 
-/// Reads the lists of a sweep, by name.
+/// Reads the lists of values of a sweep, by the names of their quantities.
 fn axes(reader: &mut Reader<'_>, place: &Place<'_>, fabrics: &BTreeMap<String, Fabric>) -> Vec<Axis> {
     let mut axes = Vec::new();
     for (name, value) in leaves("", place.table).into_iter().filter(|(name, _)| name != "garments") {
@@ -194,7 +194,7 @@ fn setting(name: &str, item: &Spanned<DeValue<'_>>, fabrics: &BTreeMap<String, F
     Ok(Setting::Parameter(name.to_owned(), value))
 }
 
-/// All values of a table and of its tables, each with its dotted name.
+/// All values of a table and its subtables, each under its dotted name.
 fn leaves<'t>(prefix: &str, table: &'t DeTable<'t>) -> Vec<(String, &'t Spanned<DeValue<'t>>)> {
     let mut found = Vec::new();
     for (key, value) in table.iter() {
@@ -207,7 +207,7 @@ fn leaves<'t>(prefix: &str, table: &'t DeTable<'t>) -> Vec<(String, &'t Spanned<
     found
 }
 
-/// A value of TOML as one of JSON; a number that does not fit its type becomes null.
+/// Converts a TOML value to JSON; a number that its type cannot hold becomes null.
 fn json(value: &DeValue<'_>) -> Json {
     match value {
         DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).map_or(Json::Null, Json::from),

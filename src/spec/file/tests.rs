@@ -89,7 +89,7 @@ sizes = [{ name = "S", patern = "tee-s.dxf" }]
     insta::assert_snapshot!(told.expect_err("bad"));
 }
 
-/// Two garments with two sizes each, and another of one size, with an outfit.
+/// Two garments of two sizes each, and a third of one size, with an outfit.
 fn layered(outfit: &str) -> String {
     let sizes = |names: &[&str]| {
         let one = |name: &&str| format!("{{ name = \"{name}\", pattern = \"tee-s.dxf\" }}");
@@ -120,7 +120,7 @@ fn an_outfit_is_a_garment_a_layer_in_the_sizes_that_are_worn_together() {
             })
             .collect();
         assert_eq!(of_outfit, expect, "{outfit}");
-        // Each layer's result is kept by all that is worn with it.
+        // Ids are the same for all layers of an outfit in one size.
         let ids: BTreeSet<String> = jobs.iter().filter_map(|job| Some(job.outfit.as_ref()?.id())).collect();
         assert_eq!(ids.len() * study.layers.len(), of_outfit.len());
     };
@@ -318,7 +318,7 @@ fn a_subject_stands_in_the_poses_that_it_names() {
     };
     assert_eq!(worn("\"ii\""), "ii arms_15, ii arms_60");
     assert_eq!(worn("\"ii arms_60\", \"x\""), "ii arms_60, x");
-    // One pose leaves the name; each is an input of its own.
+    // A single pose does not change the name.
     let one = subjects("pose = \"arms_60\"").expect("a pose");
     assert_eq!(
         (one[0].id.as_str(), one[0].person.pose.map(|pose| pose.to_string())),
@@ -343,7 +343,7 @@ fn a_garment_is_carried_from_the_pose_in_which_it_is_put_on() {
     let jobs = crate::jobs(&study);
     let of_subject = |id: &str| jobs.iter().filter(move |job| job.subject == id).collect::<Vec<_>>();
     assert!(of_subject("ii arms_60").iter().all(|job| job.simulator == Simulator::Fem), "friction carries it");
-    // What it is carried from is what is draped in that pose, to the bit.
+    // The drape that is carried is exactly that of a job in the first pose.
     let (dressed, carried) = (of_subject("ii arms_15"), of_subject("ii arms_60"));
     let before = carried[0].dressed.as_ref().expect("it is put on first");
     let alone = dressed.iter().find(|job| job.simulator == Simulator::Fem).expect("by FEM-GS");

@@ -1,4 +1,4 @@
-//! Values that several tables of a study file hold: numbers of an entry, unique names, names to look up, files.
+//! Kinds of values that occur in several tables of a study file: numbers of an entry, unique names, references, files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::file::reader::{Place, Reader};
 use store::files::SourceFile;
 use store::{StudyError, hidden_hint, nearest};
 
-/// Reads the numbers of an entry into a blank one; `None` where one is wrong or missing.
+/// Reads the numbers of an entry into a blank entry; `None` where a number is wrong or missing, which is reported.
 pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
     let before = reader.problems.len();
     for field in T::fields() {
@@ -43,8 +43,8 @@ pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>,
     }
 }
 
-/// Returns an entry by name; adds a problem with a suggestion where there is none. Where the entry may be of the
-/// catalogue, the first word of `what` is its part.
+/// Returns an entry by name; reports a name that is missing, with a suggestion. `what` says the kind of entry; for
+/// kinds that the catalogue has too, it begins with the part of the catalogue.
 pub(super) fn lookup<'k, T>(
     reader: &mut Reader<'_>,
     known: &'k BTreeMap<String, T>,
@@ -64,7 +64,7 @@ pub(super) fn lookup<'k, T>(
     found
 }
 
-/// Reads a file beside the study file; adds a problem with a suggestion where it cannot be read.
+/// Reads a file beside the study file; reports a file that cannot be read, with a suggestion.
 pub(super) fn source(
     reader: &mut Reader<'_>,
     place: &Place<'_>,

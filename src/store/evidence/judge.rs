@@ -1,4 +1,4 @@
-//! Evaluation of the evidence of a study, and its storage for the view.
+//! Evidence of a study, judged from its results and stored for `v_recommendation`.
 
 use rusqlite::{Connection, Row, named_params, params};
 
@@ -8,7 +8,7 @@ use crate::transaction::lightly;
 use fit::{self, Cell, Errors, Evidence, Pair};
 use geom::units::from_mm;
 
-/// Cases with a converged result of both simulators, a row for each measurement; repeats are averaged.
+/// Cases with converged results of both simulators, a row for each measurement; repeats are averaged.
 const PAIRS: &str = "
     WITH error AS (
         SELECT chi.garment, chi.size, chi.subject, chi.simulator, measurement_no, measurement, is_free_edge, is_controlled,
@@ -33,15 +33,15 @@ struct Judged {
     basis: Basis,
 }
 
-/// Fingerprint of the pairs of a study: it changes when they change.
+/// Fingerprint of the pairs of a study, to tell whether they changed.
 struct Basis {
     pairs: i64,
-    /// Sum of their differences of EI and of their eases, mm.
+    /// Sum over all pairs of the difference of EI and of the ease in mm.
     checksum: f64,
 }
 
-/// Judges the results of a study again where they changed since they were last judged, and stores the evidence. Other
-/// connections may write meanwhile: the view shows evidence only while its basis is that of the results.
+/// Judges the results of a study where they changed since the last time, and stores the evidence. Other connections may
+/// write meanwhile; the view hides evidence whose basis is not that of the present results.
 pub fn update(connection: &mut Connection, study: &str) -> Result<()> {
     let reading = connection.transaction()?;
     let judged = if is_judged(&reading, study)? { None } else { Some(judge(&reading, study)?) };
@@ -54,7 +54,7 @@ pub fn refresh(connection: &Connection, study: &str) -> Result<()> {
     keep(connection, study, &judge(connection, study)?)
 }
 
-/// True if the stored evidence of a study is that of its present results, for all its garments and fit classes.
+/// True if the stored evidence of a study was judged from its present results, for all its garments and fit classes.
 fn is_judged(connection: &Connection, study: &str) -> Result<bool> {
     let kept =
         "SELECT count(*) FROM evidence JOIN study USING (study_id) WHERE name = ? AND pairs = ? AND checksum = ?";
@@ -109,7 +109,7 @@ fn keep(connection: &Connection, study: &str, judged: &Judged) -> Result<()> {
     Ok(())
 }
 
-/// Judges every study of a database whose views have just come to be.
+/// Judges every study of a database, after a migration that made the views anew.
 pub(crate) fn refresh_all(connection: &Connection) -> Result<()> {
     let mut statement = connection.prepare("SELECT name FROM study ORDER BY name")?;
     let names: Vec<String> = statement.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;

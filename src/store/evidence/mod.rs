@@ -14,7 +14,7 @@ pub use judge::{refresh, update};
 /// Name of the study that stands for the printed tables of the thesis.
 pub const PUBLISHED: &str = "thesis-published";
 
-/// Evidence from the present results of a study: an answer for every garment and fit class.
+/// Evidence from the present results of a study, with an answer for every garment and fit class.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -31,7 +31,7 @@ pub fn pairs(store: &Store, study: &str) -> Result<Vec<Pair>> {
     if study == PUBLISHED { published::pairs(&store.reader) } else { stored_pairs(&store.reader, study) }
 }
 
-/// The ease at which the simulators have the same EI, over all garments of a study or one, in words.
+/// Ease at which both simulators have the same EI, for one garment of a study or for all together, in words.
 ///
 /// # Errors
 /// When the database cannot be read.

@@ -8,9 +8,9 @@ use fit::{Cuts, Errors, Pair, Simulator};
 use geom::units::from_mm;
 
 /// A row for each measurement of each case and simulator. The thesis prints no pattern girth at chest or hip, so the
-/// ease is a substitute: the hem girth less the chest girth for tops and the dress, the waist girth less the hip girth
-/// for trousers. The lengths are FEM's L2D, since Table 6-21 prints another length as the waist. Subjects of both sexes
-/// have the same names, so the sex is put before the name.
+/// ease here is the hem girth less the chest girth for tops and the dress, and the waist girth less the hip girth for
+/// trousers. The pattern lengths are those printed for FEM, since Table 6-21 prints another waist length for Hybrid.
+/// Subjects of both sexes have the same names, so the sex is put before the name.
 const ROWS: &str = "
     WITH girth AS (
         SELECT garment, size, l2d_mm FROM published
@@ -23,12 +23,12 @@ const ROWS: &str = "
         JOIN body ON name = substr(garment, 1, instr(garment, '_') - 1) || '-' || subject
     ORDER BY garment, size, name, measurement_no, simulator";
 
-/// Names of measurements along an edge that no seam holds, as printed.
+/// Printed names, or their first words, of measurements along an edge that no seam holds.
 const FREE_EDGES: [&str; 3] = ["Hem", "Sleeve Opening", "Neck Opening"];
-/// Name of the measurement that pop-up sets to its pattern length by construction [T 5.4].
+/// Measurement that Hybrid-GS's pop-up step sets to its pattern length by construction [T 5.4].
 const CONTROLLED: &str = "Hem";
 
-/// Returns all 54 cases.
+/// Returns all 54 cases of the thesis.
 pub fn pairs(connection: &Connection) -> Result<Vec<Pair>> {
     let mut statement = connection.prepare_cached(ROWS)?;
     let mut rows = statement.query([])?;

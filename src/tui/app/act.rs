@@ -1,4 +1,4 @@
-//! Actions that all screens share; the rest is the screens' own.
+//! Actions that all screens share; each screen has its own besides.
 
 use crate::app::App;
 use crate::app::frame::keys_of;
@@ -16,11 +16,11 @@ use crate::screens::page::Copied;
 use crate::screens::state::State;
 use crate::widgets::jump::Goal;
 
-/// Lines that no list has: title, borders, headers, status line.
+/// Lines of a screen that no list has: title, borders, headers, status line.
 const FRAME_LINES: u16 = 8;
 
 impl App {
-    /// Does an action; returns what others have to do.
+    /// Carries out an action. Returns the effects that it asks for.
     pub fn act(&mut self, action: Action) -> Vec<Effect> {
         let Self { state, screens } = self;
         if let Some(effects) = screens.act(state, action) {
@@ -73,12 +73,12 @@ impl App {
         vec![]
     }
 
-    /// The list of all actions, with the keys that hold now.
+    /// List of all actions, with the keys of the present screen.
     fn actions(&self) -> List {
         List::of(self.state.setup.bindings, keys_of(self))
     }
 
-    /// Shows a step of the tour; after the last it ends.
+    /// Shows a step of the tour; a step after the last ends the tour.
     pub fn tour(&mut self, step: usize) {
         let state = &mut self.state;
         if state.is_first_start() {
@@ -89,7 +89,7 @@ impl App {
         state.overlay = Some(Overlay::Tour(tour));
     }
 
-    /// Puts letters on what is to be seen.
+    /// Puts letters on the things on the screen, for a jump.
     fn offer_jumps(&mut self) {
         let Self { state, screens } = self;
         let targets = screens.page(state.nav.screen).targets(state, state.body());
@@ -99,7 +99,7 @@ impl App {
         }
     }
 
-    /// Goes to what is to be seen somewhere.
+    /// Goes to a place on the screen.
     pub fn jump(&mut self, goal: Goal) {
         let Self { state, screens } = self;
         let page = screens.page_mut(state.nav.screen);
@@ -113,7 +113,7 @@ impl App {
         }
     }
 
-    /// Goes to something by its name.
+    /// Goes to a thing of the catalogue or a study, by name.
     pub fn look_at(&mut self, thing: Thing) {
         let Self { state, screens } = self;
         state.show(thing.screen());
@@ -145,14 +145,15 @@ impl App {
         vec![Effect::Copy(text)]
     }
 
-    /// Takes back the latest of filter, enlargement and screen; returns true if there was any.
+    /// Undoes the first of these that there is: filter, enlargement, change of screen. Returns false where there is
+    /// none.
     fn back(&mut self) -> bool {
         let Self { state, screens } = self;
         let filter = &mut state.nav.filters[state.nav.screen as usize];
         if !filter.is_empty() {
             filter.clear();
         } else if screens.page_mut(state.nav.screen).shrink(state) {
-            // The pane has less room again.
+            // The pane was enlarged, and is small again.
         } else if let Some(screen) = state.nav.trail.pop() {
             state.nav.screen = screen;
         } else {
@@ -178,7 +179,7 @@ impl App {
     }
 }
 
-/// The movement of an action, if it is one.
+/// Movement that an action stands for, if any.
 fn movement(state: &State, action: Action) -> Option<Movement> {
     let page = (state.terminal.size.height.saturating_sub(FRAME_LINES).max(2) / 2) as isize;
     Some(match action {

@@ -1,4 +1,4 @@
-//! Answers to what was asked for: what was read, saved, written in an editor, or run.
+//! Handling of answers: data that was read or saved, texts from an editor, ends of runs.
 
 use crate::app::App;
 use crate::messages::effect::{Effect, Writing};
@@ -8,7 +8,7 @@ use crate::screens::measurements;
 use wardrobe::Part;
 
 impl App {
-    /// Takes in what was read of the database.
+    /// Stores what was read from the database.
     pub fn receive(&mut self, snapshot: Box<Snapshot>) {
         let state = &mut self.state;
         let had_grid = state.grid().is_some();
@@ -34,7 +34,7 @@ impl App {
         }
     }
 
-    /// Closes the form that is saved, or says in it why it is not.
+    /// Closes the form whose entry was saved; a refusal is shown in the form instead.
     pub fn saved(&mut self, outcome: Result<String, String>) {
         let Self { state, screens } = self;
         let awaited = state.told.awaited.take();
@@ -66,7 +66,7 @@ impl App {
         }
     }
 
-    /// Takes in what was written in an editor.
+    /// Handles a text from the user's editor.
     pub fn written(&mut self, writing: Writing, text: Result<String, String>) -> Vec<Effect> {
         let Self { state, screens } = self;
         match (writing, text) {
@@ -78,7 +78,7 @@ impl App {
         vec![]
     }
 
-    /// Takes in that the run started here has ended.
+    /// Handles the end of the run that was started here.
     pub fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
         self.state.running.target = None;
         match outcome {

@@ -17,10 +17,10 @@ use crate::widgets::theme::{Theme, glyph};
 use crate::widgets::{ascii, text};
 use store::Status;
 
-/// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
+/// Terminal width, columns, from which the first line has the names of all screens, at least short ones.
 const SHORT: u16 = 66;
 
-/// Draws tabs, body, status line and what is open above them.
+/// Draws tabs, body, status line, and the overlay above them.
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
     let App { state, screens } = app;
     let [top, body, bottom] = rows(frame.area());
@@ -42,18 +42,18 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     }
 }
 
-/// True if the screen shows what may be done first, for there is no study yet.
+/// True if the start screen is shown, because there is no study yet.
 fn is_start_shown(app: &App) -> bool {
     app.state.is_first_start() && app.screens.page(app.state.nav.screen).needs_study()
 }
 
-/// The screen whose keys hold: without a study, Study's for all that need one.
+/// Screen whose keys apply. Without a study those of Study apply on all screens that need one.
 #[must_use]
 pub fn keys_of(app: &App) -> Screen {
     if is_start_shown(app) { Screen::Study } else { app.state.nav.screen }
 }
 
-/// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
+/// Texts of the tabs: whole names where they fit, else short ones, else numbers for all but the shown screen.
 fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
     let text = |screen: Screen| {
         let ([name, short], number) = (screen.names(), screen.number());
@@ -68,7 +68,7 @@ fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
     Screen::ALL.into_iter().map(text).collect()
 }
 
-/// The screen whose tab is at a column.
+/// Screen whose tab is at a column of the terminal.
 #[must_use]
 pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
     let mut end = 0;
@@ -97,7 +97,7 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
     Line::from(spans)
 }
 
-/// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
+/// Study and its progress, in parts with weights; where they do not fit, the part of least weight is left out first.
 fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     let Some(study) = state.study() else { return vec![] };
     let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
@@ -117,7 +117,7 @@ fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     spans
 }
 
-/// A message in the last line, or, where it is longer, in as many lines as it takes.
+/// Draws a message in the last line, or in more lines if it is longer.
 fn draw_notice(frame: &mut Frame<'_>, state: &State) {
     let Some(notice) = state.told.notice.as_ref().filter(|_| !matches!(state.overlay, Some(Overlay::Filter(_)))) else {
         return;
@@ -133,7 +133,7 @@ fn draw_notice(frame: &mut Frame<'_>, state: &State) {
     frame.render_widget(Paragraph::new(lines), place);
 }
 
-/// The filter while it is typed, or the keys that matter here.
+/// Status line: the filter while it is typed, else the keys of the present screen.
 fn status_line(app: &App, width: u16) -> Line<'static> {
     let App { state, screens } = app;
     if matches!(state.overlay, Some(Overlay::Filter(_))) {
@@ -151,7 +151,7 @@ fn status_line(app: &App, width: u16) -> Line<'static> {
         used += text::width(&text);
         spans.push(Span::styled(text, state.theme.warn()));
     }
-    // What matters most stands first in the table, but help and palette must always be found.
+    // Hints come in the order of the table, the most important first; those for help and palette must always be shown.
     let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(keys_of(app)));
     let is_start = is_start_shown(app);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
@@ -171,7 +171,7 @@ fn status_line(app: &App, width: u16) -> Line<'static> {
     Line::from(spans)
 }
 
-/// Keys and what they do, in a line.
+/// Line of keys with their meanings.
 fn hint_line(hints: &[(&'static str, &'static str)], theme: Theme) -> Line<'static> {
     let spans = hints
         .iter()

@@ -1,4 +1,4 @@
-//! The workbench without a terminal or threads, as benchmarks press its keys: every answer is waited for.
+//! The workbench without a terminal or threads, for benchmarks: it waits for every answer.
 
 use std::cell::Cell;
 use std::io;
@@ -19,7 +19,7 @@ use crate::widgets::theme::{Colours, Theme};
 use store::{Result, Store};
 use wardrobe::catalogue;
 
-/// Counts what is written to it.
+/// Writer that counts bytes.
 struct Counter(Rc<Cell<usize>>);
 
 impl io::Write for Counter {
@@ -33,7 +33,7 @@ impl io::Write for Counter {
     }
 }
 
-/// A workbench on a database whose screen goes nowhere.
+/// A workbench on a database that draws to memory.
 pub struct Headless {
     store: Store,
     app: App,
@@ -42,7 +42,7 @@ pub struct Headless {
 }
 
 impl Headless {
-    /// Opens a database and reads what the first screen shows.
+    /// Opens a database and reads the data of the first screen.
     ///
     /// # Errors
     /// When the database cannot be read.
@@ -61,7 +61,7 @@ impl Headless {
         Ok(headless)
     }
 
-    /// Reads all that the screens show.
+    /// Reads the data of all screens.
     ///
     /// # Errors
     /// When the database cannot be read.
@@ -71,16 +71,16 @@ impl Headless {
         Ok(())
     }
 
-    /// Presses a key; returns true if something has to be read for it.
+    /// Presses a key. Returns true if the key asks for data to be read.
     pub fn press(&mut self, code: KeyCode) -> bool {
         let effects = self.app.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
         effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
     }
 
-    /// Draws; returns the bytes a terminal is sent in the first frame.
+    /// Draws the screen. Returns the number of bytes in the first frame for a terminal.
     pub fn draw(&mut self) -> usize {
         let Self { terminal, app, sent, .. } = self;
-        // A screen in memory refuses nothing.
+        // Drawing to memory does not fail.
         let _ = terminal.draw(|frame| frame::draw(frame, app));
         let _ = terminal.backend_mut().send(true);
         sent.take()

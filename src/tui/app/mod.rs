@@ -1,4 +1,4 @@
-//! The update loop: what the workbench does with messages and actions, and the frame around its screens.
+//! Update loop of the workbench (messages and actions change its state), and the frame around its screens.
 
 mod act;
 mod answers;
@@ -22,7 +22,7 @@ pub struct App {
 }
 
 impl App {
-    /// The workbench before anything was read.
+    /// Makes a workbench that has read nothing yet.
     #[must_use]
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self { state: State::new(theme, abilities, size), screens: Screens::default() }

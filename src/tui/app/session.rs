@@ -1,5 +1,5 @@
-//! Memory of the workbench from one start to the next: screen, selections, filters, orders, queries. One
-//! small file a database, in the state folder; one that cannot be read means a fresh start, never an error.
+//! Memory of the workbench between starts: screen, selections, filters, orders, queries. Each database has one small
+//! file in the state folder. A file that cannot be read gives a fresh start, not an error.
 
 use std::path::{Path, PathBuf};
 
@@ -12,10 +12,10 @@ use crate::screens::order::Order;
 use crate::screens::subjects::state::SubjectOrder;
 use store::JobId;
 
-/// The longest name of a file.
+/// Greatest length of a file's name, bytes.
 const LONGEST: usize = 200;
 
-/// Memory from one start to the next.
+/// State of the workbench that survives from one start to the next.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Session {
@@ -42,7 +42,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// The session that a workbench leaves behind.
+    /// Takes the session from a workbench.
     #[must_use]
     pub fn of(app: &App) -> Self {
         let App { state, screens } = app;
@@ -70,7 +70,7 @@ impl Session {
         }
     }
 
-    /// Puts it into a new workbench. `ascii` and the mouse stay as they are where the environment asks for them.
+    /// Restores the session in a new workbench, except `ascii` and the mouse where the environment sets them.
     pub fn restore(self, app: &mut App) {
         let App { state, screens } = app;
         state.nav.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
@@ -93,13 +93,13 @@ impl Session {
         screens.sql.history = self.history;
     }
 
-    /// The session of a file; an empty one where there is none.
+    /// Reads a session; an empty one where there is no readable file.
     #[must_use]
     pub fn read(path: &Path) -> Self {
         std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
     }
 
-    /// Keeps it in a file, as far as that can be written: what is lost is a convenience.
+    /// Writes the session to a file. Errors are ignored: only a convenience is lost.
     pub fn write(&self, path: &Path) {
         let Some(folder) = path.parent() else { return };
         let Ok(bytes) = serde_json::to_vec_pretty(self) else { return };
@@ -109,14 +109,14 @@ impl Session {
     }
 }
 
-/// Path of its file for a database: in `toile` of the state folder.
+/// Path of the session of a database: in `toile` of the state folder.
 #[must_use]
 pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
     let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
     let name: Vec<char> = path.display().to_string().replace(['/', '\\'], "%").chars().collect();
-    // The end of a long path tells databases apart.
+    // The end of a long path is what differs between databases.
     let name: String = name[name.len().saturating_sub(LONGEST)..].iter().collect();
     Some(folder.join("toile").join(format!("{name}.json")))
 }

@@ -1,4 +1,4 @@
-//! The one place where messages change the state: `(state, message) -> (state, effects)`, without waiting for anything.
+//! The only place where messages change the state: `(state, message) -> (state, effects)`. Nothing here waits.
 
 use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Size;
@@ -22,7 +22,7 @@ use crate::screens::picture_pane::actions::watch;
 use crate::screens::study::actions::study_created;
 
 impl App {
-    /// Takes in a message; returns what others have to do.
+    /// Handles a message. Returns the effects that it asks for.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
         let before = self.state.focus.clone();
         let filter = self.state.nav.filters[Screen::Sql as usize].clone();
@@ -51,7 +51,7 @@ impl App {
         effects
     }
 
-    /// Takes in a message, and leaves what follows from it to [`App::update`].
+    /// Handles a message; [`App::update`] does what every message needs after it.
     fn take(&mut self, message: Message) -> Vec<Effect> {
         let Self { state, screens } = self;
         match message {
@@ -88,7 +88,7 @@ impl App {
         vec![]
     }
 
-    /// Puts choices of screens into the state, for threads and other screens.
+    /// Copies choices of screens into the state, for threads and other screens.
     fn share(&mut self) {
         let Self { state, screens } = self;
         let screen = state.nav.screen;
@@ -140,7 +140,7 @@ impl App {
         vec![]
     }
 
-    /// Resets what belongs to the job looked at before.
+    /// Resets what belonged to the job shown before.
     fn moved(&mut self, before: &Focus) {
         let Self { state, screens } = self;
         if state.focus.job == before.job {
@@ -155,7 +155,7 @@ impl App {
         state.place = place.unwrap_or(state.place);
     }
 
-    /// Moves the selection to a row that the filter still shows.
+    /// Moves the selection to a row that passes the filter.
     fn keep_selection_visible(&mut self) {
         let Self { state, screens } = self;
         screens.jobs.arrange(state);
@@ -165,7 +165,7 @@ impl App {
         measurements::clamp(state);
     }
 
-    /// Does what the mouse asks for: tabs show screens, the wheel scrolls.
+    /// Handles the mouse: a click on a tab shows its screen, the wheel scrolls.
     fn mouse(&mut self, event: &MouseEvent) -> Vec<Effect> {
         match event.kind {
             _ if self.state.overlay.is_some() => vec![],

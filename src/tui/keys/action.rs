@@ -3,20 +3,20 @@
 use crate::keys::screen::Screen;
 use wardrobe::Part;
 
-/// Everything a key or the palette can ask for. `App::act` hands it to the screen whose own it is, or does it.
+/// Actions that a key or the palette can ask for. `App::act` carries out the common ones; screens have their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Selects what is above.
+    /// Selects the row or cell above.
     Up,
-    /// Selects what is below.
+    /// Selects the row or cell below.
     Down,
-    /// Selects what is left; turns the picture when it has the focus.
+    /// Selects the cell to the left; turns a picture that has the focus.
     Left,
-    /// Selects what is right; turns the picture when it has the focus.
+    /// Selects the cell to the right; turns a picture that has the focus.
     Right,
-    /// Selects the first.
+    /// Selects the first row.
     First,
-    /// Selects the last.
+    /// Selects the last row.
     Last,
     /// Goes up by a page.
     PageUp,
@@ -28,27 +28,27 @@ pub enum Action {
     PreviousPane,
     /// Shows a screen.
     Show(Screen),
-    /// Opens what is selected.
+    /// Opens the selected row or cell.
     Open,
-    /// Goes back, as far as there is anything to go back to.
+    /// Goes back, where there is anything to go back to.
     Back,
-    /// Goes back; at the top, quits.
+    /// Goes back; quits where there is nothing to go back to.
     Leave,
     /// Asks for text that rows must contain.
     Filter,
     /// Selects the next row or cell that matches the filter.
     NextMatch,
-    /// Selects the one before.
+    /// Selects the previous row or cell that matches the filter.
     PreviousMatch,
     /// Sorts by the next column.
     Sort,
     /// Reverses the order.
     Reverse,
-    /// Copies what is selected to the clipboard of the terminal.
+    /// Copies the selection to the clipboard of the terminal.
     Copy,
     /// Shows the next garment of the study.
     NextGarment,
-    /// Shows the garment before.
+    /// Shows the previous garment of the study.
     PreviousGarment,
     /// Shows the next study.
     NextStudy,
@@ -58,65 +58,65 @@ pub enum Action {
     NextStage,
     /// Turns the picture to the next view.
     NextView,
-    /// Changes what the colours of the picture mean.
+    /// Colours the picture by the next map.
     NextMap,
-    /// Gives the picture all the room, or less again.
+    /// Enlarges the picture to all the room, or makes it small again.
     Enlarge,
-    /// Shows the picture from nearer.
+    /// Zooms into the picture.
     ZoomIn,
-    /// Shows the picture from farther.
+    /// Zooms out of the picture.
     ZoomOut,
-    /// Selects the job for a comparison, or no longer.
+    /// Marks the job for a comparison, or takes the mark away.
     Mark,
-    /// Takes all selections back.
+    /// Takes all marks away.
     Unmark,
-    /// Cuts the body at the next level.
+    /// Shows the cross section at the next level.
     NextLevel,
-    /// Cuts the body at the level before.
+    /// Shows the cross section at the previous level.
     PreviousLevel,
-    /// Finds the change of a size so that it fits.
+    /// Finds the alteration of a size that makes it fit.
     Alter,
-    /// Drapes the changed pattern.
+    /// Drapes the altered pattern.
     DrapeChange,
-    /// Asks for the folder that the changed pattern goes into.
+    /// Asks for the folder for the altered pattern.
     WriteChange,
-    /// Finds the change of the next larger size.
+    /// Finds the alteration of the next larger size.
     LargerSize,
-    /// Finds the change of the next smaller size.
+    /// Finds the alteration of the next smaller size.
     SmallerSize,
-    /// Shows only the measurements in which compared runs differ, or all.
+    /// Shows only the measurements in which the compared runs differ, or all again.
     Differences,
-    /// Asks what a new study is made of.
+    /// Opens the form of a new study.
     NewStudy,
-    /// Types in the query.
+    /// Begins typing in the query.
     EditQuery,
     /// Saves the query under a name.
     SaveQuery,
-    /// Offers the saved queries.
+    /// Lists the saved queries.
     SavedQueries,
-    /// Puts the query before into the editor.
+    /// Puts the previous query of the history into the editor.
     OlderQuery,
-    /// Puts the query after into the editor.
+    /// Puts the next query of the history into the editor.
     NewerQuery,
-    /// Asks for the file that the rows of the query go into.
+    /// Asks for the file for the rows of the query.
     ExportQuery,
     /// Builds the report of the study.
     BuildReport,
     /// Opens the selected report.
     OpenReport,
-    /// Shows the screen in ASCII, or no longer.
+    /// Shows the screen in plain ASCII, or with all signs again.
     Ascii,
     /// Takes the mouse, or gives it back to the terminal.
     Mouse,
-    /// Asks for the values of a new subject or fabric.
+    /// Opens the form of a new subject or fabric.
     Add(Part),
-    /// Asks for other values of the selected subject or fabric.
+    /// Opens the form of the selected subject or fabric.
     Edit(Part),
     /// Asks for a file with subjects or fabrics, or for the files of a style.
     Import(Part),
     /// Removes the selected subject, fabric or size.
     Remove(Part),
-    /// Gives the pieces all the room, or less again.
+    /// Enlarges the pieces to all the room, or makes them small again.
     EnlargePieces,
     /// Marks the selected edge.
     MarkEdge,
@@ -124,21 +124,21 @@ pub enum Action {
     AddSeam,
     /// Opens the selected seam.
     RemoveSeam,
-    /// Turns one side of the selected seam round.
+    /// Reverses one side of the selected seam.
     FlipSeam,
-    /// Asks what is to be decided about the seams.
+    /// Asks the open questions about the seams.
     Decide,
-    /// Drapes the selected size on the subject in hand.
+    /// Drapes the selected size on the chosen subject.
     TryOn,
     /// Asks what the selected edge is sewn to.
     AskEdge,
-    /// Asks what the selected piece is worn as.
+    /// Asks for the role of the selected piece.
     AskPiece,
     /// Proposes the seams of the selected style.
     ProposeSeams,
-    /// Takes the last edit of the seams back.
+    /// Undoes the last edit of the seams.
     UndoEdit,
-    /// Does the edit again that was taken back last.
+    /// Redoes the edit that was undone last.
     RedoEdit,
     /// Saves the edited seams.
     SaveSeams,
@@ -152,25 +152,25 @@ pub enum Action {
     Raise,
     /// Runs the selected job later.
     Lower,
-    /// Runs the open jobs of the study here; on SQL, the query.
+    /// Runs the queued jobs of the study here; on the SQL screen, runs the query.
     Run,
     /// Stops the run.
     Stop,
     /// Lists the keys.
     Help,
-    /// Tells what the selected row and the columns of the screen are.
+    /// Explains the selected row and the columns of the screen.
     Explain,
-    /// Puts letters on what is to be seen; typing one goes there.
+    /// Puts letters on the things on the screen; typing a letter goes there.
     Jump,
     /// Lists the actions.
     Palette,
-    /// Opens the query, seams or study in an editor.
+    /// Opens the query, the seams or the study in the user's editor.
     Write,
-    /// Shows the screens in turn, with a few words on each.
+    /// Starts the tour of the screens.
     Tour,
-    /// Lists what was done here, as commands.
+    /// Lists the commands that do the same as was done here.
     Commands,
-    /// Draws everything anew.
+    /// Draws the whole screen again.
     Redraw,
     /// Leaves the program.
     Quit,

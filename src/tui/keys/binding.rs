@@ -1,4 +1,4 @@
-//! Keys and the actions they stand for.
+//! Keys and their actions.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 
-/// A key with its modifiers; Shift is part of a character.
+/// A key with its modifiers. Shift is part of a letter, not a modifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     code: KeyCode,
@@ -63,34 +63,34 @@ impl fmt::Display for Key {
 /// One row of the table of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// Its action.
+    /// Action of the keys.
     pub action: Action,
-    /// Its name in the palette.
+    /// Name of the action in the palette.
     pub name: &'static str,
-    /// The keys that do it.
+    /// Keys for the action.
     pub keys: &'static [Key],
-    /// Screens on which it holds; empty means all.
+    /// Screens on which the keys apply; empty for all screens.
     pub screens: &'static [Screen],
-    /// Its word in the status line; empty where it is not shown there.
+    /// Word in the status line; empty for an action that is not shown there.
     pub hint: &'static str,
-    /// Its action in words.
+    /// Description of the action.
     pub help: &'static str,
 }
 
 impl Binding {
-    /// True if it holds on a screen.
+    /// True if the binding applies on a screen.
     #[must_use]
     pub fn is_on(&self, screen: Screen) -> bool {
         self.screens.is_empty() || self.screens.contains(&screen)
     }
 
-    /// Its keys, as help shows them.
+    /// The keys, as help shows them.
     #[must_use]
     pub fn keys_text(&self) -> String {
         self.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" ")
     }
 
-    /// True if its name, keys or help contain a text, whatever the case.
+    /// True if name, keys or help contain a text, in upper or lower case.
     #[must_use]
     pub fn matches(&self, text: &str) -> bool {
         let text = text.to_lowercase();
@@ -100,13 +100,13 @@ impl Binding {
     }
 }
 
-/// The action of a key on a screen.
+/// Action of a key on a screen, if any.
 #[must_use]
 pub fn action_of(bindings: &[Binding], key: Key, screen: Screen) -> Option<Action> {
     bindings.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
 }
 
-/// The actions whose name, keys or help contain a text: those whose name begins with it first.
+/// Bindings whose name, keys or help contain a text; those whose names begin with it come first.
 #[must_use]
 pub fn search(bindings: &'static [Binding], text: &str) -> Vec<&'static Binding> {
     let text = text.trim().to_lowercase();

@@ -1,4 +1,4 @@
-//! Keys of one's own: `keys.toml` in the config folder gives actions, by their names in the palette, other keys.
+//! The user's own keys: `keys.toml` in the config folder assigns other keys to actions, by their names in the palette.
 //!
 //! ```toml
 //! cancel = "D"
@@ -17,7 +17,7 @@ use crate::keys::screen::Screen;
 use crate::keys::table::BINDINGS;
 use crate::widgets::editor::Editing;
 
-/// Names of keys that are no single character.
+/// Names of keys that are no characters.
 const NAMES: [(&str, KeyCode); 15] = [
     ("Enter", KeyCode::Enter),
     ("Esc", KeyCode::Esc),
@@ -36,19 +36,19 @@ const NAMES: [(&str, KeyCode); 15] = [
     ("Delete", KeyCode::Delete),
 ];
 
-/// Its name in the config folder.
+/// Name of the file in the config folder.
 pub const FILE: &str = "keys.toml";
 
 /// Name of the entry with the style of editing.
 const EDITING: &str = "editing";
 
-/// Letters that terminals, tmux and screen use with Ctrl.
+/// Letters that terminals, tmux and screen use together with Ctrl.
 const TAKEN: &str = "absqhijm";
 
-/// The keys of actions, and the style of editing.
+/// Keys of actions, and style of editing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keys {
-    /// The table of keys.
+    /// Table of keys.
     pub bindings: &'static [Binding],
     /// Style of editing.
     pub editing: Editing,
@@ -60,15 +60,15 @@ impl Default for Keys {
     }
 }
 
-/// The keys of a file, those of the table where it has no others. They live as long as the program does.
+/// Reads the keys of a file, which replace those of the built-in table. The table lives as long as the program.
 ///
 /// # Errors
-/// Everything that is wrong with the file, each with its line.
+/// All problems of the file, each with its line.
 pub fn read(path: Option<&Path>) -> Result<Keys, ConfigError> {
     config::read(path, taken)
 }
 
-/// The keys of some lines, over those of the table.
+/// Replaces keys of the built-in table by those of some entries.
 fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
     let mut editing = Editing::default();
     let mut bindings = BINDINGS.to_vec();
@@ -95,7 +95,7 @@ fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Keys {
     Keys { bindings: bindings.leak(), editing }
 }
 
-/// The style of editing of a value.
+/// Reads the style of editing from a value.
 fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
     const ACCEPTED: &str = "accepted: \"readline\", \"vim\"";
     match value.as_str() {
@@ -106,7 +106,7 @@ fn editing_of(value: &DeValue<'_>) -> Result<Editing, String> {
     }
 }
 
-/// The other action that a key of a binding means on one of its screens, in words.
+/// In words, another action that has a key of a binding on one of the same screens; `None` without a clash.
 fn clash(bindings: &[Binding], k: usize) -> Option<String> {
     let own = &bindings[k];
     let meets = |other: &&Binding| {
@@ -119,7 +119,7 @@ fn clash(bindings: &[Binding], k: usize) -> Option<String> {
     Some(format!("{}: key `{key}` already means {other}; give that one another key too", own.name))
 }
 
-/// The keys of a value: one, or a list.
+/// Reads one key or a list of keys from a value.
 fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
     let wanted = "accepted: a key in quotes, or a list of keys";
     let key_of = |value: &DeValue<'_>| key(value.as_str().ok_or_else(|| format!("{}; {wanted}", value.type_str()))?);
@@ -130,7 +130,7 @@ fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
     }
 }
 
-/// A key by its name.
+/// Reads a key from its name.
 fn key(name: &str) -> Result<Key, String> {
     let single = |text: &str| {
         let mut letters = text.chars();

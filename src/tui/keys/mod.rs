@@ -1,4 +1,4 @@
-//! Actions of a user, and the keys for them.
+//! Actions, and the keys for them.
 
 pub mod action;
 pub mod binding;

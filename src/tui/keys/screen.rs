@@ -1,13 +1,13 @@
 //! The screens by their numbers.
 
-/// A screen of the workbench; its number is its key, and 0 that of the tenth.
+/// A screen of the workbench. Its number is its key; 0 is the key of the tenth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
-    /// The study as a grid of sizes by subjects.
+    /// Study as a grid of sizes by subjects.
     Study,
-    /// The subjects of the catalogue.
+    /// Subjects of the catalogue.
     Subjects,
-    /// The styles and sizes of the catalogue, and the seams of one.
+    /// Styles and sizes of the catalogue, and the seams of one size.
     Styles,
     /// Jobs of the study in the queue.
     Jobs,
@@ -15,13 +15,13 @@ pub enum Screen {
     Results,
     /// Several results side by side.
     Compare,
-    /// Questions in SQL.
+    /// Queries in SQL.
     Sql,
-    /// Reports that were built.
+    /// Reports in the project's folder.
     Reports,
-    /// The fabrics of the catalogue.
+    /// Fabrics of the catalogue.
     Fabrics,
-    /// The fit of a garment on a subject, size by size.
+    /// Fit of a garment on a subject, size by size.
     Fit,
 }
 
@@ -40,13 +40,13 @@ impl Screen {
         Self::Fit,
     ];
 
-    /// Its number, which is its key.
+    /// Number of the screen, which is its key.
     #[must_use]
     pub fn number(self) -> usize {
         (self as usize + 1) % Self::ALL.len()
     }
 
-    /// Name, and a short one for tabs with little room.
+    /// Name, and a short name for narrow tabs.
     #[must_use]
     pub fn names(self) -> [&'static str; 2] {
         match self {

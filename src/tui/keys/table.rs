@@ -1,4 +1,4 @@
-//! The one table of keys, from which key handling, help and palette are made.
+//! The one table of keys, for key handling, help and palette.
 
 use crossterm::event::KeyCode;
 
@@ -33,10 +33,11 @@ const fn bind(
 /// Screens on which a job is selected.
 const RESULTS: &[Screen] = &[Study, Jobs, Results];
 
-/// Screens with lists that are sorted.
+/// Screens with lists that can be sorted.
 const SORTED: &[Screen] = &[Study, Subjects, Fabrics, Jobs, Results, Compare, Sql, Reports];
 
-/// The table of keys, which a file may change (see `keys`). Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
+/// The built-in table of keys, which a file may change (`keys`). It does not use Ctrl-A, B, S, Q, H, I, J and M, which
+/// tmux, screen, flow control and the terminal need.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
     bind(

@@ -1,10 +1,10 @@
-//! Answers of threads, as screens keep them.
+//! Answers of threads, as screens store them.
 
-/// An answer with its request.
+/// An answer and its request.
 #[derive(Debug)]
 pub struct Answered<R, T> {
-    /// The request.
+    /// Request that was answered.
     pub request: R,
-    /// The thing that was asked for, or why there is none.
+    /// Requested value, or the reason why there is none.
     pub outcome: Result<T, String>,
 }

@@ -1,4 +1,4 @@
-//! Effects that the event loop has others carry out.
+//! Effects: work that the event loop hands to threads and the terminal.
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
@@ -10,53 +10,53 @@ use crate::widgets::picture::PictureRequest;
 use store::JobId;
 use store::files::SourceFile;
 
-/// A text that is written in an editor of the user's own.
+/// A text to be written in the user's editor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Writing {
-    /// The query of the SQL screen.
+    /// Query of the SQL screen.
     Query(String),
-    /// The seam file of a size.
+    /// Seam file of a size.
     Seams(LayoutRequest, SourceFile),
-    /// A file as it lies.
+    /// File at a path, edited in place.
     File(PathBuf),
 }
 
-/// Something the event loop has others do.
+/// Work that the event loop hands on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
-    /// Read what the screens show.
+    /// Read the data that the screens show.
     Read(Focus),
     /// Draw drapes and bodies as pictures.
     Draw(Vec<PictureRequest>),
-    /// Cut the bodies and the cloth of results.
+    /// Cut body and cloth of results into cross sections.
     Cut(Vec<JobId>),
-    /// Find what to change of a size.
+    /// Find the alteration of a size.
     Alter(AlterRequest),
-    /// Ask the database.
+    /// Answer a query.
     Query(QueryRequest),
-    /// Stop the query that it is asked.
+    /// Stop the query that runs.
     StopQuery,
-    /// Do what takes long and writes files.
+    /// Do slow work that writes files.
     Files(FileTask),
-    /// Watch a job of the run, or none.
+    /// Watch a job of the run; `None` watches none.
     Watch(Option<JobId>),
-    /// Take the mouse or give it back.
+    /// Capture the mouse, or release it.
     Mouse(bool),
-    /// Work on seams.
+    /// Work on the seams of a size.
     Seams(SeamTask),
     /// Sew and drape a size coarsely.
     Preview(PreviewRequest),
-    /// Act on the queue or the catalogue.
+    /// Change the queue or the catalogue.
     Do(Command),
     /// Run a study in the background.
     Run(Target),
     /// Ask the run to stop.
     StopRun,
-    /// Have the user write in an editor of their own.
+    /// Open a text in the user's editor.
     Write(Writing),
-    /// Put a text on the clipboard.
+    /// Copy a text to the clipboard.
     Copy(String),
-    /// Draw the whole screen anew.
+    /// Draw the whole screen again.
     Clear,
     /// Leave the workbench.
     Quit,

@@ -1,4 +1,4 @@
-//! Messages that arrive at the event loop.
+//! Messages that the event loop receives.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use spec::bodies::Girths;
 use store::files::SourceFile;
 use store::{JobId, LiveFrame, Relation, SavedQuery, SubjectId};
 
-/// Something that happened.
+/// An event or an answer.
 #[derive(Debug)]
 pub enum Message {
     /// A key was pressed.
@@ -25,45 +25,45 @@ pub enum Message {
     Resize(u16, u16),
     /// The database was read.
     Data(Box<Snapshot>),
-    /// Something could not be read or done.
+    /// Reading or work failed, with the reason.
     Failed(String),
-    /// An action on the queue is done.
+    /// An action on the queue is done, in words.
     Done(String),
-    /// A form is saved, or why not.
+    /// Entry of a form is saved, or the reason why not.
     Saved(Result<String, String>),
-    /// A subject's body is built and measured, or could not be.
+    /// Subject's body is built and measured, or the reason why not.
     Measured(SubjectId, Result<Box<Girths>, String>),
-    /// A size is laid out, or could not be.
+    /// Size is laid out, or the reason why not.
     LaidOut(Box<LayoutRequest>, Result<Box<SizeLayout>, String>),
-    /// The seam file of a size after a step of work, or why there is none.
+    /// Seam file of a size after a step of work, or the reason why there is none.
     Sewn(Box<SeamWork>, Result<SourceFile, String>),
-    /// A size is sewn and draped coarsely, or could not be.
+    /// Size is sewn and draped coarsely, or the reason why not.
     Previewed(Box<PreviewRequest>, Result<Previewed, String>),
-    /// The seams of a style are saved, or why not.
+    /// Seams of a style are saved, or the reason why not.
     SeamsSaved(String, SourceFile, Result<String, String>),
-    /// A picture is drawn, or could not be.
+    /// Picture is drawn, or the reason why not.
     Picture(PictureRequest, Result<Drawn, String>),
-    /// Body and cloth of some results are cut at all levels, or could not be.
+    /// Cross sections of results at all levels, or the reason why there are none.
     Cut(Vec<JobId>, Result<Vec<CrossSection>, String>),
-    /// The change of a size is found, or could not be.
+    /// Alteration of a size, or the reason why there is none.
     Altered(Box<AlterRequest>, Result<Box<Alteration>, String>),
-    /// Tables and views that a query may name, and the saved queries.
+    /// Tables and views that a query may name, and saved queries.
     Names(Vec<Relation>, Vec<SavedQuery>),
-    /// A query is answered after so many ms, or refused.
+    /// Query is answered, or refused for a reason, after a time in ms.
     Answered(u64, Result<Box<ResultTable>, String>),
-    /// The reports there are.
+    /// All reports.
     Reports(Vec<ReportRow>),
-    /// A report is built, its page here, or could not be; and the reports there are now.
+    /// Report is built, with the path of its page, or the reason why not; then all reports.
     ReportBuilt(Result<PathBuf, String>, Vec<ReportRow>),
-    /// A new study of a name is written, its file here, or could not be.
+    /// New study is written, with its name and the path of its file, or the reason why not.
     StudyCreated(String, Result<PathBuf, String>),
-    /// The garment of the watched job as it is now.
+    /// Present shape of the watched job's garment.
     Live(LiveFrame),
-    /// The text that the user has written in an editor of their own, or why it was not taken.
+    /// Text from the user's editor, or the reason why there is none.
     Written(Box<Writing>, Result<String, String>),
-    /// The mouse did something.
+    /// Mouse event.
     Mouse(MouseEvent),
-    /// The run started here has ended.
+    /// Run that was started here has ended.
     RunEnded(Result<String, String>),
     /// The terminal is gone.
     Hangup,

@@ -1,5 +1,5 @@
-//! Messages that arrive at the event loop, and effects that it asks for: closed sets, so that all of the workbench is
-//! `(state, message) -> (state, effects)`. Threads and screens meet here, and only here.
+//! Messages to the event loop and effects from it, both as closed sets, so the workbench is a function `(state,
+//! message) -> (state, effects)`. Threads and screens meet only here.
 
 pub mod alterations;
 pub mod answered;

@@ -8,7 +8,7 @@ use store::JobId;
 use store::files::SourceFile;
 use wardrobe::{Mode, Part, StyleGiven};
 
-/// An action on the queue or the catalogue.
+/// A change of the queue or the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Command {
     /// Add or edit a subject or a fabric.
@@ -19,15 +19,15 @@ pub enum Command {
     Remove(Part, String),
     /// Add a style or sizes of it, or the styles of a study file.
     ImportStyle(String, StyleGiven),
-    /// Save the seams of a style.
+    /// Save the seams of a style, with its name.
     SaveSeams(String, SourceFile),
-    /// Write seams over a file that still says what it said before.
+    /// Write seams to a file whose contents are still those given first.
     WriteSeams(PathBuf, SourceFile, SourceFile),
     /// Cancel a job.
     Cancel(JobId),
     /// Queue a job again.
     Retry(JobId),
-    /// Change a job's priority by a step.
+    /// Change the priority of a job by a step.
     Prioritise(JobId, i64),
     /// Pause a study.
     Pause(String),
@@ -36,7 +36,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// True if a form waits for the answer.
+    /// True if a form waits for the outcome.
     #[must_use]
     pub fn is_from_form(&self) -> bool {
         matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
@@ -52,30 +52,30 @@ pub enum Target {
     Study(PathBuf),
 }
 
-/// A request to the thread of queries.
+/// A request to the thread that answers queries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum QueryRequest {
-    /// Tables and views that a query may name, and the saved queries.
+    /// Names of tables and views, and the saved queries.
     Names,
-    /// The rows of a query.
+    /// Rows of a query.
     Rows(String),
-    /// A query under a name, for good.
+    /// Save a query under a name.
     Save(String, String),
-    /// Another name of a saved query: the one it has, and the one it gets.
+    /// Rename a saved query: old name, new name.
     Rename(String, String),
-    /// The rows of a query in a file.
+    /// Write the rows of a query to a file.
     Export(String, PathBuf),
 }
 
-/// A task for the thread of files.
+/// A task for the thread that writes files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileTask {
-    /// List the reports there are.
+    /// List the reports.
     ListReports,
     /// Build the report of a study.
     BuildReport(String),
     /// Write a new study.
     CreateStudy(NewStudy),
-    /// Write files, by their names, into a folder that has none of them.
+    /// Write files, by name, into a folder that has none of them.
     Write(PathBuf, Vec<(String, Vec<u8>)>),
 }

@@ -7,16 +7,16 @@ use store::files::SourceFile;
 use store::{SizeKey, SubjectId};
 use wardrobe::seams::{LaidOut, SeamStep};
 
-/// A size to lay out.
+/// A size to be laid out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LayoutRequest {
     /// Name of the style in the catalogue.
     pub style: String,
-    /// Its revision and the size.
+    /// Numbers of the revisions of style and size.
     pub key: SizeKey,
-    /// The seam file as edited and not saved; `None` where it is as stored.
+    /// Seam file as edited; `None` for the stored one.
     pub seams: Option<SourceFile>,
-    /// File of the study that wears the style.
+    /// Path of the study file that uses the style.
     pub study: Option<PathBuf>,
 }
 
@@ -25,36 +25,37 @@ pub struct LayoutRequest {
 pub enum SeamTask {
     /// Lay a size out.
     LayOut(LayoutRequest),
-    /// Do a step of work on its seams.
+    /// Do a step of work on the seams of a size.
     Sew(SeamWork),
 }
 
 /// A step of work on the seams of a size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SeamWork {
-    /// The size, with its seam file as it is edited.
+    /// Size, with its seam file as edited.
     pub size: LayoutRequest,
-    /// The step.
+    /// Step of work.
     pub step: SeamStep,
 }
 
-/// A size to sew and drape on somebody.
+/// A size to be sewn and draped on a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PreviewRequest {
-    /// Its number: later ones are greater.
+    /// Number of the request; later requests have greater numbers.
     pub number: u64,
-    /// The size, with its seam file as it is edited or stored.
+    /// Size, with its seam file as edited or stored.
     pub size: LayoutRequest,
-    /// The subject that wears it.
+    /// Subject who wears the size.
     pub subject: SubjectId,
-    /// Name of the cloth; none where nobody chose one.
+    /// Name of the chosen fabric; `None` for the default.
     pub fabric: Option<String>,
-    /// Care with which it is draped.
+    /// Accuracy of the drape.
     pub care: Care,
 }
 
 impl PreviewRequest {
-    /// True if a size on a subject in a cloth looks as what was asked for: saving its seams does not change it.
+    /// True if this request would look the same for a size, a subject and a fabric. Saving the seams does not change
+    /// that.
     #[must_use]
     pub fn is_of(&self, size: &LayoutRequest, subject: SubjectId, fabric: Option<&String>) -> bool {
         let LayoutRequest { style, key, seams, .. } = &self.size;
@@ -64,28 +65,28 @@ impl PreviewRequest {
     }
 }
 
-/// A size draped coarsely; its picture is asked for by the number of the request.
+/// Result of a preview. Its picture is requested by the number of the preview's request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Previewed {
-    /// The subject that wears it.
+    /// Name of the subject who wears the size.
     pub subject: String,
     /// Name of the fabric that it is cut from.
     pub fabric: String,
     /// State that the drape came to.
     pub hung: Hung,
-    /// Reasons why it came no farther, and remarks on the drape.
+    /// Reasons why the drape is not complete, and remarks.
     pub remarks: Vec<String>,
     /// Time that it took, ms.
     pub took_ms: u64,
 }
 
-/// A size laid out.
+/// A size, laid out for the Styles screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeLayout {
     /// Pieces, seams, measurements, questions.
     pub out: LaidOut,
-    /// The seam file as stored.
+    /// Seam file as stored.
     pub stored: Option<SourceFile>,
-    /// Path of the seam file in the folder of the study, if it says the same there.
+    /// Path of the seam file in the study's folder, if its contents are the stored ones.
     pub home: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! Contents of the database at one moment, as far as the screens show them.
+//! Data of the database at one moment, for all screens.
 
 use engine::Why;
 use results::GarmentWorn;
@@ -9,14 +9,14 @@ use store::{
 };
 use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
-/// The study, garment and jobs that the user looks at. Those that are `None` or gone are chosen when the database is read.
+/// Study, garment and jobs that screens show. Where one is `None` or gone, reading the database chooses one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
     /// Name of the study.
     pub study: Option<String>,
     /// Name of the garment within the study.
     pub garment: Option<String>,
-    /// Job whose details are wanted.
+    /// Job whose details are shown.
     pub job: Option<JobId>,
     /// Jobs to compare.
     pub compare: Vec<JobId>,
@@ -38,36 +38,36 @@ pub struct Place {
 /// Everything the screens show of the database at one moment.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// When it was read, ms since 1970 (UTC).
+    /// Time of the reading, ms since 1970 (UTC).
     pub now_ms: i64,
     /// The subjects of the catalogue, by name.
     pub subjects: Vec<SubjectRow>,
     /// The fabrics of the catalogue, by name.
     pub fabrics: Vec<FabricRow>,
-    /// The sizes of the styles of the catalogue.
+    /// Sizes of the styles of the catalogue.
     pub sizes: Vec<SizeRow>,
     /// All studies of the database, by name.
     pub studies: Vec<StudyRow>,
-    /// The study looked at, an index into `studies`.
+    /// Index of the shown study in `studies`.
     pub study: usize,
-    /// The garment looked at as a grid.
+    /// Shown garment as a grid; `None` without a study.
     pub grid: Option<Grid>,
-    /// All current jobs of the study.
+    /// Current jobs of the study.
     pub jobs: Vec<JobRow>,
     /// Ease of all sizes on all subjects of the study.
     pub ease: Vec<EaseRow>,
-    /// The job looked at.
+    /// Details of the shown job.
     pub detail: Option<Detail>,
-    /// The jobs compared, those that are gone left out.
+    /// Jobs that are compared, without those that are gone.
     pub compared: Vec<Compared>,
-    /// Recommended simulators of the study's garments; read for comparisons only.
+    /// Recommended simulators for the study's garments; only read for comparisons.
     pub recommendations: Vec<RecommendationRow>,
-    /// Fit of the garment on the wearer.
+    /// Fit of the garment on the wearer; `None` where there is none to show.
     pub worn: Option<GarmentWorn>,
 }
 
 impl Snapshot {
-    /// The study looked at; `None` where the database has none.
+    /// Shown study; `None` for a database without studies.
     #[must_use]
     pub fn study(&self) -> Option<&StudyRow> {
         self.studies.get(self.study)
@@ -79,25 +79,25 @@ impl Snapshot {
         self.jobs.iter().find(|job| job.id == id)
     }
 
-    /// The grid looked at; `None` where it has no size or no subject.
+    /// Shown grid; `None` where it has no size or no subject.
     #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref().filter(|grid| !grid.sizes.is_empty() && !grid.subjects.is_empty())
     }
 
-    /// The cell at a place of the grid.
+    /// Cell at a place of the grid.
     #[must_use]
     pub fn cell_at(&self, place: Place) -> Option<&Cell> {
         self.grid()?.cells.get(place.size)?.get(place.subject)?.get(place.simulator)
     }
 
-    /// The fit at a place of the grid.
+    /// Fit at a place of the grid; `None` where the ease is not known.
     #[must_use]
     pub fn fit_at(&self, place: Place) -> Option<FitCell> {
         *self.grid()?.fits.get(place.size)?.get(place.subject)?
     }
 
-    /// The place of a job in the grid, where it is of its garment.
+    /// Place of a job in the grid; `None` for a job of another garment.
     #[must_use]
     pub fn place_of(&self, id: JobId) -> Option<Place> {
         let grid = self.grid()?;
@@ -109,7 +109,7 @@ impl Snapshot {
         })
     }
 
-    /// The ease that decides the fit of a job.
+    /// Ease that decides the fit of a job.
     #[must_use]
     pub fn ease_of(&self, job: &JobRow) -> Option<&EaseRow> {
         let is_of_job =
@@ -117,7 +117,7 @@ impl Snapshot {
         self.ease.iter().filter(is_of_job).find(|ease| ease.decides)
     }
 
-    /// The job of the same size and subject by the other simulator.
+    /// Job of the same size and subject by the other simulator.
     #[must_use]
     pub fn same_by_other(&self, job: &JobRow) -> Option<&JobRow> {
         let is_other = |other: &&JobRow| {
@@ -138,27 +138,27 @@ pub struct Detail {
     pub job: JobId,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,
-    /// Numbers of its result.
+    /// Metrics of the result; `None` without a result.
     pub metrics: Option<MetricsRow>,
-    /// Steps of its simulation.
+    /// Steps of the simulation.
     pub history: Vec<Step>,
-    /// Its log, oldest line first.
+    /// Log of the job, the oldest line first.
     pub log: Vec<LogLine>,
-    /// Why the cache did not have it.
+    /// Reason why the job ran, or need not run.
     pub why: Why,
-    /// Stages of the job, each from the cache or made.
+    /// Stages of the job, each made or from the cache.
     pub stages: Vec<StageRow>,
 }
 
-/// A run as it is compared.
+/// A job in a comparison.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The job as lists show it.
     pub job: JobRow,
     /// Measurements of all stages.
     pub chi: Vec<ChiRow>,
-    /// Numbers of its result.
+    /// Metrics of the result; `None` without a result.
     pub metrics: Option<MetricsRow>,
-    /// Inputs that it was made of.
+    /// Inputs of the job.
     pub inputs: Inputs,
 }

@@ -1,4 +1,4 @@
-//! Command lines of effects: the log of them teaches what to type, and can be replayed.
+//! Command lines for effects. The log of them teaches what to type, and can be run again.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use engine::NewStudy;
 use wardrobe::seams::{SeamEdit, SeamStep};
 use wardrobe::{Mode, Part, StyleGiven};
 
-/// The command of an effect; `None` where it changes nothing and writes nothing.
+/// Command for an effect; `None` if it changes and writes nothing.
 #[must_use]
 pub fn command(effect: &Effect) -> Option<String> {
     match effect {
@@ -25,7 +25,7 @@ pub fn command(effect: &Effect) -> Option<String> {
     }
 }
 
-/// True if it is told later that an effect is done, or was refused.
+/// True if a later message says that the effect is done or was refused.
 #[must_use]
 pub fn is_awaited(effect: &Effect) -> bool {
     match effect {
@@ -36,7 +36,7 @@ pub fn is_awaited(effect: &Effect) -> bool {
     }
 }
 
-/// A path as a word of a command line, from the current folder where it lies in it.
+/// Path as a word of a command line, relative to the current folder where it lies in it.
 fn shown(path: &Path) -> String {
     let here = std::env::current_dir().ok();
     let inside = here.as_deref().and_then(|here| path.strip_prefix(here).ok());
@@ -56,7 +56,7 @@ fn of_command(command: &Command) -> Option<String> {
         }
         Command::Remove(part, name) => format!("toile {} rm {}", part_of(part), quoted(name)),
         Command::ImportStyle(name, given) => style(name, given),
-        // Their steps are told one by one once they are saved.
+        // Each step of work adds its own command when the seams are saved.
         Command::SaveSeams(..) => return None,
         Command::WriteSeams(path, ..) => format!("# wrote {}", path.display()),
         Command::Cancel(job) => format!("toile queue cancel {job}"),
@@ -100,7 +100,7 @@ fn new_study(new: &NewStudy) -> String {
     text + &format!(" --fabric {}", quoted(&new.fabric))
 }
 
-/// The command of a step of work on the seams of a size, `STYLE/SIZE`.
+/// Command for a step of work on the seams of a size, `STYLE/SIZE`.
 #[must_use]
 pub fn sewn(size: &str, step: &SeamStep) -> String {
     let told = |words: &[&str]| words.iter().map(|word| format!(" {}", quoted(word))).collect::<String>();

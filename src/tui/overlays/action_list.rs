@@ -1,4 +1,4 @@
-//! The list of actions, narrowed by a text: help and palette.
+//! The list of actions, narrowed by a text: for help and palette.
 
 use crossterm::event::KeyEvent;
 use ratatui::Frame;
@@ -20,17 +20,17 @@ use crate::widgets::typing::in_list;
 pub enum Row<'a> {
     /// An action with its keys.
     Action(&'static Binding),
-    /// Something to go to.
+    /// A study or entry to go to.
     Thing(&'a Thing),
 }
 
-/// Most lines of the list: a letter typed changes all of them, and a frame is to stay small.
+/// Most lines of the list. A typed letter may change all of them, and a frame should stay small.
 const MOST: u16 = 40;
 
-/// Screens on which an action can be done, in the order of the list.
+/// Screens on which an action can be done, in the order in which the list has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Reach {
-    /// On the screen in hand, and not everywhere.
+    /// On the present screen, but not on all.
     Here,
     /// On every screen.
     Everywhere,
@@ -43,32 +43,32 @@ enum Reach {
 pub struct List {
     /// All actions with their keys.
     pub bindings: &'static [Binding],
-    /// The screen in hand.
+    /// Present screen.
     pub screen: Screen,
-    /// Things that can be gone to.
+    /// Studies and entries to go to.
     pub things: Vec<Thing>,
-    /// The text that is typed.
+    /// Text as typed.
     pub text: String,
-    /// Index of the row selected, of those shown.
+    /// Index of the selected row among those shown.
     pub row: usize,
 }
 
 impl List {
-    /// All of a table of keys, for a screen.
+    /// All actions of a table of keys, for a screen.
     #[must_use]
     pub fn of(bindings: &'static [Binding], screen: Screen) -> Self {
         Self { bindings, screen, things: vec![], text: String::new(), row: 0 }
     }
 
-    /// The same with things that can be gone to.
+    /// Adds studies and entries to go to.
     #[must_use]
     pub fn and(self, things: Vec<Thing>) -> Self {
         Self { things, ..self }
     }
 
-    /// Its rows. Where nothing is typed they are the keys in the order of the table, those of the screen first, then
-    /// those that work everywhere, then those of other screens. Otherwise they are actions whose names begin with it,
-    /// what has such a name, and actions that have it anywhere.
+    /// Rows that are shown. Without a text: actions in the order of the table, first those of the screen, then those of
+    /// all screens, then others. With a text: actions whose names begin with it, then studies and entries whose names
+    /// match, then actions that contain it.
     #[must_use]
     pub fn rows(&self) -> Vec<Row<'_>> {
         let text = self.text.trim();
@@ -95,7 +95,7 @@ impl List {
         }
     }
 
-    /// The heading above a row: of the first of each group, where nothing is typed.
+    /// Heading above a row: above the first of each group while no text is typed.
     fn heading(&self, rows: &[Row<'_>], k: usize) -> Option<String> {
         let reach = |row: &Row<'_>| match row {
             Row::Action(binding) => Some(self.reach(binding)),
@@ -110,17 +110,17 @@ impl List {
         })
     }
 
-    /// Edits the text, or goes through the rows.
+    /// Handles a key: edits the text or moves among the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
         in_list(&mut self.text, &mut self.row, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
     }
 }
 
-/// Draws it over a screen.
+/// Draws the list above a screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme) {
     let rows = list.rows();
-    // A line a row, or a heading of which there is no row.
+    // Lines: index of a row and its text, or a heading, which has no row.
     let all: Vec<(Option<usize>, String)> = (0..rows.len())
         .flat_map(|k| list.heading(&rows, k).map(|text| (None, text)).into_iter().chain([(Some(k), String::new())]))
         .collect();
@@ -146,7 +146,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: 
     frame.render_widget(Paragraph::new(lines).block(block), place);
 }
 
-/// Keys, name and help of an action, dim where it does nothing on this screen; or kind and name of a thing.
+/// Line of an action: keys, name and help, dim where it does nothing on this screen. Line of another row: kind and
+/// name.
 fn line(list: &List, theme: Theme, row: Row<'_>, columns: usize) -> Line<'static> {
     let longest = |field: fn(&Binding) -> usize| list.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| text::width(&b.keys_text())) + 1;

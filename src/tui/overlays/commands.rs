@@ -1,4 +1,4 @@
-//! The log of commands that do what was done here.
+//! Log of commands that do the same as was done here.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -14,17 +14,17 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 
-/// The log, a line selected.
+/// The log, with a selected line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandLog {
     /// Commands, the latest last.
     pub commands: Vec<String>,
-    /// Index of the line selected.
+    /// Index of the selected line.
     pub row: usize,
 }
 
 impl CommandLog {
-    /// Of some commands, the latest selected.
+    /// Log of some commands, the latest selected.
     #[must_use]
     pub fn of(commands: &[String]) -> Self {
         Self { commands: commands.to_vec(), row: commands.len().saturating_sub(1) }
@@ -49,7 +49,7 @@ impl CommandLog {
     }
 }
 
-/// Draws it over a screen, each command at its full length.
+/// Draws the log above a screen, each command in full.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, log: &CommandLog, theme: Theme) {
     let place = middle(area, area.width.min(120), area.height);
     let block = pane(theme, "what was done here, as commands".to_owned(), true)

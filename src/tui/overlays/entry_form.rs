@@ -1,4 +1,4 @@
-//! The values of a subject or a fabric, each checked while it is typed.
+//! Form for the values of a subject or a fabric, checked while they are typed.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -23,9 +23,9 @@ const NAME: usize = 0;
 const WORD: usize = 1;
 const FIRST_NUMBER: usize = 2;
 
-/// A number beyond the least or greatest of the catalogue by such a factor is doubtful.
+/// Factor beyond the least or greatest number in the catalogue from which a number is doubtful.
 const FAR: f64 = 3.0;
-/// Columns of values in a form.
+/// Columns for a value.
 const VALUE: usize = 12;
 
 /// Note beside a value.
@@ -35,9 +35,9 @@ pub enum Note {
     None,
     /// Percentile among adults of the sex, or range among the fabrics of the catalogue.
     Place(String),
-    /// It is possible but rare.
+    /// The value is possible but rare.
     Doubt(String),
-    /// It cannot be.
+    /// The value is not accepted.
     Problem(String),
 }
 
@@ -48,17 +48,17 @@ pub struct Form {
     pub part: Part,
     /// Mode of saving: a new entry, or other values of a known one.
     pub mode: Mode,
-    /// The entry whose values a new one starts with.
+    /// Name of the entry whose values a new one starts with.
     pub like: Option<String>,
-    /// Name, sex or source, and the numbers.
+    /// Name, sex or source, then the numbers, as typed.
     pub texts: Vec<String>,
-    /// The least and the greatest of each number in the catalogue; none for subjects, who have percentiles.
+    /// Least and greatest of each number in the catalogue; empty for subjects, whose notes are percentiles.
     known: Vec<[f64; 2]>,
-    /// Line that is typed in.
+    /// Index of the line that is edited.
     pub at: usize,
-    /// True where all problems are told, also those of empty lines.
+    /// True once saving was tried: then empty lines show their problems too.
     is_tried: bool,
-    /// Progress of saving it.
+    /// Progress of saving the entry.
     pub sending: Sending,
 }
 
@@ -76,7 +76,7 @@ impl Form {
         Self::new(Part::Subject, Mode::Add, texts)
     }
 
-    /// The form of a subject that is there.
+    /// The form for editing a subject.
     #[must_use]
     pub fn of_subject(subject: &SubjectRow) -> Self {
         let value = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
@@ -85,7 +85,7 @@ impl Form {
         Self::new(Part::Subject, Mode::Edit, texts)
     }
 
-    /// The form of a fabric that is there, or of a new one that starts with its numbers; `all` tells which are usual.
+    /// The form for editing a fabric, or for a new one that starts with its numbers. `all` gives the usual ranges.
     #[must_use]
     pub fn of_fabric(row: &FabricRow, mode: Mode, all: &[FabricRow]) -> Self {
         let is_new = mode == Mode::Add;
@@ -111,7 +111,7 @@ impl Form {
         self.texts[NAME].trim()
     }
 
-    /// True if a line can be typed in: the name of a known entry stays.
+    /// True if a line can be edited: all but the name of an existing entry.
     fn is_open(&self, line: usize) -> bool {
         line != NAME || self.mode == Mode::Add
     }
@@ -142,7 +142,7 @@ impl Form {
         }
     }
 
-    /// Unit of a line.
+    /// Unit of a line's number.
     #[must_use]
     pub fn unit(&self, line: usize) -> &'static str {
         if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
@@ -179,7 +179,7 @@ impl Form {
         })
     }
 
-    /// Note on the range of a number among the fabrics of the catalogue. A number far from all of them may be in another unit.
+    /// Note on the range of a number among the fabrics of the catalogue. A number far outside may be in another unit.
     fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let value = FABRIC_NUMBERS[k].read(text)?;
         let Some((value, [low, high])) =
@@ -216,7 +216,7 @@ impl Form {
         Outcome::Open
     }
 
-    /// Goes on by some lines, round about, past a line that cannot be typed in.
+    /// Moves by some lines, from the last on to the first, and past a line that cannot be edited.
     fn step(&mut self, lines: usize) {
         self.at = (self.at + lines) % self.texts.len();
         if !self.is_open(self.at) {
@@ -224,7 +224,7 @@ impl Form {
         }
     }
 
-    /// Saves what was typed, or goes to the first line that cannot be right.
+    /// Saves the entry, or moves to the first line with a problem.
     fn save(&mut self) -> Outcome {
         self.is_tried = true;
         if let Some(line) = (0..self.texts.len()).find(|line| matches!(self.note(*line), Note::Problem(_))) {
@@ -240,14 +240,14 @@ impl Form {
     }
 }
 
-/// Name of a number of fabrics, without the unit that the command line adds to it.
+/// Name of a number of fabrics, without the unit, which the command line adds.
 #[must_use]
 pub fn fabric_label(k: usize) -> &'static str {
     let label = FABRIC_NUMBERS[k].label;
     label.split_once(" [").map_or(label, |(name, _)| name)
 }
 
-/// The unit that the end of a key names.
+/// Unit that ends a key.
 #[must_use]
 pub fn unit_of(key: &str) -> &'static str {
     const UNITS: [(&str, &str); 6] =
@@ -255,7 +255,7 @@ pub fn unit_of(key: &str) -> &'static str {
     UNITS.iter().find(|(end, _)| key.ends_with(end)).map_or("", |(_, unit)| *unit)
 }
 
-/// Draws the values of a subject or a fabric.
+/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let title = match form.mode {
         Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
@@ -263,7 +263,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     };
     let width = area.width.min(if form.part == Part::Fabric { 100 } else { 76 });
     let columns = usize::from(width.saturating_sub(2));
-    // The line has little room for what is wrong with its value.
+    // A line has little room for its problem, so the problem of the edited line also stands below.
     let mut sending = form.sending.clone();
     if let Note::Problem(problem) = form.note(form.at) {
         sending.problem = Some(problem);
@@ -282,7 +282,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     draw_frame(frame, area, width, title, keys, lines, theme);
 }
 
-/// A line of a form: name, value, note.
+/// Line of the form: name, value, note.
 pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
     let is_focused = k == form.at && !form.sending.is_busy;
     let mark = if is_focused { "▸" } else { " " };
@@ -298,7 +298,7 @@ pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static
     let head = format!("{mark} {} ", left(form.label(k), widest(&|k| form.label(k))));
     let typed = match Form::is_number(k) {
         true => format!("{head}{} {} ", right(&value, VALUE), left(form.unit(k), widest(&|k| form.unit(k)))),
-        // A long word takes the room of its note; its end is what is being typed.
+        // A long text takes the room of its note and shows its end, where typing goes on.
         false => format!("{head}{} ", ended(&value, columns.saturating_sub(text::width(&head) + 1), is_focused)),
     };
     let room = columns.saturating_sub(text::width(&typed));

@@ -1,5 +1,4 @@
-//! Explanation of the numbers of a screen: those that are selected first, then its other headings, then all of the
-//! glossary.
+//! Explanation of the numbers on a screen: first those selected, then its other headings, then the whole glossary.
 
 use crossterm::event::KeyEvent;
 use ratatui::Frame;
@@ -15,29 +14,29 @@ use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::in_list;
 
-/// Columns of the names beside the words.
+/// Columns for names beside the texts.
 const NAMES: u16 = 26;
-/// Lines of the names above the words, where there is no room beside them.
+/// Lines for names above the texts, where they do not fit beside.
 const FEW: u16 = 4;
 
-/// The selected thing, and the names of its quantities.
+/// The selection of a screen, with the names of its quantities.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selected {
-    /// The selected thing with its numbers; empty where nothing is selected.
+    /// Description of the selection with its numbers; empty where nothing is selected.
     pub what: String,
-    /// Names in the glossary, the nearest to the selected thing first. Those it does not have are left out.
+    /// Names in the glossary, most relevant to the selection first. Names that the glossary lacks are left out.
     pub names: Vec<String>,
 }
 
 impl Selected {
-    /// A thing with its numbers, the names of its quantities, and the headings of its screen.
+    /// Makes the selection from its description, the names of its quantities, and the headings of its screen.
     #[must_use]
     pub fn new(what: String, names: &[&str], headings: &[&str]) -> Self {
         Self { what, names: names.iter().chain(headings).map(|name| (*name).to_owned()).collect() }
     }
 }
 
-/// A list of terms, narrowed by a text, one of them explained.
+/// A list of terms, narrowed by a text, with one term explained.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     what: String,
@@ -47,7 +46,7 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// The explanation of a selected thing; its terms first.
+    /// Explanation of a selection, whose terms come first.
     #[must_use]
     pub fn of(selected: Selected) -> Self {
         let mut terms: Vec<&Term> = vec![];
@@ -59,7 +58,7 @@ impl Explanation {
         Self { what: selected.what, terms, text: String::new(), row: 0 }
     }
 
-    /// The terms that contain the text: those of that name first.
+    /// Terms that contain the text; a term with that name comes first.
     fn rows(&self) -> Vec<&'static Term> {
         let text = self.text.trim().to_lowercase();
         let mut rows: Vec<&Term> = self.terms.iter().copied().filter(|term| term.contains(&text)).collect();
@@ -67,14 +66,14 @@ impl Explanation {
         rows
     }
 
-    /// Goes through the terms, or narrows them.
+    /// Handles a key: moves among the terms or narrows them.
     pub fn key(&mut self, event: &KeyEvent) {
         in_list(&mut self.text, &mut self.row, event);
         self.row = self.row.min(self.rows().len().saturating_sub(1));
     }
 }
 
-/// Draws it over a screen.
+/// Draws the explanation above a screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme: Theme) {
     let place = middle(area, area.width.min(100), area.height.min(24));
     let title = format!("what is this: /{}▏", explanation.text);
@@ -101,7 +100,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, explanation: &Explanation, theme:
     frame.render_widget(Paragraph::new(told), words);
 }
 
-/// A term in words.
+/// Lines that explain a term.
 fn told(term: &Term, theme: Theme, columns: usize) -> Vec<Line<'static>> {
     let unit = match term.unit.as_str() {
         "" => String::new(),
@@ -121,7 +120,7 @@ fn told(term: &Term, theme: Theme, columns: usize) -> Vec<Line<'static>> {
     parts.into_iter().filter(|(text, _)| !text.is_empty()).flat_map(lines).collect()
 }
 
-/// A text under its name; nothing where it is empty.
+/// Text below its heading; empty for an empty text.
 fn labelled(name: &str, text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{name}{text}") }
 }

@@ -1,4 +1,4 @@
-//! The frame that all forms have.
+//! The frame of all forms.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Frame;
@@ -11,27 +11,27 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 
-/// Progress of a form that is sent off.
+/// State of sending a form.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sending {
-    /// True while the answer is waited for.
+    /// True while the form waits for an answer.
     pub is_busy: bool,
-    /// Reason why it was refused, or note on a line that cannot be right.
+    /// Reason for a refusal, or problem of a line.
     pub problem: Option<String>,
 }
 
 impl Sending {
-    /// Sends the form off.
+    /// Notes that the form was sent.
     pub fn start(&mut self) {
         *self = Self { is_busy: true, problem: None };
     }
 
-    /// Takes in that the form was refused.
+    /// Notes that the form was refused.
     pub fn refuse(&mut self, problem: String) {
         *self = Self { is_busy: false, problem: Some(problem) };
     }
 
-    /// Lines below a form: the work that goes on, and the problem there is.
+    /// Lines below a form: the work in progress, and the problem.
     pub fn lines(&self, work: &str, columns: usize, theme: Theme) -> Vec<Line<'static>> {
         let busy = self.is_busy.then(|| Line::styled(format!(" {work}"), theme.busy()));
         let problem = wrapped(self.problem.as_deref().unwrap_or_default(), columns.saturating_sub(3));
@@ -42,7 +42,7 @@ impl Sending {
     }
 }
 
-/// True if a key says that a form is filled in: Enter on its last line, F5 or Alt-Enter on any. Enter on others goes on.
+/// True if a key completes a form: Enter on the last line, F5 or Alt-Enter on any. Enter on another line moves on.
 pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
     match event.code {
         KeyCode::F(5) => true,
@@ -51,7 +51,7 @@ pub fn is_done(event: &KeyEvent, is_last: bool) -> bool {
     }
 }
 
-/// Draws a form: its title, its lines, and what the keys do.
+/// Draws a form: title, lines, and legend of the keys.
 pub fn draw_frame(
     frame: &mut Frame<'_>,
     area: Rect,
@@ -67,7 +67,7 @@ pub fn draw_frame(
     frame.render_widget(Paragraph::new(lines).block(block), place);
 }
 
-/// A text in at most so many columns: its end while it is typed, its beginning else.
+/// Text in at most `columns` columns: its end while it is typed, else its beginning.
 pub fn ended(text: &str, columns: usize, is_typed: bool) -> String {
     let letters: Vec<char> = text.chars().collect();
     if is_typed { letters[letters.len().saturating_sub(columns)..].iter().collect() } else { shortened(text, columns) }

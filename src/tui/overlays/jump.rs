@@ -1,4 +1,4 @@
-//! Letters over the screen; typing those of a place goes there.
+//! Letters on places of the screen; typing the letters of a place goes there.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -9,23 +9,23 @@ use crate::overlays::outcome::Outcome;
 use crate::widgets::jump::{Target, label};
 use crate::widgets::theme::Theme;
 
-/// Places that can be gone to, and the letters of a label that are typed.
+/// Places on the screen, and the part of a label that was typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Jump {
-    /// Places on the screen, each with its label.
+    /// Places; each has a label of letters.
     pub targets: Vec<Target>,
-    /// The letters that are typed.
+    /// Letters as typed.
     pub typed: String,
 }
 
 impl Jump {
-    /// The places whose labels begin with the letters typed, with their labels.
+    /// Places whose labels begin with the typed letters, with these labels.
     fn open(&self) -> impl Iterator<Item = (&Target, String)> {
         let labelled = self.targets.iter().enumerate().map(|(k, target)| (target, label(k, self.targets.len())));
         labelled.filter(|(_, label)| label.starts_with(&self.typed))
     }
 
-    /// Handles a key: a letter goes on with a label, any other key closes.
+    /// Handles a key: a letter continues a label, any other key closes.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         let KeyCode::Char(letter) = event.code else { return Outcome::Closed };
         self.typed.push(letter.to_ascii_lowercase());
@@ -38,7 +38,7 @@ impl Jump {
     }
 }
 
-/// Draws the labels, without the letters that are typed.
+/// Draws the rest of each label behind the typed letters.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, jump: &Jump, theme: Theme) {
     let style = Style::reset().patch(theme.warn()).add_modifier(Modifier::BOLD | Modifier::REVERSED);
     for (target, label) in jump.open().filter(|(target, _)| area.contains(target.at)) {

@@ -46,13 +46,13 @@ pub enum Overlay {
     Palette(List),
     /// The explanation of the numbers of the screen.
     Explanation(Explanation),
-    /// Letters on the places that can be gone to.
+    /// Letters on the places to go to.
     Jump(Jump),
-    /// The filter line, with the filter to go back to.
+    /// Line of the filter, with the filter to restore on Esc.
     Filter(String),
-    /// The values of a subject.
+    /// Values of a subject or fabric.
     Form(Box<Form>),
-    /// The path of a file to import.
+    /// Path or name that is typed.
     Path(PathPrompt),
     /// The files of a style.
     StyleForm(Box<StyleForm>),
@@ -64,17 +64,17 @@ pub enum Overlay {
     Commands(CommandLog),
     /// The tour of the workbench, at a step.
     Tour(Tour),
-    /// A question; `y` has the effects happen.
+    /// A question; `y` carries out its effects.
     Question {
-        /// Its text.
+        /// Text of the question.
         text: String,
-        /// Effects that happen on yes.
+        /// Effects of a yes.
         effects: Vec<Effect>,
     },
 }
 
 impl Overlay {
-    /// Draws it over a screen.
+    /// Draws the overlay above a screen.
     pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme) {
         match self {
             Self::Help(list) => {
@@ -99,7 +99,7 @@ impl Overlay {
         }
     }
 
-    /// Handles a key; `filter` is the screen's filter.
+    /// Handles a key; `filter` is the filter of the screen.
     pub fn key(&mut self, event: &KeyEvent, filter: &mut String) -> Outcome {
         let leaves = event.code == KeyCode::Esc || is_ctrl_c(event);
         match self {

@@ -1,4 +1,4 @@
-//! Outcomes of a key for the overlay above a screen.
+//! Outcome of a key for an overlay.
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
@@ -8,24 +8,24 @@ use crate::widgets::jump::Goal;
 /// Outcome of a key for an overlay.
 #[derive(Debug, PartialEq)]
 pub enum Outcome {
-    /// It stays open.
+    /// The overlay stays open.
     Open,
-    /// It closes, and nothing follows.
+    /// The overlay closes.
     Closed,
-    /// It closes and an action follows.
+    /// The overlay closes, and an action follows.
     Action(Action),
-    /// It closes and something is gone to.
+    /// The overlay closes, and a study or entry is gone to.
     Thing(Thing),
     /// A step of the tour follows.
     Tour(usize),
-    /// It closes and a place on the screen is gone to.
+    /// The overlay closes, and a place on the screen is gone to.
     Jump(Goal),
-    /// It closes and a query goes into the editor.
+    /// The overlay closes, and a query goes into the editor.
     Query(String),
-    /// It closes and another name of a saved query is asked for.
+    /// The overlay closes, and a prompt for the new name of a saved query opens.
     Rename(String),
-    /// It closes and effects follow.
+    /// The overlay closes, and effects follow.
     Effects(Vec<Effect>),
-    /// It stays open until the effects that it asked for are done.
+    /// The overlay stays open until its effects are done.
     Sent(Vec<Effect>),
 }

@@ -1,4 +1,4 @@
-//! The path of a file or folder to read or write.
+//! Prompt for the path of a file or folder, or for a name.
 
 use std::path::PathBuf;
 
@@ -15,18 +15,18 @@ use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use wardrobe::Part;
 
-/// Purpose of a path or name that is asked for.
+/// Purpose of the path or name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Subjects or fabrics to import.
+    /// Path of a file with subjects or fabrics to import.
     Import(Part),
-    /// The rows of a query to write.
+    /// Path of a file for the rows of a query.
     Export(String),
-    /// The files of a changed pattern to write, by their names.
+    /// Path of a folder for the files of an altered pattern.
     Write(Vec<(String, Vec<u8>)>),
-    /// The name under which a query is saved.
+    /// Name under which to save a query.
     SaveQuery(String),
-    /// Another name of a saved query.
+    /// New name for a saved query.
     RenameQuery(String),
 }
 
@@ -81,25 +81,25 @@ impl Purpose {
     }
 }
 
-/// The path of a file to read or write.
+/// A prompt for a path or name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPrompt {
-    /// Its purpose.
+    /// Purpose of the prompt.
     pub purpose: Purpose,
-    /// The text that is typed.
+    /// Text as typed.
     pub text: String,
     /// Progress of reading or writing the file.
     pub sending: Sending,
 }
 
 impl PathPrompt {
-    /// A prompt that begins with a text.
+    /// Makes a prompt with a text to begin with.
     #[must_use]
     pub fn new(purpose: Purpose, text: impl Into<String>) -> Self {
         Self { purpose, text: text.into(), sending: Sending::default() }
     }
 
-    /// True if a name is asked for, not a path.
+    /// True if the prompt is for a name, not for a path.
     fn is_name(&self) -> bool {
         matches!(self.purpose, Purpose::SaveQuery(_) | Purpose::RenameQuery(_))
     }
@@ -135,13 +135,13 @@ impl PathPrompt {
     }
 }
 
-/// The path that was typed; `~/` is home.
+/// Path that was typed; `~/` is the home folder.
 pub fn path_of(text: &str) -> PathBuf {
     let home = text.strip_prefix("~/").zip(std::env::home_dir());
     home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
 }
 
-/// The path that is typed, completed as far as its beginning leaves no choice; `None` where that adds nothing.
+/// Typed path, completed as far as the files that exist leave no choice; `None` where that adds nothing.
 #[must_use]
 pub fn completed(text: &str) -> Option<String> {
     let (folder, start) =
@@ -160,11 +160,11 @@ pub fn completed(text: &str) -> Option<String> {
     Some(format!("{folder}{}", &first[..count]))
 }
 
-/// Draws the prompt for a file.
+/// Draws the prompt.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
-    // The end of a long path is what is being typed.
+    // The end of a long path is shown, since typing goes on there.
     let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
     lines.extend(prompt.sending.lines(prompt.purpose.busy(), columns, theme));
     if lines.len() == 1 {

@@ -17,16 +17,16 @@ use store::SavedQuery;
 /// A list of queries, narrowed by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QueryList {
-    /// All of them.
+    /// All saved queries.
     pub queries: Vec<SavedQuery>,
-    /// The text that is typed.
+    /// Text as typed.
     pub text: String,
-    /// Index of the row selected, of those shown.
+    /// Index of the selected row among those shown.
     pub row: usize,
 }
 
 impl QueryList {
-    /// Those that contain the text.
+    /// Queries that contain the text.
     #[must_use]
     pub fn rows(&self) -> Vec<&SavedQuery> {
         let text = self.text.to_lowercase();
@@ -36,7 +36,7 @@ impl QueryList {
             .collect()
     }
 
-    /// Handles a key: Enter takes the selected query, Ctrl-R asks for another name of it.
+    /// Handles a key: Enter takes the selected query, Ctrl-R renames it.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         let selected = self.rows().get(self.row).copied();
         let is_rename = event.code == KeyCode::Char('r') && event.modifiers.contains(KeyModifiers::CONTROL);
@@ -50,7 +50,7 @@ impl QueryList {
     }
 }
 
-/// Draws the list of saved queries.
+/// Draws the list.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
     let rows = list.rows();
     let place = middle(area, area.width.min(100), (rows.len() as u16 + 2).max(3).min(area.height));

@@ -1,4 +1,4 @@
-//! The form of a new study: its name, and the entries of the catalogue that it is made of.
+//! Form for a new study: its name, and the entries of the catalogue that it uses.
 
 use std::path::PathBuf;
 
@@ -21,26 +21,26 @@ use fit::Simulator;
 /// Lines of a page.
 const PAGE: usize = 10;
 
-/// Columns of the names of the parts.
+/// Columns for the names of the parts.
 const SECTION: usize = 17;
 
 /// A line of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormLine {
-    /// The name of the study, which is typed.
+    /// Name of the study.
     Name,
-    /// The fabric, one of a list.
+    /// Fabric, chosen from a list.
     Fabric,
-    /// A simulator, chosen or not.
+    /// Simulator by index, chosen or not.
     Simulator(usize),
-    /// A size of a style, chosen or not.
+    /// Size of a style by index, chosen or not.
     Size(usize),
-    /// A subject, chosen or not.
+    /// Subject by index, chosen or not.
     Subject(usize),
 }
 
 impl FormLine {
-    /// The part of the form it belongs to.
+    /// Heading of the part that the line belongs to.
     #[must_use]
     pub fn section(self) -> &'static str {
         match self {
@@ -53,27 +53,27 @@ impl FormLine {
     }
 }
 
-/// Filter of the lines of a part.
+/// Filter for the lines of one part.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
     /// Heading of the part whose lines are narrowed.
     section: &'static str,
-    /// Text that its lines contain, in lower case.
+    /// Text that these lines must contain, in lower case.
     text: String,
-    /// True while it is being typed.
+    /// True while the filter is typed.
     is_typed: bool,
 }
 
-/// A new study as it is filled in.
+/// A new study in a form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyForm {
-    /// Name as it is typed.
+    /// Name as typed.
     pub name: String,
     /// Folder of all studies.
     pub folder: PathBuf,
-    /// Fabrics there are.
+    /// Names of all fabrics.
     pub fabrics: Vec<String>,
-    /// The one chosen.
+    /// Index of the chosen fabric.
     pub fabric: usize,
     /// Simulators, each chosen or not.
     pub simulators: Vec<(Simulator, bool)>,
@@ -83,14 +83,14 @@ pub struct StudyForm {
     pub subjects: Vec<(String, bool)>,
     /// Filter of the sizes or subjects.
     pub filter: Filter,
-    /// Index of the line selected.
+    /// Index of the selected line.
     pub at: usize,
-    /// Progress of writing it.
+    /// Progress of writing the study.
     pub sending: Sending,
 }
 
 impl StudyForm {
-    /// Its lines, in order, without those that the filter hides.
+    /// Lines of the form, in order, without those that the filter hides.
     #[must_use]
     pub fn lines(&self) -> Vec<FormLine> {
         let mut lines = vec![FormLine::Name];
@@ -112,13 +112,13 @@ impl StudyForm {
         line.section() != self.filter.section || words.to_lowercase().contains(&self.filter.text)
     }
 
-    /// The line selected.
+    /// The selected line.
     #[must_use]
     pub fn line(&self) -> FormLine {
         self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
     }
 
-    /// Numbers of subjects, sizes and simulators that are chosen.
+    /// Numbers of chosen subjects, sizes and simulators.
     #[must_use]
     pub fn jobs(&self) -> [usize; 3] {
         let sizes = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).count();
@@ -127,7 +127,7 @@ impl StudyForm {
         [subjects, sizes, simulators]
     }
 
-    /// True for a line that is chosen; `None` for those that are not chosen but filled in.
+    /// True for a chosen line; `None` for lines that are filled in instead.
     #[must_use]
     pub fn choice(&self, line: FormLine) -> Option<bool> {
         match line {
@@ -190,7 +190,7 @@ impl StudyForm {
         Outcome::Open
     }
 
-    /// Leaves the filter or the part in hand; returns true if there was any to leave.
+    /// Leaves the filter or the present part. Returns false where there is none to leave.
     fn leave(&mut self) -> bool {
         if self.sending.is_busy {
             return false;
@@ -207,7 +207,7 @@ impl StudyForm {
         line != FormLine::Name
     }
 
-    /// Types in the filter; the first line of its part that passes is selected.
+    /// Edits the filter, and selects the first line of the part that passes.
     fn narrow(&mut self, event: &KeyEvent) {
         if event.code == KeyCode::Enter {
             self.filter.is_typed = false;
@@ -235,7 +235,7 @@ impl StudyForm {
         }
     }
 
-    /// Goes to the first line of the next part or the one before.
+    /// Moves to the first line of the next or previous part.
     fn go_to_section(&mut self, step: isize) {
         let lines = self.lines();
         let starts: Vec<usize> =
@@ -249,7 +249,7 @@ impl StudyForm {
         self.fabric = (self.fabric as isize + step).rem_euclid(len) as usize;
     }
 
-    /// Chooses the whole part of a line, or, where all of it is chosen, none.
+    /// Chooses all lines of a line's part, or none where all are chosen.
     fn choose_section(&mut self, line: FormLine) {
         let lines: Vec<FormLine> = self.lines().into_iter().filter(|other| other.section() == line.section()).collect();
         let all = lines.iter().all(|other| self.choice(*other) != Some(false));
@@ -258,7 +258,7 @@ impl StudyForm {
         }
     }
 
-    /// Sends it off, or goes to the part that is missing.
+    /// Sends the form, or moves to a part that is missing.
     fn save(&mut self) -> Outcome {
         let [subjects, sizes, simulators] = self.jobs();
         let missing = [
@@ -324,7 +324,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
     draw_frame(frame, area, width, "new study".to_owned(), form.keys(), shown, theme);
 }
 
-/// A line: the part where one begins, and the choice.
+/// Line of the form: name of the part where one begins, then the choice.
 fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme: Theme) -> Line<'static> {
     let lines = form.lines();
     let line = lines[k];

@@ -1,4 +1,4 @@
-//! The form to import a style: its pattern, and the values that the pattern's file does not have.
+//! Form for importing a style: its pattern, and values that the pattern's file does not have.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -23,24 +23,24 @@ const SIZE: usize = 2;
 const UNIT: usize = 3;
 const SEAMS: usize = 4;
 
-/// Letters of a message about many sizes: the first sizes tell enough.
+/// Most letters of a message about many sizes: the first sizes say enough.
 const LONGEST: usize = 400;
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
 
-/// The files of a style, as typed.
+/// Values of a style, as typed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleForm {
-    /// Pattern, style, size, unit, seam file.
+    /// Pattern, style, size, unit, seam file, in the order of [`LABELS`].
     pub texts: [String; 5],
-    /// Line that is typed in.
+    /// Index of the line that is edited.
     pub at: usize,
     /// Progress of reading the files.
     pub sending: Sending,
 }
 
 impl StyleForm {
-    /// Meaning of an empty line.
+    /// Meaning of a line that is left empty.
     #[must_use]
     pub fn hint(&self, line: usize) -> String {
         match line {
@@ -53,7 +53,7 @@ impl StyleForm {
         }
     }
 
-    /// Name of the style: as typed, or that of the pattern's file.
+    /// Name of the style: as typed, or that of the pattern file.
     #[must_use]
     pub fn style(&self) -> String {
         let typed = self.texts[STYLE].trim();
@@ -88,7 +88,7 @@ impl StyleForm {
         Outcome::Open
     }
 
-    /// Completes the path of the line; returns true if there was more to it.
+    /// Completes the path of the line. Returns true if that added something.
     fn complete(&mut self) -> bool {
         let text = &mut self.texts[self.at];
         let more = if [PATTERN, SEAMS].contains(&self.at) && !text.is_empty() { completed(text) } else { None };
@@ -97,7 +97,7 @@ impl StyleForm {
         has_more
     }
 
-    /// Sends what was typed off, or says what cannot be right.
+    /// Sends the form, or reports what is wrong.
     fn save(&mut self) -> Outcome {
         let [pattern, _, size, unit, seams] = self.texts.each_ref().map(|text| text.trim());
         if pattern.is_empty() {
@@ -119,7 +119,7 @@ impl StyleForm {
         Outcome::Sent(vec![Effect::Do(Command::ImportStyle(self.style(), given))])
     }
 
-    /// Takes in why the files were refused, and goes to the line that answers it.
+    /// Shows why the files were refused, and moves to the line that can remedy it.
     pub fn refused(&mut self, problem: String) {
         if problem.contains("no unit") || problem.contains("say the unit") {
             self.at = UNIT;
@@ -132,7 +132,7 @@ impl StyleForm {
     }
 }
 
-/// Draws the files of a style.
+/// Draws the form.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
@@ -141,7 +141,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
         let (mark, end) = if is_focused { ("▸", "▏") } else { (" ", "") };
         let head = format!("{mark} {}", left(LABELS[k], 11));
         let room = columns.saturating_sub(text::width(&head));
-        // The end of a long path is what tells it from others.
+        // The end of a long path is shown, since it tells paths apart.
         let shown = ended(&format!("{text}{end}"), room, true);
         let style = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
         let hint = if text.is_empty() { format!(" {}", form.hint(k)) } else { String::new() };

@@ -1,23 +1,23 @@
-//! Things by their names, for the palette to go to: studies, subjects, styles, fabrics.
+//! Studies, subjects, sizes and fabrics that the palette can go to by name.
 
 use crate::keys::screen::Screen;
 use crate::messages::snapshot::Snapshot;
 
-/// Something with a name.
+/// A study or an entry of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Thing {
     /// A study of the database.
     Study(String),
     /// A subject of the catalogue.
     Subject(String),
-    /// A size of a style.
+    /// A size of a style: style, then size.
     Size(String, String),
     /// A fabric of the catalogue.
     Fabric(String),
 }
 
 impl Thing {
-    /// All that were read.
+    /// All studies and entries that were read.
     #[must_use]
     pub fn all(data: Option<&Snapshot>) -> Vec<Self> {
         let Some(data) = data else { return vec![] };
@@ -28,7 +28,7 @@ impl Thing {
         studies.chain(subjects).chain(sizes).chain(fabrics).collect()
     }
 
-    /// Its kind and its name.
+    /// Kind and name.
     #[must_use]
     pub fn words(&self) -> (&'static str, String) {
         match self {
@@ -39,7 +39,7 @@ impl Thing {
         }
     }
 
-    /// The screen that shows it.
+    /// Screen that shows the study or entry.
     #[must_use]
     pub fn screen(&self) -> Screen {
         match self {
@@ -50,8 +50,8 @@ impl Thing {
         }
     }
 
-    /// Distance of its words from a text whose letters stand in them in order: the number of letters between. `None` where
-    /// they do not.
+    /// Number of letters that lie between those of a text in these words; `None` where the words do not have its letters
+    /// in order.
     #[must_use]
     pub fn distance(&self, text: &str) -> Option<usize> {
         let (what, name) = self.words();

@@ -1,4 +1,4 @@
-//! The tour: six screens on the results there are, a few words on each.
+//! The tour: six screens of the present results, with a few words on each.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::Frame;
@@ -12,7 +12,7 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::wrapped;
 use crate::widgets::theme::Theme;
 
-/// The steps: a screen, and a few words on it.
+/// Steps: screen and words.
 const STEPS: [(Screen, &str); 6] = [
     (
         Screen::Study,
@@ -50,19 +50,19 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// A step, the first is 0; `None` after the last.
+    /// Step by number, from 0; `None` after the last.
     #[must_use]
     pub fn at(step: usize) -> Option<Self> {
         (step < STEPS.len()).then_some(Self { step })
     }
 
-    /// The screen it shows.
+    /// Screen of the step.
     #[must_use]
     pub fn screen(self) -> Screen {
         STEPS[self.step].0
     }
 
-    /// Handles a key: on, back, or out.
+    /// Handles a key: next step, previous step, or end.
     pub fn key(self, event: &KeyEvent) -> Outcome {
         match event.code {
             KeyCode::Enter | KeyCode::Char(' ' | 'n' | 'l') | KeyCode::Right => Outcome::Tour(self.step + 1),
@@ -73,7 +73,7 @@ impl Tour {
     }
 }
 
-/// Draws its words below the screen.
+/// Draws the words below the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, tour: Tour, theme: Theme) {
     let width = usize::from(area.width.saturating_sub(2)).max(1);
     let texts = wrapped(STEPS[tour.step].1, width);

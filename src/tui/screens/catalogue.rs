@@ -1,5 +1,4 @@
-//! Adding, editing, importing and removing the entries of the catalogue that are filled in line by line: subjects and
-//! fabrics.
+//! Adding, editing, importing and removing the entries of the catalogue that have forms: subjects and fabrics.
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
@@ -10,7 +9,7 @@ use crate::overlays::path_prompt::{PathPrompt, Purpose};
 use crate::screens::state::State;
 use wardrobe::Part;
 
-/// The screen that shows a part of the catalogue.
+/// Screen of a part of the catalogue.
 fn screen_of(part: Part) -> Screen {
     match part {
         Part::Subject => Screen::Subjects,
@@ -19,7 +18,7 @@ fn screen_of(part: Part) -> Screen {
     }
 }
 
-/// Goes to the screen of a part; returns true if it may be changed, and says why where it may not.
+/// Shows the screen of a part. Returns true if the part may be changed; else says why not.
 pub fn may_change(state: &mut State, part: Part) -> bool {
     let screen = screen_of(part);
     state.show(screen);
@@ -30,7 +29,7 @@ pub fn may_change(state: &mut State, part: Part) -> bool {
     state.setup.abilities.run
 }
 
-/// Opens the form of an entry, or says why there is none.
+/// Opens a form; without one says `otherwise`.
 pub fn fill_in(state: &mut State, form: Option<Form>, otherwise: &str) {
     match form {
         Some(form) => state.overlay = Some(Overlay::Form(Box::new(form))),
@@ -38,14 +37,14 @@ pub fn fill_in(state: &mut State, form: Option<Form>, otherwise: &str) {
     }
 }
 
-/// Asks for a file with entries.
+/// Opens the prompt for a file with entries.
 pub fn import(state: &mut State, part: Part) {
     if may_change(state, part) {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Import(part), "")));
     }
 }
 
-/// Removes an entry by its name, once that is confirmed.
+/// Removes an entry by name, after a question.
 pub fn remove(state: &mut State, part: Part, name: Option<String>) {
     let Some(name) = name else { return state.say(format!("no {part} is selected")) };
     let text = format!("Remove {part} {name}? Results that use it stay as they are.");

@@ -1,6 +1,6 @@
-//! The screens, a folder each: its state, what it does, how it is drawn.
+//! The screens, a folder for each: state, actions, drawing.
 //!
-//! A new screen is a folder here. It is entered in [`Screen`] and in [`Screens`]: the compiler asks for the latter.
+//! A new screen is a folder here, with an entry in [`Screen`] and in [`Screens`]. The compiler asks for the latter.
 
 mod catalogue;
 pub mod compare;
@@ -53,7 +53,7 @@ pub struct Screens {
 }
 
 impl Screens {
-    /// A screen as the workbench sees it.
+    /// Returns a screen by its name.
     #[must_use]
     pub fn page(&self, screen: Screen) -> &dyn Page {
         match screen {
@@ -70,7 +70,7 @@ impl Screens {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns a screen by its name, to be changed.
     pub fn page_mut(&mut self, screen: Screen) -> &mut dyn Page {
         match screen {
             Screen::Study => &mut self.study,
@@ -86,12 +86,12 @@ impl Screens {
         }
     }
 
-    /// Lets all screens take in that the database was read.
+    /// Tells all screens that the database was read.
     pub fn receive(&mut self, state: &State) {
         Screen::ALL.into_iter().for_each(|screen| self.page_mut(screen).receive(state));
     }
 
-    /// Does an action that is a screen's own; the one shown has the first say. `None` where it is no screen's.
+    /// Carries out an action of a screen, the shown one first. `None` if it is the action of no screen.
     pub fn act(&mut self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         let shown = state.nav.screen;
         std::iter::once(shown).chain(Screen::ALL).find_map(|screen| self.page_mut(screen).act(state, action))

@@ -1,11 +1,11 @@
-//! Moving about in lists.
+//! Movements in lists.
 
 /// A movement in a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Movement {
-    /// So many rows down, or up where it is negative.
+    /// Some rows down, or up if negative.
     By(isize),
-    /// So many rows down, or up where it is negative, round about.
+    /// Some rows down, or up if negative; from the last row on to the first.
     Round(isize),
     /// To the first row.
     First,
@@ -14,7 +14,7 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// The row that it leads to from a row of so many.
+    /// Row that the movement leads to, from `row` of `rows`.
     #[must_use]
     pub fn from(self, row: usize, rows: usize) -> usize {
         let last = rows.saturating_sub(1);
@@ -27,7 +27,7 @@ impl Movement {
     }
 }
 
-/// An index some steps on, round about; `None` where there is nothing.
+/// Index some steps on, from the last on to the first; `None` in an empty list.
 #[must_use]
 pub fn stepped(index: usize, step: isize, len: usize) -> Option<usize> {
     (len > 0).then(|| (index as isize + step).rem_euclid(len as isize) as usize)

@@ -1,16 +1,16 @@
 //! Order of rows.
 
-/// An order and whether it is reversed.
+/// An order and its direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Order<T> {
     /// Quantity that rows are ordered by.
     pub by: T,
-    /// True where it is reversed.
+    /// True if the order is reversed.
     pub reversed: bool,
 }
 
 impl<T: PartialEq> Order<T> {
-    /// The title of a column, with a mark where rows are ordered by it.
+    /// Title of a column, with a mark if rows are ordered by it.
     #[must_use]
     pub fn titled(&self, title: &str, by: T) -> String {
         match (self.by == by, self.reversed) {
@@ -20,7 +20,7 @@ impl<T: PartialEq> Order<T> {
         }
     }
 
-    /// Turns the order round.
+    /// Reverses the order.
     pub fn reverse(&mut self) {
         self.reversed = !self.reversed;
     }

@@ -1,4 +1,4 @@
-//! The face of a screen to the workbench.
+//! Interface between a screen and the workbench.
 
 use crossterm::event::KeyEvent;
 use ratatui::Frame;
@@ -14,7 +14,7 @@ use crate::widgets::picture::PictureRequest;
 
 /// A text for the clipboard.
 pub struct Copied {
-    /// Its name in the message about it.
+    /// Name of the text in the message to the user.
     pub name: &'static str,
     /// The text; values of a row or table are separated by tabs.
     pub text: String,
@@ -25,28 +25,28 @@ pub trait Draw {
     /// Draws the screen.
     fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State);
 
-    /// Rows, panes and other things that can be gone to.
+    /// Places to which a jump can lead: rows, panes and others.
     fn targets(&self, _state: &State, _area: Rect) -> Vec<Target> {
         vec![]
     }
 
-    /// The selected thing, and the names of its numbers and of the columns here, as the glossary has them.
+    /// Selection, with the names of its numbers and of the columns, as in the glossary.
     fn explained(&self, _state: &State) -> Selected {
         Selected::default()
     }
 
-    /// Requests for the pictures that there is room for.
+    /// Requests for the pictures that fit.
     fn pictures(&self, _state: &State, _area: Rect) -> Vec<PictureRequest> {
         vec![]
     }
 }
 
-/// Keys and actions of a screen. What it shares with others is in the state that its methods take.
+/// Keys and actions of a screen. The `state` is what it shares with others.
 pub trait Page: Draw {
     /// Moves up or down in the pane that has the focus.
     fn go(&mut self, state: &mut State, movement: Movement);
 
-    /// Goes to the next match of the filter, or back.
+    /// Moves to the next or previous match of the filter.
     fn go_to_match(&mut self, state: &mut State, step: isize) {
         self.go(state, Movement::Round(step));
     }
@@ -54,66 +54,66 @@ pub trait Page: Draw {
     /// Sorts by the next column.
     fn sort(&mut self, state: &mut State);
 
-    /// Reverses the order; where it has two values, as sorting does.
+    /// Reverses the order; an order with two values sorts instead.
     fn reverse(&mut self, state: &mut State) {
         self.sort(state);
     }
 
-    /// The text that stands for the selection.
+    /// Selection as text for the clipboard.
     fn copied(&self, state: &State) -> Option<Copied>;
 
-    /// Gives a pane the focus.
+    /// Moves the focus to a pane.
     fn focus(&mut self, state: &mut State, pane: usize) {
         state.nav.second_pane[state.nav.screen as usize] = pane == 1;
     }
 
-    /// Goes to something that the screen counts itself.
+    /// Moves to an item by the screen's own numbering.
     fn go_to_item(&mut self, _state: &mut State, _item: usize) {}
 
     /// Moves left or right.
     fn sideways(&mut self, _state: &mut State, _step: isize) {}
 
-    /// Does an action of its own; `None` where the action is another's.
+    /// Carries out an action of this screen; `None` for an action of another.
     fn act(&mut self, _state: &mut State, _action: Action) -> Option<Vec<Effect>> {
         None
     }
 
-    /// Takes a key before it becomes an action; `None` where it does not.
+    /// Handles a key before it becomes an action; `None` if the screen does not want it.
     fn take_key(&mut self, _state: &mut State, _event: &KeyEvent) -> Option<Vec<Effect>> {
         None
     }
 
-    /// Gives a pane that has all the room less again; returns true if there was any.
+    /// Makes an enlarged pane small again. Returns false where none is enlarged.
     fn shrink(&mut self, _state: &mut State) -> bool {
         false
     }
 
-    /// Takes in that the database was read.
+    /// Handles new data from the database.
     fn receive(&mut self, _state: &State) {}
 
-    /// Asks for what is read while the screen is shown, where that was not asked for yet.
+    /// Requests what the screen shows and has not requested before.
     fn wanted(&mut self, _state: &State) -> Vec<Effect> {
         vec![]
     }
 
-    /// Opens an editor on what the screen shows: the file of the study.
+    /// Opens what the screen shows in the user's editor, by default the study file.
     fn write(&mut self, state: &mut State) -> Vec<Effect> {
         let file = state.study().map(|study| Writing::File(study.path.clone()));
         open_editor(state, file)
     }
 
-    /// Keys and what they do, where other keys than those of the table matter.
+    /// Keys for the status line, where they differ from those of the table.
     fn hints(&self, _state: &State) -> Option<&'static [(&'static str, &'static str)]> {
         None
     }
 
-    /// True if it shows nothing before there is a study.
+    /// True if the screen shows nothing before there is a study.
     fn needs_study(&self) -> bool {
         false
     }
 }
 
-/// Opens an editor, or says that there is nothing to edit.
+/// Opens the user's editor on a text; without one says that there is nothing to edit.
 pub fn open_editor(state: &mut State, writing: Option<Writing>) -> Vec<Effect> {
     if writing.is_none() {
         state.say("nothing to edit here: E edits the query, the seams of a DXF pattern, the file of the study");

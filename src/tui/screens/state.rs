@@ -1,4 +1,4 @@
-//! State that the screens share: what was read, what is looked at, what is shown and told.
+//! State that the screens share: data that was read, selections, settings, messages.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -23,29 +23,29 @@ use wardrobe::SubjectRow;
 /// A message to the user in the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Its text.
+    /// Text of the message.
     pub text: String,
-    /// True where something went wrong.
+    /// True for an error.
     pub is_error: bool,
 }
 
-/// Messages to the user, and the commands that do the same as was done here.
+/// Messages to the user, and commands that do the same as was done here.
 #[derive(Debug, Default)]
 pub struct Told {
     /// Message in the status line.
     pub notice: Option<Notice>,
-    /// The commands that do what was done here, the latest last.
+    /// Commands that do the same as was done here, the latest last.
     pub commands: Vec<String>,
-    /// The command of what a form waits for: it counts once that is done.
+    /// Command of an effect whose outcome is awaited; it joins `commands` on success.
     pub awaited: Option<String>,
 }
 
 /// Abilities of this session of the workbench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Abilities {
-    /// Studies can be run from here.
+    /// True if studies can be run.
     pub run: bool,
-    /// Pictures can be shown.
+    /// True if pictures can be shown.
     pub pictures: bool,
 }
 
@@ -60,13 +60,13 @@ pub struct Folders {
 
 /// Settings that this session was started with.
 pub struct Setup {
-    /// Actions with their keys: built in, and from a file of one's own.
+    /// Actions with their keys, from the built-in table and the user's file.
     pub bindings: &'static [Binding],
     /// Abilities of this session.
     pub abilities: Abilities,
     /// Folders for new files.
     pub folders: Folders,
-    /// The database, where commands have to name it.
+    /// Path of the database, if commands must name it.
     pub database: Option<PathBuf>,
 }
 
@@ -74,28 +74,28 @@ pub struct Setup {
 pub struct Terminal {
     /// Columns and rows of the terminal.
     pub size: Size,
-    /// True where the mouse is taken.
+    /// True while the mouse is captured.
     pub has_mouse: bool,
-    /// Plain ASCII or not, where somebody has chosen.
+    /// True or false for ASCII or all signs, once the user has chosen.
     pub chosen_ascii: Option<bool>,
-    /// True where it is gone and only the run is waited for.
+    /// True once the terminal is gone, and only the run is waited for.
     pub detached: bool,
 }
 
 /// The run that was started here.
 #[derive(Default)]
 pub struct Running {
-    /// Its target, while it goes on.
+    /// Target of the run; `None` where none is in progress.
     pub target: Option<Target>,
-    /// Its job that is watched.
+    /// Job of the run that is watched.
     pub watched: Option<JobId>,
-    /// The garment of that job as it was last seen.
+    /// Latest shape of that job's garment.
     pub live: Option<LiveFrame>,
 }
 
-/// The screen that is shown, and the focus and the filter of each screen.
+/// The shown screen, and focus and filter of each screen.
 pub struct Navigation {
-    /// Screen that is shown.
+    /// Shown screen.
     pub screen: Screen,
     /// Screens to go back to, the last first.
     pub trail: Vec<Screen>,
@@ -107,12 +107,12 @@ pub struct Navigation {
     pub table_down: usize,
 }
 
-/// Subject and fabric that a style is tried on with.
+/// Subject and fabric for trying a style on.
 #[derive(Default)]
 pub struct InHand {
-    /// The subject selected on the Subjects screen.
+    /// Subject selected on the Subjects screen.
     pub subject: Option<SubjectId>,
-    /// Name of the fabric chosen on the Fabrics screen.
+    /// Name of the fabric chosen on the Fabrics screen; `None` for the default.
     pub fabric: Option<String>,
 }
 
@@ -126,17 +126,17 @@ pub struct State {
     pub terminal: Terminal,
     /// Contents of the database as last read; `None` before the first time.
     pub data: Option<Box<Snapshot>>,
-    /// Study, garment and jobs that are looked at.
+    /// Study, garment and jobs that are shown.
     pub focus: Focus,
-    /// Cell of the grid that is looked at.
+    /// Place of the selected cell in the grid.
     pub place: Place,
-    /// Runs selected for a comparison.
+    /// Jobs marked for a comparison.
     pub marks: BTreeSet<JobId>,
-    /// Subject and fabric that a style is tried on with.
+    /// Subject and fabric for trying a style on.
     pub in_hand: InHand,
-    /// The screen that is shown, and the focus and the filter of each screen.
+    /// The shown screen, and focus and filter of each screen.
     pub nav: Navigation,
-    /// List, form or question that is open above the screen.
+    /// List, form or question above the screen, if any.
     pub overlay: Option<Overlay>,
     /// Messages to the user.
     pub told: Told,
@@ -149,7 +149,7 @@ pub struct State {
 }
 
 impl State {
-    /// The state before anything was read.
+    /// Makes a state in which nothing was read yet.
     #[must_use]
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
@@ -176,7 +176,7 @@ impl State {
         }
     }
 
-    /// Place of the body of the screen.
+    /// Area of the body of the screen.
     #[must_use]
     pub fn body(&self) -> Rect {
         rows(Rect::from((Position::ORIGIN, self.terminal.size)))[1]
@@ -188,31 +188,31 @@ impl State {
         self.data.as_ref().is_some_and(|data| data.studies.is_empty())
     }
 
-    /// True if the second pane of the screen has the focus.
+    /// True if the second pane of the shown screen has the focus.
     #[must_use]
     pub fn in_second_pane(&self) -> bool {
         self.nav.second_pane[self.nav.screen as usize]
     }
 
-    /// The filter of the screen that is shown.
+    /// Filter of the shown screen.
     #[must_use]
     pub fn filter(&self) -> &str {
         &self.nav.filters[self.nav.screen as usize]
     }
 
-    /// The filter of a screen, in lower case.
+    /// Filter of a screen, in lower case.
     #[must_use]
     pub fn filter_of(&self, screen: Screen) -> String {
         self.nav.filters[screen as usize].to_lowercase()
     }
 
-    /// The study looked at.
+    /// Shown study.
     #[must_use]
     pub fn study(&self) -> Option<&StudyRow> {
         self.data.as_ref()?.study()
     }
 
-    /// The grid looked at; `None` where it has no size or no subject.
+    /// Shown grid; `None` where it has no size or no subject.
     #[must_use]
     pub fn grid(&self) -> Option<&Grid> {
         self.data.as_ref()?.grid()
@@ -224,37 +224,37 @@ impl State {
         self.data.as_ref()?.job(self.focus.job?)
     }
 
-    /// Stored results, steps and log of the selected job, once they were read.
+    /// Details of the selected job; `None` until they are read.
     #[must_use]
     pub fn detail(&self) -> Option<&Detail> {
         self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.focus.job)
     }
 
-    /// The subject that a style is tried on.
+    /// Subject for trying a style on.
     #[must_use]
     pub fn subject_in_hand(&self) -> Option<&SubjectRow> {
         self.data.as_ref()?.subjects.iter().find(|row| Some(row.id) == self.in_hand.subject)
     }
 
-    /// The sign of a run that is selected for a comparison.
+    /// Sign of a job that is marked for a comparison; empty for any other.
     #[must_use]
     pub fn mark_of(&self, job: Option<JobId>) -> &'static str {
         if job.is_some_and(|job| self.marks.contains(&job)) { "•" } else { "" }
     }
 
-    /// Looks at a study.
+    /// Shows a study.
     pub fn open_study(&mut self, name: String) {
         self.focus.study = Some(name);
         (self.focus.garment, self.focus.job, self.place) = (None, None, Place::default());
     }
 
-    /// Selects a cell of the grid and its job, if it has one.
+    /// Selects a cell of the grid, and its job if it has one.
     pub fn select_cell(&mut self, place: Place) {
         self.place = place;
         self.focus.job = self.data.as_ref().and_then(|data| data.cell_at(place)).and_then(|cell| cell.job);
     }
 
-    /// Selects the cell so many subjects to the right, or to the left.
+    /// Selects a cell `step` subjects to the right, or to the left if negative.
     pub fn step_subject(&mut self, step: isize) {
         let Some(grid) = self.grid() else { return };
         let last = grid.subjects.len().saturating_sub(1);
@@ -262,12 +262,12 @@ impl State {
         self.select_cell(Place { subject, ..self.place });
     }
 
-    /// Scrolls the table of the selected subject or fabric, of which so many lines are hidden.
+    /// Scrolls the table of the selected subject or fabric, of which `hidden` lines do not fit.
     pub fn scroll_table(&mut self, movement: Movement, hidden: usize) {
         self.nav.table_down = movement.from(self.nav.table_down.min(hidden), hidden + 1);
     }
 
-    /// Shows a screen; one that was shown before is gone back to.
+    /// Shows a screen. If it is in the trail, goes back to it.
     pub fn show(&mut self, screen: Screen) {
         if screen == self.nav.screen {
             return;
@@ -279,28 +279,28 @@ impl State {
         self.nav.screen = screen;
     }
 
-    /// Says something in the status line.
+    /// Shows a message in the status line.
     pub fn say(&mut self, text: impl Into<String>) {
         self.told.notice = Some(Notice { text: text.into(), is_error: false });
     }
 
-    /// Says something in the status line, and nothing else follows.
+    /// Shows a message in the status line. Returns no effects.
     pub fn reply(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.say(text);
         vec![]
     }
 
-    /// Says in the status line that something went wrong.
+    /// Shows an error in the status line.
     pub fn complain(&mut self, text: impl Into<String>) {
         self.told.notice = Some(Notice { text: text.into(), is_error: true });
     }
 
-    /// Asks; the effects happen on yes.
+    /// Asks a question; a yes carries out the effects.
     pub fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
         self.overlay = Some(Overlay::Question { text: text.into(), effects });
     }
 
-    /// Runs a study, or says why that cannot be.
+    /// Runs a study, or says why it cannot run.
     pub fn run(&mut self, target: Target) -> Vec<Effect> {
         if !self.setup.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to run a study");

@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// The control sequence that puts a text on the clipboard of the terminal, wherever that runs (OSC 52).
+/// Control sequence (OSC 52) that puts a text on the clipboard of the terminal, even over SSH.
 #[must_use]
 pub fn osc52(text: &str) -> String {
     format!("\x1b]52;c;{}\x07", STANDARD.encode(text))

@@ -6,10 +6,10 @@ use std::process::Command;
 
 use crate::messages::effect::Writing;
 
-/// Has the user write in `$VISUAL`, `$EDITOR` or vi; returns what was saved.
+/// Opens a text in `$VISUAL`, `$EDITOR` or vi. Returns the saved text.
 ///
 /// # Errors
-/// In words: when there is no such editor, it fails, or the file cannot be read.
+/// The reason in words: no such editor, an error of the editor, or a file that cannot be read.
 pub fn edit(what: &Writing) -> Result<String, String> {
     let (text, ending) = match what {
         Writing::File(path) => {
@@ -22,7 +22,7 @@ pub fn edit(what: &Writing) -> Result<String, String> {
     let file = tempfile::Builder::new().prefix("toile-").suffix(ending).tempfile();
     let mut file = file.map_err(|error| format!("no file to edit: {error}"))?;
     file.write_all(&text).map_err(|error| format!("{}: {error}", file.path().display()))?;
-    // Editors that save by another file in its place leave the path, not the handle.
+    // Editors may replace the file by another, so the file is read again by its path.
     let path = file.into_temp_path();
     run(&path)?;
     read(&path)
@@ -32,7 +32,7 @@ fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Runs the editor on a file: its name may have arguments.
+/// Runs the editor on a file. The editor's name may have arguments.
 fn run(path: &Path) -> Result<(), String> {
     let named = |name: &str| std::env::var(name).ok().filter(|editor| !editor.trim().is_empty());
     let editor = named("VISUAL").or_else(|| named("EDITOR")).unwrap_or_else(|| "vi".to_owned());

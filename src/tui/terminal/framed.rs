@@ -1,9 +1,8 @@
-//! The line to the terminal: what has changed on the screen goes out in frames of at most [`FRAME`] bytes, texts before
-//! pictures. What is not sent yet when it changes again is never sent, so that a slow line shows the latest state and
-//! nothing queues up.
+//! Output to the terminal: changes of the screen are sent in frames of at most [`FRAME`] bytes, texts before pictures.
+//! What changes again before it is sent is never sent, so a slow line shows the latest state, and nothing queues up.
 //!
-//! It stands where ratatui's own backend would, which sends every change at once. Sequences are those of ECMA-48 that the
-//! VT220 and all since understand; blanks are erased, not written.
+//! This replaces ratatui's own backend, which sends every change at once. It uses sequences of ECMA-48 that the VT220
+//! and later terminals understand. Blanks are erased, not written.
 
 use std::io::{self, Write};
 
@@ -15,62 +14,62 @@ use ratatui::style::{Color, Modifier};
 
 use crate::widgets::text;
 
-/// Most bytes of a frame. Only a picture of pixels, which cannot be parted, is longer.
+/// Most bytes of a frame. Only a picture of pixels is longer, since it cannot be divided.
 pub const FRAME: usize = 4000;
 /// Bytes that end a frame.
 const END: usize = 4;
-/// Blanks from which on erasing them is shorter than writing them.
+/// Number of blanks from which erasing them is shorter than writing them.
 const ERASED: usize = 8;
-/// Symbols with more bytes than any letter has are sequences that show pixels.
+/// Most bytes of a letter; a longer symbol is a sequence that shows pixels.
 const LETTER: usize = 16;
 
-/// A place on the screen.
+/// A cell of the screen.
 #[derive(Clone, Default)]
 struct Slot {
-    /// Contents to be shown.
+    /// Contents of the cell.
     cell: Cell,
-    /// True where they are not sent yet.
+    /// True if the contents are not sent yet.
     is_late: bool,
 }
 
-/// Kind of cells that were drawn and are not sent yet.
+/// Kind of cells that are drawn but not sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Late {
-    /// All that was drawn is sent.
+    /// Every cell is sent.
     Nothing,
-    /// Pictures alone.
+    /// Only pictures are not sent.
     Pictures,
-    /// Texts, and perhaps pictures.
+    /// Texts are not sent, and perhaps pictures.
     Texts,
 }
 
-/// The screen as it is to be, and what the terminal has been told of it.
+/// The screen as drawn, and the parts of it that the terminal has.
 pub struct FramedBackend<W: Write> {
     out: W,
-    /// Size of a terminal that is none; a real one is asked.
+    /// Size of the screen where there is no terminal; `None` asks the terminal.
     fixed: Option<Size>,
     size: Size,
     slots: Vec<Slot>,
 }
 
 impl<W: Write> FramedBackend<W> {
-    /// A line to the terminal of this process, or to one of a given size.
+    /// Output to a terminal. Without `fixed`, the size is that of this process's terminal.
     ///
     /// # Errors
-    /// When the terminal does not tell its size.
+    /// When the terminal does not say its size.
     pub fn new(out: W, fixed: Option<Size>) -> io::Result<Self> {
         let mut line = Self { out, fixed, size: Size::ZERO, slots: vec![] };
         line.fit(line.size()?);
         Ok(line)
     }
 
-    /// Takes all to be blank, on a screen of a size.
+    /// Sets the size of the screen, all of it blank.
     fn fit(&mut self, size: Size) {
         self.size = size;
         self.slots = vec![Slot::default(); usize::from(size.width) * usize::from(size.height)];
     }
 
-    /// Kind of cells that were drawn and are not sent yet.
+    /// Kind of cells that are drawn but not sent.
     #[must_use]
     pub fn late(&self) -> Late {
         let mut late = self.slots.iter().filter(|slot| slot.is_late).peekable();
@@ -80,7 +79,7 @@ impl<W: Write> FramedBackend<W> {
         if late.all(|slot| is_picture(&slot.cell)) { Late::Pictures } else { Late::Texts }
     }
 
-    /// Sends a frame: texts, and pictures after them where they are to go too; returns its bytes.
+    /// Sends a frame: texts, then pictures if `with_pictures`. Returns its number of bytes.
     ///
     /// # Errors
     /// When the terminal is gone.
@@ -118,21 +117,21 @@ impl<W: Write> FramedBackend<W> {
     }
 }
 
-/// True if a cell is part of a picture: nothing else has a background of its own, half blocks or sequences for pixels.
+/// True if a cell is part of a picture: only half blocks and sequences for pixels have a background of their own.
 fn is_picture(cell: &Cell) -> bool {
     cell.bg != Color::Reset || matches!(cell.symbol(), "▀" | "▄") || cell.symbol().len() > LETTER
 }
 
-/// True if a cell looks as if it had been erased.
+/// True if a cell looks like an erased one.
 fn is_blank(cell: &Cell) -> bool {
     let hidden = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
     cell.symbol() == " " && cell.bg == Color::Reset && !cell.modifier.intersects(hidden)
 }
 
-/// Colours and weights of what is written.
+/// Foreground, background and weight of text.
 type Style = (Color, Color, Modifier);
 
-/// Place and style of the next letter that the terminal writes; no place where that depends on the terminal.
+/// State of the terminal's cursor: place and style of the next letter. No place where terminals differ.
 #[derive(Clone, Copy)]
 struct Pen {
     at: Option<(usize, usize)>,
@@ -145,7 +144,7 @@ impl Default for Pen {
     }
 }
 
-/// The bytes of a frame.
+/// A frame in the making.
 #[derive(Default)]
 struct Frame {
     bytes: Vec<u8>,
@@ -153,7 +152,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Writes the next cell of a row, or erases the blanks there; returns the number of columns written.
+    /// Writes the next letter of a row, or erases blanks. Returns the number of columns.
     fn tell(&mut self, row: &[Slot], x: usize, y: usize) -> usize {
         let blanks = row[x..].iter().take_while(|slot| is_blank(&slot.cell)).count();
         self.go(x, y);
@@ -168,13 +167,13 @@ impl Frame {
         self.write((cell.fg, cell.bg, cell.modifier));
         self.bytes.extend(cell.symbol().as_bytes());
         let after = x + text::width(cell.symbol()).max(1);
-        // A terminal that has filled a line stands at its end still, or in the next.
+        // After the last column, terminals differ: the cursor stands there still, or in the next line.
         let is_known = cell.symbol().len() <= LETTER && after < row.len();
         self.pen.at = is_known.then_some((after, y));
         1
     }
 
-    /// Goes to a place.
+    /// Moves the cursor to a place.
     fn go(&mut self, x: usize, y: usize) {
         let sequence = match self.pen.at {
             Some(at) if at == (x, y) => return,
@@ -185,14 +184,14 @@ impl Frame {
         self.pen.at = Some((x, y));
     }
 
-    /// Changes the style of the letters that follow.
+    /// Changes the style of the next letters.
     fn write(&mut self, style: Style) {
         if style == self.pen.style {
             return;
         }
         let plain = Pen::default().style;
         let (mut before, mut codes) = (self.pen.style, Vec::new());
-        // Weights are taken off together.
+        // Weights can only be switched off together.
         if !style.2.contains(before.2) || style == plain {
             codes.push(String::new());
             before = plain;
@@ -211,7 +210,7 @@ impl Frame {
     }
 }
 
-/// Weights and their codes.
+/// Weights with their codes.
 const WEIGHTS: [(Modifier, &str); 6] = [
     (Modifier::BOLD, "1"),
     (Modifier::DIM, "2"),
@@ -221,7 +220,7 @@ const WEIGHTS: [(Modifier, &str); 6] = [
     (Modifier::CROSSED_OUT, "9"),
 ];
 
-/// The code of a colour of letters; with 10 more, of backgrounds.
+/// Code of a colour: for letters, or with `more` = 10 for backgrounds.
 fn colour(colour: Color, more: u8) -> String {
     let basic = match colour {
         Color::Rgb(r, g, b) => return format!("{};2;{r};{g};{b}", 38 + more),
@@ -250,7 +249,7 @@ fn colour(colour: Color, more: u8) -> String {
 impl<W: Write> Backend for FramedBackend<W> {
     type Error = io::Error;
 
-    /// Takes in what has changed; [`FramedBackend::send`] sends it.
+    /// Stores changes of the screen; [`FramedBackend::send`] sends them.
     fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
     where
         I: Iterator<Item = (u16, u16, &'a Cell)>,
@@ -264,7 +263,7 @@ impl<W: Write> Backend for FramedBackend<W> {
         Ok(())
     }
 
-    /// The cursor is hidden as long as the workbench has the terminal.
+    /// Hides the cursor; it stays hidden while the workbench has the terminal.
     fn hide_cursor(&mut self) -> io::Result<()> {
         Ok(())
     }
@@ -315,18 +314,18 @@ mod tests {
 
     const SIZE: Size = Size::new(40, 6);
 
-    /// A terminal that has been sent some frames.
+    /// A terminal that reads frames.
     fn terminal() -> vt100::Parser {
         let some = |n| NonZero::new(n).expect("not 0");
         vt100::Parser::new(some(SIZE.height), some(SIZE.width), 0)
     }
 
-    /// Has a line draw what tells two screens apart.
+    /// Draws the differences between two screens.
     fn draw(line: &mut FramedBackend<Vec<u8>>, before: &Buffer, after: &Buffer) {
         line.draw(before.diff(after).into_iter()).expect("memory");
     }
 
-    /// Sends all there is, frame by frame; returns the longest.
+    /// Sends everything, frame by frame. Returns the length of the longest frame.
     fn send_all(line: &mut FramedBackend<Vec<u8>>, terminal: &mut vt100::Parser) -> usize {
         let mut longest = 0;
         while line.late() != Late::Nothing {
@@ -369,14 +368,14 @@ mod tests {
         check(Color::Rgb(1, 20, 255), 0, "38;2;1;20;255");
     }
 
-    /// A letter of a screen, with its style.
+    /// A letter on a screen, with style.
     fn cell() -> impl Strategy<Value = (u16, u16, &'static str, u8, u8, bool)> {
         let symbols = prop::sample::select(vec!["a", " ", "─", "▀", "⠿", "Z", " ", " "]);
         (0..SIZE.width, 0..SIZE.height, symbols, 0..5u8, 0..3u8, any::<bool>())
     }
 
     proptest! {
-        /// However screens follow each other and frames are parted, the terminal shows the last one in the end.
+        /// However screens follow and frames are divided, in the end the terminal shows the last screen.
         #[test]
         fn the_terminal_shows_what_was_drawn(screens in prop::collection::vec(prop::collection::vec(cell(), 0..120), 1..4)) {
             let (mut line, mut terminal) = (FramedBackend::new(vec![], Some(SIZE)).expect("a size"), terminal());
@@ -391,7 +390,7 @@ mod tests {
                     place.modifier = if is_bold { Modifier::BOLD } else { Modifier::empty() };
                 }
                 draw(&mut line, &before, &after);
-                // Part of it only, before it changes again.
+                // Sends only a part before the next change.
                 line.send(false).expect("memory");
                 terminal.process(&std::mem::take(&mut line.out));
                 before = after;

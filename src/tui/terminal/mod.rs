@@ -1,4 +1,4 @@
-//! The terminal: taken at the start, given back at the end, however that comes.
+//! The terminal: taken at the start, given back at the end, whatever the cause of the end.
 
 pub mod clipboard;
 pub mod editor;
@@ -17,24 +17,25 @@ use ratatui::{Frame, Terminal};
 
 use crate::terminal::framed::{FramedBackend, Late};
 
-/// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
+/// Least time between two frames. Fast keys share a frame, and a slow line does not get more than it can take.
 const PAUSE: Duration = Duration::from_millis(20);
-/// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
+/// Time without a key after which pictures are sent, longer than the time between repeats of a held key.
 const REST: Duration = Duration::from_millis(80);
 
-/// The terminal while the workbench has it; dropping it gives it back.
+/// The terminal while the workbench has it. Dropping this gives it back.
 pub struct Display {
     terminal: Terminal<FramedBackend<Stdout>>,
     /// Time of the latest key.
     last_key: Option<Instant>,
     /// Time of the latest frame.
     last_frame: Option<Instant>,
-    /// True where the state has changed since it was drawn.
+    /// True if the state has changed since the last drawing.
     is_stale: bool,
 }
 
 impl Display {
-    /// Takes the terminal: raw keys, the alternate screen, no cursor. A panic gives it back before it is reported.
+    /// Takes the terminal: raw keys, alternate screen, hidden cursor. A panic gives it back before the panic is
+    /// reported.
     ///
     /// # Errors
     /// When standard input or output is no terminal.
@@ -47,7 +48,7 @@ impl Display {
             let before = panic::take_hook();
             let screen_thread = thread::current().id();
             panic::set_hook(Box::new(move |info| {
-                // A panic of another thread is told on the screen, which goes on; here it would be written over it.
+                // A panic of another thread is reported on the screen, which stays.
                 if thread::current().id() == screen_thread {
                     restore();
                     before(info);
@@ -74,7 +75,7 @@ impl Display {
         self.terminal.size()
     }
 
-    /// Has the screen drawn, now or when the frame before is old enough.
+    /// Draws the screen, now or when the last frame is old enough.
     ///
     /// # Errors
     /// When the terminal is gone.
@@ -83,8 +84,8 @@ impl Display {
         self.go_on(draw)
     }
 
-    /// Draws the screen where the state has changed and sends the next frame, pictures too once the keys rest; nothing where the
-    /// frame before is too young.
+    /// Draws the screen if the state has changed, and sends the next frame, with pictures if no key was pressed lately.
+    /// Does nothing while the last frame is too young.
     ///
     /// # Errors
     /// When the terminal is gone.
@@ -102,7 +103,7 @@ impl Display {
         Ok(())
     }
 
-    /// Time until the next frame is due; `None` where nothing is left to send.
+    /// Time until the next frame is due; `None` if nothing waits to be sent.
     #[must_use]
     pub fn pause(&self) -> Option<Duration> {
         match self.terminal.backend().late() {
@@ -112,22 +113,22 @@ impl Display {
         }
     }
 
-    /// Time until the last frame is old enough for another.
+    /// Time until the last frame is old enough.
     fn age_left(&self) -> Duration {
         self.last_frame.map_or(Duration::ZERO, |frame| PAUSE.saturating_sub(frame.elapsed()))
     }
 
-    /// Time until the keys rest.
+    /// Time until no key was pressed for long enough.
     fn rest_left(&self) -> Duration {
         self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()))
     }
 
-    /// Takes note that a key was pressed.
+    /// Notes that a key was pressed.
     pub fn key_pressed(&mut self) {
         self.last_key = Some(Instant::now());
     }
 
-    /// Gives the terminal to another program while `work` is done, and takes it again.
+    /// Lends the terminal to another program during `work`, and takes it again.
     ///
     /// # Errors
     /// When the terminal is gone.
@@ -140,7 +141,7 @@ impl Display {
         Ok(outcome)
     }
 
-    /// Has everything drawn anew.
+    /// Draws everything again.
     ///
     /// # Errors
     /// When the terminal is gone.
@@ -155,7 +156,7 @@ impl Drop for Display {
     }
 }
 
-/// Takes the mouse, or leaves it to the terminal.
+/// Captures the mouse, or leaves it to the terminal.
 ///
 /// # Errors
 /// When the terminal is gone.
@@ -163,8 +164,8 @@ pub fn take_mouse(is_taken: bool) -> io::Result<()> {
     if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
 }
 
-/// Puts a silent socket in the place of standard input once its terminal is gone: crossterm's reader would otherwise read
-/// the end of it over and over, a whole core's worth. Silence lasts as long as the returned end lives.
+/// Replaces standard input by a silent socket once its terminal is gone. Otherwise crossterm would read the end of
+/// input over and over and keep a core busy. The socket is silent while the returned end lives.
 ///
 /// # Errors
 /// When the system has no sockets or descriptors left.
@@ -175,9 +176,9 @@ pub fn silence_input() -> io::Result<UnixStream> {
     Ok(ours)
 }
 
-/// Gives the terminal back, as far as it is still there.
+/// Gives the terminal back, if it is still there.
 fn restore() {
-    // Errors have nowhere to go: the terminal that would show them is what failed.
+    // Errors cannot be shown: the terminal is what failed.
     let _ = execute!(io::stdout(), DisableMouseCapture, terminal::LeaveAlternateScreen, cursor::Show);
     let _ = terminal::disable_raw_mode();
 }

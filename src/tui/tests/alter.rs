@@ -1,4 +1,4 @@
-//! Changes of the example's T-shirt so that it fits, as threads answer them and the Fit screen shows them.
+//! Alterations of the example's T-shirt, as threads answer them and the Fit screen shows them.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ fn moved(handle: Handle, amount_mm: f64) -> MovedHandle {
     MovedHandle { handle: handle.as_str(), amount_mm, does: handle.definition(), is_half_girth }
 }
 
-/// The change that is found: of M and on subject ii none, of other sizes four handles that do not reach the hip.
+/// An alteration: of M on subject ii nothing moves; of other sizes four handles move and do not reach the hip.
 pub fn found(request: &AlterRequest) -> Alteration {
     let is_right = request.size == "M" && request.subject == "ii";
     let level = |(level, target_mm, [before_mm, after_mm]): LevelMm| AlteredLevel {
@@ -77,7 +77,7 @@ pub fn found(request: &AlterRequest) -> Alteration {
     }
 }
 
-/// A press of keys that nobody answers.
+/// Presses keys without answering the effects. Returns these.
 fn unanswered(bench: &mut Bench, letters: &str) -> Vec<Effect> {
     let press = |letter| Message::Key(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
     letters.chars().flat_map(|letter| bench.app.update(press(letter))).collect()
@@ -206,7 +206,7 @@ fn a_drape_that_fails_says_why_and_leaves_the_change() {
 #[test]
 fn the_changed_pattern_is_written_into_a_folder_that_is_asked_for() {
     let mut bench = Bench::example(80, 24);
-    // The database stays as it is, so that may be done where it may not be changed, too.
+    // An alteration does not change the database, so it is allowed where nothing may be changed.
     bench.app.state.setup.abilities.run = false;
     let asked = bench.press("0a-w<Enter>").asked();
     let files = found(&request("i", "S", false)).files;

@@ -12,7 +12,7 @@ fn names() -> Vec<&'static str> {
     names
 }
 
-/// The part of a heading that the glossary does not know; names of this study and signs of order are left out.
+/// Part of a heading that the glossary lacks, without names of this study and signs of order.
 fn unknown(heading: &str, own: &[&str]) -> String {
     let heading = heading.replace(['▲', '▼', '│', '"', '↓', '↕', '◂', '▸'], " ");
     let heading = heading.split_whitespace().collect::<Vec<_>>().join(" ");

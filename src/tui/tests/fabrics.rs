@@ -40,7 +40,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     bench.press("9a<F5>");
     assert!(bench.screen().contains("new fabric, like cotton_shirting_light"), "{}", bench.screen());
     assert!(bench.screen().contains("a fabric needs a name") && bench.asked().is_empty());
-    // A mass per area in grams is out of range; three times what is known is only doubtful.
+    // A mass per area in g is out of range; three times the known values is only doubtful.
     bench.press("poplin<Tab><Tab><C-u>120<F5>");
     assert!(bench.screen().contains("`density_kg_m2` is 120; accepted: 0.005 to 5"), "{}", bench.screen());
     bench.press("<C-u>1.2");

@@ -19,7 +19,7 @@ use store::JobId;
 
 const SIZES: [&str; 3] = ["S", "M", "L"];
 
-/// Level, body, target, ease of each size, mm.
+/// Level, body, target, and ease of each size, mm.
 type LevelMm = (&'static str, f64, Option<[f64; 2]>, [f64; 3]);
 
 const LEVELS: [LevelMm; 6] = [
@@ -102,7 +102,8 @@ fn drape(k: usize, job: i64) -> SizeWorn {
     }
 }
 
-/// Fit of the T-shirt on a subject: drapes of three sizes on the first, of one on the second, of none on the third.
+/// Fit of the T-shirt on a subject: with drapes of three sizes on the first subject, one on the second, none on the
+/// third.
 pub fn worn(subject: &str) -> GarmentWorn {
     let sizes: Vec<SizeWorn> = match subject {
         "i" => [1, 7, 13].into_iter().enumerate().map(|(k, job)| drape(k, job)).collect(),
@@ -112,7 +113,7 @@ pub fn worn(subject: &str) -> GarmentWorn {
     GarmentWorn { card: card(subject), simulator: (!sizes.is_empty()).then_some(Simulator::Fem), sizes }
 }
 
-/// An ellipse round a place of the plane, mm.
+/// An ellipse around a point of the plane, mm.
 fn ellipse(at: f64, across: f64, deep: f64) -> CutLine {
     let point = |k: usize| {
         let (sin, cos) = (k as f64 / 60.0 * std::f64::consts::TAU).sin_cos();
@@ -121,7 +122,7 @@ fn ellipse(at: f64, across: f64, deep: f64) -> CutLine {
     CutLine { points: (0..60).map(point).collect(), closed: true }
 }
 
-/// Answer of the thread that cuts: a trunk at three levels, arms beside its chest.
+/// Sections as the thread that cuts answers them: a trunk at three levels, with arms beside its chest.
 pub fn sections(jobs: &[JobId]) -> Vec<CrossSection> {
     let size = |job: &JobId| if job.0 == 3 { 0 } else { job.0 as usize / 6 };
     let section = |(level, height_mm, across, deep): (&str, f64, f64, f64)| CrossSection {

@@ -1,4 +1,4 @@
-//! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
+//! An example study: two sizes of a T-shirt on three subjects by both simulators, with jobs in all states.
 
 use crate::messages::message::Message;
 use crate::messages::seams::{SeamTask, SeamWork, SizeLayout};
@@ -18,7 +18,7 @@ use store::{
 use wardrobe::seams::Workpiece;
 use wardrobe::{FabricRow, SizeRow, SubjectRow};
 
-/// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
+/// Present time, ms since 1970: 2023-11-14 22:13:20 UTC.
 const NOW_MS: i64 = 1_700_000_000_000;
 const SIZES: [&str; 2] = ["S", "M"];
 const SUBJECTS: [&str; 3] = ["i", "ii", "iii"];
@@ -27,7 +27,7 @@ const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 /// Ease of each size on each subject, m.
 const EASE_M: [[f64; 3]; 2] = [[0.043, 0.111, -0.012], [0.089, 0.157, 0.066]];
 
-/// States of jobs 1 to 12, in the order of sizes, subjects, simulators.
+/// States of jobs 1 to 12, by size, subject and simulator.
 const STATES: [Status; 12] = [
     Status::Done,
     Status::Done,
@@ -104,7 +104,7 @@ fn ease(size: usize, subject: usize) -> EaseRow {
     }
 }
 
-/// The example study; job 1 is looked at.
+/// The example study, with job 1 shown.
 pub fn snapshot() -> Snapshot {
     let jobs: Vec<JobRow> = (0..STATES.len()).map(job).collect();
     let cell = |job: &JobRow| Cell {
@@ -198,7 +198,7 @@ pub fn work(task: SeamTask) -> Message {
     }
 }
 
-/// Three fabrics: a woven of the library that jobs use, a knit, and one of somebody's own.
+/// Three fabrics: a built-in woven that jobs use, a knit, and one that a user added.
 fn fabrics() -> Vec<FabricRow> {
     let cotton = Fabric {
         name: "cotton_shirting_light".into(),
@@ -228,7 +228,7 @@ fn fabrics() -> Vec<FabricRow> {
     [cotton, knit, own].into_iter().enumerate().map(row).collect()
 }
 
-/// Three subjects: two men of the thesis and a woman of whom little is known.
+/// Three subjects: two men of the thesis, and a woman with few known measurements.
 fn subjects() -> Vec<SubjectRow> {
     let subject = |id: i64, name: &str, sex: Sex, values: &[f64]| {
         let mut measurements = Measurements::of(sex, 0.0);
@@ -244,7 +244,7 @@ fn subjects() -> Vec<SubjectRow> {
     ]
 }
 
-/// Readings of the tape on the body of any subject of the example.
+/// Tape measurements of the body of any subject of the example.
 pub fn girths() -> Girths {
     let read = serde_json::json!({
         "stature_mm": 1690.2,
@@ -289,7 +289,7 @@ pub fn empty() -> Snapshot {
     }
 }
 
-/// Stored details of a job of the example study.
+/// Details of a job of the example study.
 pub fn detail(id: JobId) -> Detail {
     let status = STATES[id.0 as usize - 1];
     let has_result = status.has_result();
@@ -335,7 +335,7 @@ pub fn detail(id: JobId) -> Detail {
     }
 }
 
-/// A job of the example study as it is compared; Hybrid-GS is nearer to 1 by a half.
+/// A job of the example study in a comparison; Hybrid-GS is nearer to 1 by a half.
 pub fn compared(id: JobId) -> Compared {
     let job = job(id.0 as usize - 1);
     let detail = detail(id);
@@ -370,7 +370,7 @@ pub fn recommendations() -> Vec<RecommendationRow> {
 }
 
 fn chi() -> Vec<ChiRow> {
-    // Names, pattern lengths and chi are of the kind the thesis's tables have.
+    // Names, pattern lengths and chi are like those in the tables of the thesis.
     let rows = [
         ("Hem Circumference", true, true, false, 0.974, 0.9995),
         ("Sleeve Opening", true, true, false, 0.3565, 1.0221),

@@ -1,4 +1,4 @@
-//! Letters on what is to be seen, and where they lead.
+//! Jumps: letters on places of the screen, and where they lead.
 
 use super::{Bench, fixture};
 use crate::overlays::Overlay;
@@ -6,7 +6,7 @@ use crate::screens::fit::state::View;
 use crate::screens::study::actions::places;
 use crate::widgets::jump::{Goal, label};
 
-/// The letters of a target that leads somewhere, as they are offered after some keys.
+/// Letters of a target with a goal, as they are shown after some keys.
 fn letters(bench: &mut Bench, goal: impl Fn(Goal) -> bool) -> String {
     bench.press("'");
     let Some(Overlay::Jump(jump)) = &bench.app.state.overlay else { panic!("{}", bench.screen()) };

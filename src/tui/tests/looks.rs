@@ -10,7 +10,7 @@ use crate::widgets::ascii::stand_in;
 use crate::widgets::picture::{Images, PictureEncoder};
 use crate::widgets::theme::Colours;
 
-/// Compares the screen after some keys with the one kept, in both sizes.
+/// Compares the screen after some keys with its snapshot, in both sizes.
 macro_rules! looks_like {
     ($name:literal, $keys:literal) => {
         for (width, height) in [(80, 24), (160, 50)] {
@@ -189,7 +189,7 @@ fn small_terminals_show_lists_and_none_is_refused() {
     }
 }
 
-/// Every line is as wide as the terminal and no column touches its neighbour: numbers stay whole words.
+/// Every line is as wide as the terminal, and no column touches its neighbour.
 #[test]
 fn numbers_are_whole_at_80_columns() {
     let mut bench = Bench::example(80, 24);

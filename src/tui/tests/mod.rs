@@ -31,12 +31,12 @@ use crate::widgets::theme::{Colours, Theme};
 /// A workbench without a terminal.
 struct Bench {
     app: App,
-    /// Effects that it asked for since last looked at.
+    /// Effects since the last call of [`Bench::asked`].
     effects: Vec<Effect>,
 }
 
 impl Bench {
-    /// A workbench that has read something.
+    /// A workbench that has read some data.
     fn new(width: u16, height: u16, data: Snapshot) -> Self {
         let abilities = Abilities { run: true, pictures: true };
         let app = App::new(Theme::new(Colours::True, false), abilities, Size::new(width, height));
@@ -45,12 +45,12 @@ impl Bench {
         bench
     }
 
-    /// The workbench of the example study, with the details of whatever job is selected.
+    /// The workbench of the example study, with the details of any selected job.
     fn example(width: u16, height: u16) -> Self {
         Self::new(width, height, fixture::snapshot())
     }
 
-    /// Sends a message; readers answer at once.
+    /// Sends a message and answers its requests for data at once.
     fn send(&mut self, message: Message) {
         let mut effects = self.app.update(message);
         let mut further = vec![];
@@ -92,7 +92,7 @@ impl Bench {
         }
     }
 
-    /// Presses keys: letters as they are, others by name between angle brackets (`<Enter>`).
+    /// Presses keys: letters as they are, others by name in angle brackets (`<Enter>`).
     fn press(&mut self, keys: &str) -> &mut Self {
         let mut rest = keys;
         while let Some(first) = rest.chars().next() {
@@ -109,7 +109,8 @@ impl Bench {
         self
     }
 
-    /// Effects that it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
+    /// Returns effects, except those that the bench answers itself: reads, pictures, sections, alterations, work on
+    /// seams.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
         let is_done = |e: &Effect| {
@@ -126,7 +127,7 @@ impl Bench {
         effects.into_iter().filter(|e| !is_done(e)).collect()
     }
 
-    /// The screen as a test backend holds it, with its styles.
+    /// The screen with its styles, in a test backend.
     fn drawn(&self) -> TestBackend {
         let Size { width, height } = self.app.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");

@@ -1,4 +1,4 @@
-//! The bytes that terminals are sent for a picture, decoded as they would: kitty, sixel, iTerm2, and none of these in tmux.
+//! Bytes for a picture, decoded as terminals would: kitty, sixel, iTerm2, and none of these in tmux.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -17,11 +17,11 @@ use crate::widgets::picture::{Drawn, FRONT, PictureEncoder, PictureRequest, Pict
 use results::Map;
 use store::JobId;
 
-/// Pixels of a cell, and cells of the picture: large enough for several of kitty's chunks.
+/// Pixels of a cell, and cells of the picture, which needs several of kitty's chunks.
 const CELL: FontSize = FontSize::new(6, 12);
 const CELLS: Size = Size::new(16, 8);
 
-/// The picture: four colours, a quarter each, parted by a line that no axis of symmetry leaves as it is.
+/// A picture of four colours, a quarter each, divided by a line without symmetry.
 fn picture() -> RgbaImage {
     let (width, height) = (u32::from(CELLS.width * CELL.width), u32::from(CELLS.height * CELL.height));
     RgbaImage::from_fn(width, height, |x, y| match (x < width / 3, y < height / 3) {
@@ -32,7 +32,7 @@ fn picture() -> RgbaImage {
     })
 }
 
-/// A terminal that keeps what it is sent.
+/// Output that keeps its bytes.
 #[derive(Clone, Default)]
 struct Kept(Rc<RefCell<Vec<u8>>>);
 
@@ -47,7 +47,7 @@ impl io::Write for Kept {
     }
 }
 
-/// Bytes of the picture that a terminal with some variables in its environment is sent.
+/// Bytes that a picture becomes for a terminal with some environment variables.
 fn sent(vars: &[(&str, &str)]) -> String {
     let env = |name: &str| vars.iter().find(|(known, _)| *known == name).map(|(_, value)| (*value).to_owned());
     let encoder = PictureEncoder::with(pixel_protocol(&env).map(|protocol| (protocol, CELL)), false);
@@ -70,7 +70,7 @@ fn sent(vars: &[(&str, &str)]) -> String {
     String::from_utf8(kept.0.take()).expect("text")
 }
 
-/// The strings that begin as a sequence does, such as `ESC _`, and end with `ESC \` or a bell. All others are texts and `ESC [`.
+/// Strings in the output that begin with a sequence such as `ESC _` and end with `ESC \` or a bell.
 fn strings(bytes: &str, begins: char) -> Vec<&str> {
     let mut found = vec![];
     let mut rest = bytes;
@@ -90,7 +90,7 @@ fn strings(bytes: &str, begins: char) -> Vec<&str> {
     found
 }
 
-/// Keys and values as `a=1,b=2`.
+/// Keys and values of a text such as `a=1,b=2`.
 fn keys(text: &str, separator: char) -> BTreeMap<&str, &str> {
     text.split(separator).filter_map(|pair| pair.split_once('=')).collect()
 }
@@ -99,7 +99,7 @@ fn base64(text: &str) -> Vec<u8> {
     BASE64_STANDARD.decode(text).expect("base64")
 }
 
-/// The greatest difference of two pictures of one size, in any channel.
+/// Greatest difference between two pictures of one size, in any channel.
 fn difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     assert_eq!(a.dimensions(), b.dimensions());
     a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
@@ -152,7 +152,7 @@ fn iterm_is_sent_one_png() {
     }
 }
 
-/// The picture of the data of a sixel string, as the VT340 reads it.
+/// Picture in the data of a sixel string, as the VT340 reads it.
 fn sixel(data: &str) -> RgbaImage {
     let mut rest = data;
     let number = |rest: &mut &str| -> u32 {
@@ -213,7 +213,7 @@ fn sixel_terminals_are_sent_one_string_with_all_pixels() {
         let [one] = strings(&bytes, 'P')[..] else { panic!("one string in {bytes:?}") };
         let (parameters, data) = one.split_once('q').expect("sixels");
         assert!(parameters.chars().all(|c| c.is_ascii_digit() || c == ';'), "{parameters}");
-        // Colours are told in percent.
+        // Sixel has colours in percent.
         assert!(difference(&sixel(data), &picture()) <= 2, "{term}: {}", difference(&sixel(data), &picture()));
     }
 }

@@ -1,4 +1,4 @@
-//! SQL, comparisons, reports, new studies, and what is remembered of them.
+//! SQL, comparisons, reports, new studies, and the session that is restored.
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -21,7 +21,7 @@ use results::ReportRow;
 use store::{JobId, LiveFrame, Relation, SqlAnswer, Table, Value, saved_queries};
 use wardrobe::catalogue;
 
-/// An answer with a name, two numbers and a long text a row.
+/// An answer whose rows have a name, two numbers and a long text.
 fn answer(rows: i64) -> SqlAnswer {
     let row = |k: i64| {
         let reason = format!("row {k} because of reasons that take some room to tell");
@@ -289,7 +289,7 @@ fn ascii_has_a_stand_in_for_every_sign() {
     }
 }
 
-/// The query thread stops what it works on, and says so.
+/// The query thread stops its query, and reports that.
 #[test]
 fn the_brake_stops_a_query_that_would_never_end() {
     let folder = tempfile::tempdir().expect("a folder");

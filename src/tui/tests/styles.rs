@@ -142,7 +142,7 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     assert!((sewn.a_mm - sewn.b_mm).abs() > 1.0 && seams(&bench).len() == before.len() - 1, "{}", bench.status());
 }
 
-/// Number of things to decide.
+/// Number of open questions.
 fn undecided(bench: &Bench) -> usize {
     bench.layout().out.undecided.len()
 }
@@ -163,7 +163,7 @@ fn proposed_seams_are_confirmed_one_by_one() {
     assert_eq!(unsure(&bench), all - 1);
     assert!(bench.screen().contains(&format!("question 1 of {}", all - 1)), "{}", bench.screen());
     assert!(bench.press("jk9").status().contains("no such answer"));
-    // The third answer opens the seam, which leaves two edges to decide on.
+    // The third answer removes the seam, which leaves two edges to decide on.
     bench.press("3");
     assert_eq!((seams(&bench).len(), unsure(&bench)), (all - 1, all - 2));
     bench.press("uU");
@@ -225,7 +225,7 @@ fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     assert!(bench.screen().contains("again…"), "{}", bench.screen());
     bench.send(Message::Previewed(Box::new(next), seen(Hung::Undone, "a seam stays open")));
     assert!(bench.screen().contains("✗ not sewn up; a seam stays"), "{}", bench.screen());
-    // Where there is no room for both, it takes the place of the pieces.
+    // Where only one fits, the preview takes the place of the pieces.
     let mut bench = Bench::example(80, 24);
     bench.press("3");
     assert!(sewn(&bench).is_empty() && bench.screen().contains("fronts up"));
@@ -305,7 +305,7 @@ fn what_was_done_is_told_as_commands() {
     bench.press("<Esc>L");
     let screen = bench.screen();
     assert!(!screen.contains("tee.dxf"), "what was refused was not done: {screen}");
-    // What was taken back is not among them.
+    // Undone edits are not among the commands.
     assert_eq!(screen.matches("toile style sew tshirt/S rm").count(), 1, "{screen}");
     assert!(screen.contains("toile style sew tshirt/S add"), "{screen}");
     match bench.press("Y").asked().pop() {

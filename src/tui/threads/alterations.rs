@@ -1,4 +1,4 @@
-//! The threads that find what to change of a pattern: one for the flat pattern, one that drapes and may take minutes.
+//! The threads that find alterations: one for the flat pattern; one that drapes, which may take minutes.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
@@ -10,7 +10,7 @@ use engine::run;
 use store::{Store, StudyError};
 use wardrobe::catalogue;
 
-/// Finds the changes asked for, that of the latest request only, until nobody asks or listens any more. Nothing is written.
+/// Answers requests, skipping all but the latest, until nobody requests or listens any more. Writes nothing.
 pub fn serve(database: &Path, wanted: &Receiver<AlterRequest>, sender: &Sender<Message>) {
     while let Ok(first) = wanted.recv() {
         let request = wanted.try_iter().last().unwrap_or(first);
@@ -22,7 +22,7 @@ pub fn serve(database: &Path, wanted: &Receiver<AlterRequest>, sender: &Sender<M
     }
 }
 
-/// The change of a size, as the study's file has it now.
+/// Finds the alteration of a size, with the study file as it is now.
 pub fn alteration(store: &Store, request: &AlterRequest) -> Result<Alteration, StudyError> {
     let study = run::load_study(store, &request.study)?;
     let wish = Wish::of(&request.garment, &request.subject, &request.size);

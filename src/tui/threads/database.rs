@@ -1,4 +1,4 @@
-//! The thread that reads the database, when asked to and when it has changed, and acts on the queue and the catalogue.
+//! The thread that reads the database on request and after changes, and that changes queue and catalogue.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use store::{Store, StudyError};
 use wardrobe::seams::write_seams;
 use wardrobe::{Deed, Mode, Part, Saved, Strictness, StyleGiven, catalogue};
 
-/// Time between two looks at whether the database has changed; a look costs microseconds.
+/// Time between two checks for changes of the database. A check costs microseconds.
 const POLL: Duration = Duration::from_millis(250);
 
 /// A request to the thread of the database.
@@ -23,7 +23,7 @@ pub enum Request {
     Do(Command),
 }
 
-/// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
+/// Reads data on request and whenever the database has changed, and changes queue and catalogue.
 pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) {
     let mut reader = Reader { store, focus: Focus::default(), last: None, rest: POLL };
     loop {
@@ -33,7 +33,7 @@ pub fn serve(store: Store, asked: &Receiver<Request>, sender: &Sender<Message>) 
             Err(RecvTimeoutError::Disconnected) => return,
         };
         let is_wanted = first.is_some();
-        // Of what was looked at meanwhile, only the latest is read.
+        // If several readings were requested meanwhile, only the latest is made.
         for request in first.into_iter().chain(asked.try_iter()) {
             match request {
                 Request::Read(wanted) => reader.focus = wanted,
@@ -60,7 +60,7 @@ struct Reader {
     store: Store,
     focus: Focus,
     last: Option<Reading>,
-    /// Time to the next look.
+    /// Time until the next check.
     rest: Duration,
 }
 
@@ -73,7 +73,7 @@ struct Reading {
 }
 
 impl Reader {
-    /// Reads what is shown, where it is wanted or anything was written; after a long read the next look comes later.
+    /// Reads data if `is_wanted` or the database has changed. After a long reading the next check comes later.
     fn read(&mut self, is_wanted: bool) -> Result<Option<Snapshot>, StudyError> {
         let version = self.store.version()?;
         if !is_wanted && self.last.as_ref().is_some_and(|last| last.version == version) {
@@ -96,7 +96,7 @@ impl Reader {
         Ok(Some(data))
     }
 
-    /// Acts; returns the message about the outcome.
+    /// Makes a change. Returns the message about its outcome.
     fn carry_out(&mut self, command: Command) -> Message {
         let done = carry_out(&mut self.store, &command).map_err(|error| error.to_string());
         match (command, done) {
@@ -108,7 +108,7 @@ impl Reader {
     }
 }
 
-/// Acts on the queue or the catalogue; returns a line on what was done.
+/// Makes a change of queue or catalogue. Returns a line that describes it.
 pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyError> {
     match command {
         Command::Save(part, mode, name, given) => {
@@ -161,7 +161,7 @@ pub fn carry_out(store: &mut Store, command: &Command) -> Result<String, StudyEr
     }
 }
 
-/// Adds the styles of a study file; or a style, whose seams are proposed where none are given; or sizes to one.
+/// Adds the styles of a study file; or one style, with proposed seams where none are given; or sizes to a style.
 fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<String, StudyError> {
     if let [(_, path)] = given.patterns.as_slice()
         && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
@@ -177,7 +177,7 @@ fn import_style(store: &mut Store, name: &str, given: &StyleGiven) -> Result<Str
     Ok(proposed + &said(&saved))
 }
 
-/// The saved entries, in a line.
+/// Line that describes saved entries.
 fn said(saved: &[Saved]) -> String {
     match saved {
         [first, _, _, _, ..] => format!("{first}, and {} more", saved.len() - 1),

@@ -1,4 +1,4 @@
-//! The thread for what takes long and writes files: reports, new studies, changed patterns.
+//! The thread for slow work that writes files: reports, new studies, altered patterns.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
@@ -10,7 +10,7 @@ use results::reports;
 use store::files::write_files;
 use wardrobe::catalogue;
 
-/// Does what is asked until nobody asks or listens any more; reports lie in folders below `reports_folder`.
+/// Answers requests until nobody requests or listens any more. Reports go into folders below `reports_folder`.
 pub fn serve(
     database: &Path,
     readonly: bool,
@@ -42,7 +42,7 @@ pub fn serve(
     }
 }
 
-/// Writes files into a folder, none of them over another; says what was written.
+/// Writes files into a folder, refusing to replace any. Returns a line about them.
 pub fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<String, String> {
     if let Some((name, _)) = files.iter().find(|(name, _)| folder.join(name).exists()) {
         return Err(format!("{} is there already; accepted: a folder without it", folder.join(name).display()));

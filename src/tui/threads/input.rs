@@ -12,11 +12,11 @@ use signal_hook::iterator::Signals;
 
 use crate::messages::message::Message;
 
-/// Longest time for which keys are waited for at once, and pause before they are waited for again where another program has them.
+/// Longest wait for keys at a time; also the pause while another program has the keyboard.
 const WAIT: Duration = Duration::from_millis(200);
 const AWAY: Duration = Duration::from_millis(10);
 
-/// The keyboard, which another program may have for a while.
+/// The keyboard, which can be lent to another program.
 #[derive(Clone, Default)]
 pub struct Keyboard {
     is_lent: Arc<AtomicBool>,
@@ -24,7 +24,7 @@ pub struct Keyboard {
 }
 
 impl Keyboard {
-    /// Does what takes the keyboard; no key is read meanwhile.
+    /// Does work that needs the keyboard, during which no key is read.
     pub fn lend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.is_lent.store(true, Ordering::SeqCst);
         let reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
@@ -34,7 +34,7 @@ impl Keyboard {
         outcome
     }
 
-    /// The next event, or none within a while.
+    /// Next event; `None` if there is none within [`WAIT`].
     fn next(&self) -> std::io::Result<Option<Event>> {
         if self.is_lent.load(Ordering::SeqCst) {
             thread::sleep(AWAY);
@@ -45,7 +45,7 @@ impl Keyboard {
     }
 }
 
-/// Waits for keys, and tells them.
+/// Sends a message for each key.
 pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
     loop {
         let event = match keyboard.next().transpose() {
@@ -66,7 +66,7 @@ pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
     }
 }
 
-/// Waits for signals, and tells them.
+/// Sends a message for each signal.
 pub fn watch_signals(sender: &Sender<Message>) {
     let mut signals = match Signals::new([SIGTERM, SIGHUP, SIGINT]) {
         Ok(signals) => signals,

@@ -1,5 +1,5 @@
-//! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
-//! messages. None of them is waited for while the workbench is used.
+//! The threads behind the screens: keys, signals, database, pictures and runs have one each, and all answer with
+//! messages. The workbench never waits for one of them while it is used.
 
 pub mod alterations;
 pub mod database;
@@ -33,11 +33,11 @@ use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use store::{JobId, Live, Store};
 
-/// The threads, and their messages.
+/// The threads, and the messages from them.
 pub struct Threads {
-    /// Their messages.
+    /// Messages from the threads.
     pub messages: Receiver<Message>,
-    /// The keyboard that one of them reads.
+    /// Keyboard, which one of the threads reads.
     pub keyboard: Keyboard,
     sender: Sender<Message>,
     database: Sender<Request>,
@@ -58,7 +58,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Starts all threads but that of runs.
+    /// Starts all threads except that of runs.
     #[must_use]
     pub fn start(store: Store, encoder: Option<PictureEncoder>, quickstart: PathBuf, reports: PathBuf) -> Self {
         let (sender, messages) = mpsc::channel();
@@ -98,12 +98,12 @@ impl Threads {
         }
     }
 
-    /// Has the database read.
+    /// Requests a reading of the database.
     pub fn read(&self, focus: Focus) {
         self.carry_out(Effect::Read(focus));
     }
 
-    /// Hands an effect to the thread it concerns; a thread that has ended has said why.
+    /// Hands an effect to its thread. A thread that has ended has already said why.
     pub fn carry_out(&self, effect: Effect) {
         match effect {
             Effect::Read(focus) => drop(self.database.send(Request::Read(focus))),
@@ -145,17 +145,17 @@ impl Threads {
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;
     }
 
-    /// Stops a run that still goes on and waits until its jobs are back in the queue.
+    /// Stops a run that is in progress, and waits until its jobs are back in the queue.
     pub fn finish(self) {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(run) = self.run.into_inner().unwrap_or_else(PoisonError::into_inner) {
-            // A panic of the run was reported when it happened.
+            // A panic of the run was reported already.
             let _ = run.join();
         }
     }
 }
 
-/// Starts a thread that works with the database at a path and answers what it is asked through the returned end.
+/// Starts a thread that opens the database at a path and answers requests. Returns the sender for requests.
 fn serve<T: Send + 'static>(
     sender: &Sender<Message>,
     path: &Path,
@@ -167,14 +167,14 @@ fn serve<T: Send + 'static>(
     asks
 }
 
-/// Starts a thread with a way to answer; says so where the system refuses one.
+/// Starts a thread that can send messages; reports an error of the system.
 fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 'static) -> Option<JoinHandle<()>> {
     let own = sender.clone();
     let guarded = move || {
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| work(&own))) {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
-            // Nobody listens any more when the workbench is being left.
+            // Fails if the workbench is ending, which is fine.
             let _ = own
                 .send(Message::Failed(format!("part of the workbench broke, please leave and start it again: {text}")));
         }

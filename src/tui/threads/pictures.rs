@@ -1,4 +1,4 @@
-//! The thread that makes pictures: drapes of results, bodies of subjects. The body shown last is kept ready.
+//! The thread that draws pictures of drapes and bodies. The latest body is kept ready.
 
 use std::path::Path;
 use std::sync::PoisonError;
@@ -14,8 +14,8 @@ use results::{Figure, figure};
 use store::{Store, SubjectId};
 use wardrobe::catalogue;
 
-/// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
-/// measured where there is no encoder, too.
+/// Draws requested pictures, skipping all requests but the latest, until nobody requests or listens any more. Without
+/// an encoder it still measures bodies.
 pub fn serve(
     database: &Path,
     readonly: bool,
@@ -32,7 +32,7 @@ pub fn serve(
             if renderer.show(&request, encoder).is_err() {
                 return;
             }
-            // A newer request makes what is left of this one needless.
+            // A newer request replaces the rest of this one.
             if let Some(newer) = wanted.try_iter().last() {
                 requests = newer.into_iter();
             }
@@ -43,14 +43,14 @@ pub fn serve(
 struct Renderer<'a> {
     store: Result<Store, String>,
     scenes: Scenes,
-    /// The body shown last, or why there is none.
+    /// Latest body, or the reason why there is none.
     ready: Option<(SubjectId, Result<Figure, String>)>,
     previews: &'a Slot,
     sender: &'a Sender<Message>,
 }
 
 impl Renderer<'_> {
-    /// Makes a picture and sends it; an error when nobody listens.
+    /// Draws a picture and sends it; an error if nobody listens.
     fn show(&mut self, request: &PictureRequest, encoder: Option<&PictureEncoder>) -> Result<(), SendError<Message>> {
         if let Pictured::Body(id) = request.of {
             self.measure(id)?;
@@ -60,7 +60,7 @@ impl Renderer<'_> {
         self.sender.send(Message::Picture(*request, drawn))
     }
 
-    /// Makes a body ready and tells its measurements, unless it was shown last.
+    /// Builds a body and sends its measurements, unless it is the latest one.
     fn measure(&mut self, id: SubjectId) -> Result<(), SendError<Message>> {
         if self.ready.as_ref().is_some_and(|(ready, _)| *ready == id) {
             return Ok(());

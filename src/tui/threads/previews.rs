@@ -1,4 +1,4 @@
-//! The thread that sews a garment coarsely while its seams are edited. The body dressed last is kept ready.
+//! The thread that sews a garment coarsely while its seams are edited. The body used last is kept ready.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -13,10 +13,11 @@ use store::{Origin, Store, StudyError, SubjectId};
 use wardrobe::catalogue;
 use wardrobe::seams::Workpiece;
 
-/// The garment sewn last with the number of its request, for the thread of pictures.
+/// Latest preview with the number of its request, for the thread of pictures.
 pub type Slot = Arc<Mutex<Option<(u64, Preview)>>>;
 
-/// Sews what is asked for, the latest only, until nobody asks or listens any more. A newer request ends the one under way.
+/// Answers requests, skipping all but the latest, until nobody requests or listens any more. A newer request stops the
+/// work on an older one.
 pub fn serve(
     database: &Path,
     readonly: bool,
@@ -53,11 +54,11 @@ pub fn serve(
     }
 }
 
-/// A garment on its subject.
+/// A preview, and what it shows.
 struct Dressed {
     /// Name of the subject.
     subject: String,
-    /// Name of the cloth.
+    /// Name of the fabric.
     fabric: String,
     preview: Preview,
 }
@@ -68,7 +69,7 @@ struct Room {
 }
 
 impl Room {
-    /// Sews the garment of a request on its subject.
+    /// Sews and drapes the size of a request on its subject.
     fn dress(&mut self, request: &PreviewRequest, is_stale: &dyn Fn() -> bool) -> Result<Dressed, StudyError> {
         let store = self.store.as_ref().map_err(|error| StudyError::refused(Origin::Store, error.clone()))?;
         if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {

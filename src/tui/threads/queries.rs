@@ -1,5 +1,4 @@
-//! The thread that answers queries in SQL. It has a connection of its own, so that the screens go on
-//! while a long query runs.
+//! The thread that answers SQL queries, on a connection of its own, so that screens are updated during a long query.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,10 +12,10 @@ use crate::widgets::result_table::ResultTable;
 use store::{Interrupter, Store, StudyError, save_query, saved_queries, sql};
 use wardrobe::catalogue;
 
-/// Rows that are shown of an answer; a file gets all.
+/// Most rows of an answer on the screen; a file gets all rows.
 const MOST_ROWS: usize = 20_000;
 
-/// Stops the query that the thread works on.
+/// Stops the query of the thread.
 #[derive(Clone, Default)]
 pub struct Canceller {
     is_on: Arc<AtomicBool>,
@@ -38,12 +37,12 @@ impl Canceller {
     }
 }
 
-/// Answers until nobody asks or listens any more.
+/// Answers requests until nobody requests or listens any more.
 pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequest>, sender: &Sender<Message>) {
-    // Whatever a query says, it cannot write.
+    // Opened read-only, so no query can write.
     let store = catalogue::open(database, true).map_err(|error| error.to_string());
     if let Ok(store) = &store {
-        // The thread is started once, and so is its interrupter set.
+        // Set only once, since the thread starts only once.
         let _ = canceller.interrupter.set(sql::interrupter(store));
     }
     let folder = database.parent().unwrap_or(Path::new("")).join("queries");
@@ -86,7 +85,7 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
     }
 }
 
-/// Gives a saved query another name; those of the program keep theirs.
+/// Renames a saved query; queries of the program keep their names.
 fn rename(folder: &Path, from: &str, to: &str) -> Result<String, String> {
     let said = |error: StudyError| error.to_string();
     let file = folder.join(format!("{from}.sql"));
@@ -112,7 +111,7 @@ fn names(store: Result<&Store, String>, folder: &Path) -> Message {
     names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
 }
 
-/// An error of a query; one that was stopped says so.
+/// Message for an error of a query, or for a query that was stopped.
 fn said(error: &StudyError) -> String {
     match error {
         StudyError::Interrupted => "cancelled".to_owned(),

@@ -1,4 +1,4 @@
-//! Reading the contents that the screens show, in one go.
+//! Reading the data of all screens at once.
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
 use engine::enqueue;
@@ -6,7 +6,7 @@ use results::{FitCard, GarmentWorn, assessment};
 use store::{JobFilter, JobId, Result, Store, StudyError, now_ms, read};
 use wardrobe::catalogue;
 
-/// Reads what a focus needs.
+/// Reads the data for a focus.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -46,7 +46,7 @@ pub fn snapshot(store: &Store, focus: &Focus) -> Result<Snapshot> {
     Ok(snapshot)
 }
 
-/// Updates an earlier reading for another job or comparison, where nothing was written since.
+/// Adapts an earlier reading to another focus on jobs, if nothing was written since.
 ///
 /// # Errors
 /// When the database cannot be read.
@@ -58,7 +58,7 @@ pub fn refocused(store: &Store, mut before: Snapshot, focus: &Focus) -> Result<S
     Ok(before)
 }
 
-/// Reads the runs that are compared.
+/// Reads the jobs that are compared.
 fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result<()> {
     (snapshot.compared, snapshot.recommendations) = (vec![], vec![]);
     for id in &focus.compare {
@@ -70,7 +70,7 @@ fn add_compared(store: &Store, snapshot: &mut Snapshot, focus: &Focus) -> Result
     Ok(())
 }
 
-/// Fit of the garment looked at on the wearer; a card without sizes where no ease is known of them.
+/// Fit of the shown garment on the wearer. Where no ease is known, its card has no sizes.
 fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
     let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
     match assessment::worn(store, &grid.study, Some(&grid.garment), Some(subject)) {
@@ -83,7 +83,7 @@ fn worn(store: &Store, snapshot: &Snapshot, focus: &Focus) -> Result<Option<Garm
     }
 }
 
-/// A run to compare; `None` where there is no such job any more.
+/// Reads a job for a comparison; `None` for a job that is gone.
 fn compared(store: &Store, id: JobId) -> Result<Option<Compared>> {
     let job = match read::job(store, id) {
         Err(StudyError::NotFound { .. }) => return Ok(None),

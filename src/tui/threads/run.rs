@@ -12,10 +12,10 @@ use engine::{RunOptions, run};
 use store::{Live, StudyError};
 use wardrobe::catalogue;
 
-/// Time between two looks at whether a run has ended or is to stop, and at the garment that is watched.
+/// Time between two checks of a run: if it has ended, if it must stop, and for the garment that is watched.
 const POLL: Duration = Duration::from_millis(200);
 
-/// Starts a run and waits for its end or for the order to stop it; says how it ended.
+/// Starts a run and waits until it ends or must stop. Returns a line about its end.
 pub fn follow(
     database: &Path,
     study: &Path,
@@ -32,7 +32,7 @@ pub fn follow(
             break;
         }
         if let Some(frame) = live.take() {
-            // Nobody listens any more when the terminal is gone; the run goes on.
+            // Fails if the terminal is gone; the run goes on.
             let _ = sender.send(Message::Live(frame));
         }
         thread::sleep(POLL);

@@ -1,4 +1,4 @@
-//! The thread that works on seams: lays pieces out, changes seam files. Patterns are read there, never by the screens.
+//! The thread that lays out pieces and edits seam files. It reads the patterns, which screens never do.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
@@ -10,7 +10,7 @@ use store::{Store, StudyError};
 use wardrobe::catalogue;
 use wardrobe::seams::{SeamStep, Workpiece, seam_home};
 
-/// Does what is asked until nobody asks or listens any more; of sizes to lay out, the latest only.
+/// Answers requests until nobody requests or listens any more. Of sizes to lay out, only the latest counts.
 pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sender: &Sender<Message>) {
     let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
     while let Ok(task) = wanted.recv() {
@@ -36,7 +36,7 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sende
     }
 }
 
-/// The workpiece of a size, and its seam file as stored.
+/// Workpiece of a size, with its seam file as stored.
 fn workpiece(store: &Store, request: &LayoutRequest) -> Result<(Workpiece, Option<SourceFile>), StudyError> {
     let stored = catalogue::workpiece(store, request.key)?;
     let seams = request.seams.clone().or(stored.seams.clone());
@@ -51,7 +51,7 @@ pub fn lay_out(store: &Store, request: &LayoutRequest) -> Result<SizeLayout, Stu
     Ok(SizeLayout { out: piece.laid_out()?, stored, home })
 }
 
-/// The seam file of a size after a step of work.
+/// Returns the seam file of a size after a step of work.
 pub fn sew(store: &Store, request: &LayoutRequest, step: &SeamStep) -> Result<SourceFile, StudyError> {
     workpiece(store, request)?.0.after(step)
 }

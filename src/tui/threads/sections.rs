@@ -1,4 +1,4 @@
-//! The thread that cuts bodies and cloth: results are read there, never by the screens.
+//! The thread that cuts body and cloth of results, which screens never read.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
@@ -8,7 +8,8 @@ use results::{CutAt, cross_section};
 use store::JobId;
 use wardrobe::catalogue;
 
-/// Cuts the results asked for at all levels, those of the latest request only, until nobody asks or listens any more.
+/// Cuts requested results at all levels, skipping all requests but the latest, until nobody requests or listens any
+/// more.
 pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<Vec<JobId>>, sender: &Sender<Message>) {
     let store = catalogue::open(database, readonly).map_err(|error| error.to_string());
     while let Ok(first) = wanted.recv() {

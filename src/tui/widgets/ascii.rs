@@ -1,8 +1,8 @@
-//! The screen in plain ASCII, for terminals and fonts that have nothing else: every sign has a stand-in.
+//! The screen in plain ASCII, for terminals and fonts without other signs: every sign has a substitute.
 
 use ratatui::buffer::Buffer;
 
-/// Signs and what stands for them. Those of states differ from each other.
+/// Signs and their substitutes. Those of different states differ.
 const STAND_INS: [(char, char); 66] = [
     ('─', '-'),
     ('━', '-'),
@@ -72,10 +72,10 @@ const STAND_INS: [(char, char); 66] = [
     ('◆', '#'),
 ];
 
-/// Letters of growing density, for dots of braille.
+/// Letters of growing density, for braille dots.
 const DENSITY: [char; 9] = [' ', '.', '.', ':', ':', '+', '+', '#', '#'];
 
-/// Puts stand-ins into a buffer.
+/// Replaces the signs in a buffer by their substitutes.
 pub fn translate(buffer: &mut Buffer) {
     for cell in &mut buffer.content {
         let Some(sign) = cell.symbol().chars().next().filter(|sign| !sign.is_ascii()) else { continue };
@@ -83,7 +83,7 @@ pub fn translate(buffer: &mut Buffer) {
     }
 }
 
-/// ASCII letter that stands for a sign; `?` for one without a stand-in.
+/// Substitute of a sign; `?` for a sign without one.
 pub fn stand_in(sign: char) -> char {
     if ('\u{2800}'..='\u{28ff}').contains(&sign) {
         return DENSITY[(sign as u32 - 0x2800).count_ones() as usize];

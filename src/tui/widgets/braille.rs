@@ -1,4 +1,4 @@
-//! The garment of a running simulation in dots of braille: its vertices as they are, seen from where drapes are seen.
+//! The garment of a running simulation in braille dots: one dot for each vertex, in the view on drapes.
 
 use ratatui::style::Style;
 use ratatui::text::Line;
@@ -7,12 +7,12 @@ use crate::widgets::dots::Dots;
 use results::Look;
 use store::LiveFrame;
 
-/// World lengths of a picture change in such steps, m, so that it does not tremble.
+/// Step in which the height of the view changes, m, so that the picture does not tremble.
 const STEP_M: f64 = 0.1;
-/// Room around the garment, as a share.
+/// Factor on the extent of the garment that leaves a margin.
 const MARGIN: f64 = 1.05;
 
-/// A frame as lines of braille, so many columns by so many rows.
+/// Draws a frame as `rows` lines of braille with `columns` columns.
 #[must_use]
 pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize, style: Style) -> Vec<Line<'static>> {
     let (sin, cos) = f64::from(look.azimuth_deg).to_radians().sin_cos();

@@ -1,12 +1,12 @@
-//! Dots of braille, eight a cell, in the colours of pens.
+//! Braille dots, eight in each cell, in the styles of lines.
 
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-/// Bits of the dots of a braille letter, by column and row.
+/// Bits of the dots in a braille letter, by column and row.
 const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// A line of dots: so many drawn, so many left out, over and over.
+/// A dashed line, as numbers of dots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dash {
     /// Dots drawn in a row.
@@ -15,7 +15,7 @@ pub struct Dash {
     pub off: usize,
 }
 
-/// Cells of dots; each has the style that was drawn there last.
+/// A grid of braille cells. A cell has the style of its latest dot.
 pub struct Dots {
     columns: usize,
     cells: Vec<(u32, Style)>,
@@ -28,13 +28,13 @@ impl Dots {
         Self { columns, cells: vec![(0, Style::new()); columns * rows] }
     }
 
-    /// Dots across and down.
+    /// Number of dots across and down.
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
         [2 * self.columns, 4 * self.cells.len() / self.columns.max(1)]
     }
 
-    /// Draws a dot, from the left and from the top; one outside is left out.
+    /// Draws a dot at a point, counted from the left and the top. Ignores points outside.
     pub fn draw(&mut self, [x, y]: [f64; 2], style: Style) {
         let [width, height] = self.size().map(|size| size as f64);
         if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
@@ -45,7 +45,7 @@ impl Dots {
         *cell = (cell.0 | BITS[x % 2][y % 4], style);
     }
 
-    /// Draws a line through some places; the dashes go on round its corners.
+    /// Draws a line through points; dashes continue around its corners.
     pub fn line(&mut self, places: &[[f64; 2]], dash: Dash, style: Style) {
         let (mut last, mut drawn) = (None, 0);
         for [[x, y], [to_x, to_y]] in places.windows(2).map(|two| [two[0], two[1]]) {
@@ -65,7 +65,7 @@ impl Dots {
         }
     }
 
-    /// The rows as text, each run of one style a span.
+    /// Rows of text, with a span for each run of one style.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'static>> {
         let row = |row: &[(u32, Style)]| {

@@ -1,11 +1,11 @@
-//! A text of several lines that is edited in place, by readline's keys or vim's (see `vim`), and the completion of the word
-//! before its cursor.
+//! Editor of a text of several lines, with the keys of readline or vim (`vim`), and completion of the word before its
+//! cursor.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use store::Relation;
 
-/// Words of SQL that are offered besides names.
+/// SQL words that are offered besides names.
 const WORDS: [&str; 24] = [
     "SELECT",
     "FROM",
@@ -33,56 +33,56 @@ const WORDS: [&str; 24] = [
     "round(",
 ];
 
-/// Edits that can be taken back.
+/// Most edits that can be undone.
 const REMEMBERED: usize = 100;
 
 /// Style of editing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Editing {
-    /// Those of readline: letters are typed, keys with Ctrl and Alt move and cut.
+    /// Readline's keys: letters are typed, keys with Ctrl and Alt move and cut.
     #[default]
     Readline,
-    /// Those of vim, which have two modes.
+    /// Vim's keys, in two modes.
     Vim,
 }
 
-/// Meaning of a key with a letter.
+/// Meaning of letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// It types the letter.
+    /// Letters are typed.
     #[default]
     Insert,
-    /// It is a command of vim.
+    /// Letters are commands of vim.
     Normal,
 }
 
-/// A text and the place in it where typing goes on.
+/// A text with a cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Editor {
-    /// The text; lines are separated by line feeds.
+    /// Text; lines are separated by line feeds.
     text: String,
-    /// Place of the cursor, a byte of `text` between characters.
+    /// Position of the cursor: a byte of `text` between characters.
     pub(super) cursor: usize,
     editing: Editing,
     pub(super) mode: Mode,
-    /// The operator that waits for a motion.
+    /// Vim's operator that waits for a motion.
     pub(super) pending: Option<char>,
-    /// The text cut or copied last; whole lines end with the end of a line.
+    /// Text that was cut or copied last; whole lines end with a line feed.
     pub(super) killed: String,
-    /// Texts and cursors before the latest edits of normal mode.
+    /// Texts and cursors before the latest edits in normal mode.
     before_edits: Vec<(String, usize)>,
-    /// The words offered for the one before the cursor.
+    /// Words offered for the word before the cursor.
     offer: Option<Offer>,
 }
 
-/// Words that the one before the cursor may become.
+/// Possible completions of the word before the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
     /// Byte at which the word begins.
     start: usize,
-    /// Words that it may become, in order.
+    /// Possible words, in order.
     pub words: Vec<String>,
-    /// The one put into the text; `None` while they are only offered.
+    /// Index of the word that is in the text; `None` while words are only offered.
     pub taken: Option<usize>,
 }
 
@@ -99,23 +99,23 @@ impl Editor {
         self.offer.as_ref()
     }
 
-    /// Takes the offered words away.
+    /// Withdraws the offered words.
     pub fn decline(&mut self) {
         self.offer = None;
     }
 
-    /// Puts another text in, the cursor at its end.
+    /// Replaces the text; the cursor is at its end.
     pub fn set(&mut self, text: &str) {
         let Self { editing, killed, .. } = std::mem::take(self);
         *self = Self { text: text.to_owned(), cursor: text.len(), editing, killed, ..Self::default() };
     }
 
-    /// Takes the keys of readline or vim from now on.
+    /// Uses the keys of readline or vim from now on.
     pub fn edit_as(&mut self, editing: Editing) {
         self.editing = editing;
     }
 
-    /// Meaning of letters, where that changes.
+    /// Meaning of letters; `None` for readline, where it does not change.
     #[must_use]
     pub fn mode(&self) -> Option<Mode> {
         (self.editing == Editing::Vim).then_some(self.mode)
@@ -137,7 +137,7 @@ impl Editor {
         self.text[self.cursor..].find('\n').map_or(self.text.len(), |at| self.cursor + at)
     }
 
-    /// Handles a key; returns true if it was one for the editor.
+    /// Handles a key. Returns false if the editor does not know the key.
     pub fn key(&mut self, event: &KeyEvent, relations: &[Relation]) -> bool {
         let [ctrl, alt] = [KeyModifiers::CONTROL, KeyModifiers::ALT].map(|modifier| event.modifiers.contains(modifier));
         match event.code {
@@ -160,7 +160,7 @@ impl Editor {
         true
     }
 
-    /// The keys of readline with Alt.
+    /// Handles readline's keys with Alt.
     fn edit_words(&mut self, code: KeyCode) -> bool {
         match code {
             KeyCode::Char('b') => self.cursor = self.word_start(),
@@ -176,7 +176,7 @@ impl Editor {
             KeyCode::Char('a') if ctrl => self.cursor = self.line_start(),
             KeyCode::Char('e') if ctrl => self.cursor = self.line_end(),
             KeyCode::Char('k') if ctrl => {
-                // At the end of a line, the end itself goes.
+                // At the end of a line, removes the line feed.
                 let end = if self.cursor == self.line_end() { self.after() } else { self.line_end() };
                 self.kill(self.cursor, end);
             }
@@ -206,26 +206,26 @@ impl Editor {
         self.cursor += text.len();
     }
 
-    /// Takes out what lies between two places, and keeps it for being put in elsewhere.
+    /// Cuts the text between two positions and keeps it for pasting.
     fn kill(&mut self, from: usize, to: usize) {
         self.killed = self.text[from..to].to_owned();
         self.cut(from, to);
     }
 
-    /// Takes out what lies between two places; the cursor is there.
+    /// Removes the text between two positions, and moves the cursor there.
     pub(super) fn cut(&mut self, from: usize, to: usize) {
         self.text.replace_range(from..to, "");
         self.cursor = from;
     }
 
-    /// Remembers the text before an edit.
+    /// Stores the text for undo.
     pub(super) fn remember(&mut self) {
         self.before_edits.push((self.text.clone(), self.cursor));
         let surplus = self.before_edits.len().saturating_sub(REMEMBERED);
         self.before_edits.drain(..surplus);
     }
 
-    /// Takes the latest edit back.
+    /// Undoes the latest edit.
     pub(super) fn undo(&mut self) {
         if let Some((text, cursor)) = self.before_edits.pop() {
             (self.text, self.cursor) = (text, cursor);
@@ -240,7 +240,7 @@ impl Editor {
         self.letter_after(self.cursor)
     }
 
-    /// The place after the letter at a place.
+    /// Position after the letter at a position.
     pub(super) fn letter_after(&self, at: usize) -> usize {
         at + self.text[at..].chars().next().map_or(0, char::len_utf8)
     }
@@ -255,7 +255,7 @@ impl Editor {
         rest(end, &char::is_whitespace)
     }
 
-    /// The last letter of the word that ends after the cursor.
+    /// Position of the last letter of the word that ends after the cursor.
     pub(super) fn word_end(&self) -> usize {
         let end = |c: char, next: Option<char>| {
             !c.is_whitespace() && next.is_none_or(|next| next.is_whitespace() || is_of_word(next) != is_of_word(c))
@@ -265,13 +265,13 @@ impl Editor {
         letters().zip(next).find(|((_, c), next)| end(*c, *next)).map_or(self.cursor, |((at, _), _)| self.after() + at)
     }
 
-    /// The place after the word that ends after the cursor.
+    /// Position after the word that ends after the cursor.
     fn after_word(&self) -> usize {
         let start = self.text[self.cursor..].find(is_of_word).map_or(self.text.len(), |at| self.cursor + at);
         self.text[start..].find(|c| !is_of_word(c)).map_or(self.text.len(), |at| start + at)
     }
 
-    /// Byte at which the word before the cursor begins, blanks after it left out.
+    /// Byte at which the word before the cursor begins, without blanks after the word.
     pub(super) fn word_start(&self) -> usize {
         let trimmed = self.text[..self.cursor].trim_end();
         trimmed.rfind(|c: char| !is_of_word(c)).map_or(0, |at| {
@@ -293,7 +293,7 @@ impl Editor {
         self.cursor = self.text[*start..end].char_indices().nth(column).map_or(end, |(at, _)| start + at);
     }
 
-    /// Puts the next of the offered words into the text.
+    /// Puts the next offered word into the text.
     fn take_word(&mut self, step: isize) {
         let Some(offer) = &mut self.offer else { return };
         let last = offer.words.len() as isize;
@@ -304,8 +304,8 @@ impl Editor {
         self.cursor = offer.start + word.len();
     }
 
-    /// Words that begin like the one before the cursor: columns of what the text names, names of views and tables, words
-    /// of SQL, other columns. After `view.` only its columns.
+    /// Completions of the word before the cursor: columns of the views in the text, names of views and tables, SQL
+    /// words, other columns. After `view.` only columns of that view.
     fn offered(&self, relations: &[Relation]) -> Option<Offer> {
         let before = &self.text[..self.cursor];
         let start = before
@@ -337,13 +337,13 @@ impl Editor {
         (!words.is_empty()).then_some(Offer { start, words, taken: None })
     }
 
-    /// Views and tables that the text names.
+    /// Views and tables whose names are in the text.
     fn named<'a>(&self, relations: &'a [Relation]) -> Vec<&'a Relation> {
         let words: Vec<&str> = self.text.split(|c: char| !is_of_word(c)).collect();
         relations.iter().filter(|relation| words.iter().any(|word| relation.name.eq_ignore_ascii_case(word))).collect()
     }
 
-    /// The view or table that a name stands for: its own, or one given with `AS`, which may be left out.
+    /// View or table with a name: its own, or an alias with or without `AS`.
     fn owned<'a>(&self, name: &str, relations: &'a [Relation]) -> Option<&'a Relation> {
         let of_name = |name: &str| relations.iter().find(|relation| relation.name.eq_ignore_ascii_case(name));
         let words: Vec<&str> = self.text.split(|c: char| !is_of_word(c)).filter(|word| !word.is_empty()).collect();
@@ -372,7 +372,7 @@ mod tests {
         vec![relation("v_chi", &["study", "chi", "l2d_mm"]), relation("v_jobs", &["study", "status", "job_id"])]
     }
 
-    /// Types a text; `|` stands for Tab, `<` for Left, `^` for Up, `~` for Backspace.
+    /// Editor after some keys: `|` is Tab, `<` Left, `^` Up, `~` Backspace.
     fn typed(keys: &str) -> Editor {
         let mut editor = Editor::default();
         for letter in keys.chars() {

@@ -1,14 +1,14 @@
-//! Pictures in cells: half blocks of two colours, or letters where there are none.
+//! Pictures in cells: as half blocks of two colours, or as letters in terminals without colours.
 
 use image::{Rgba, RgbaImage, imageops};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use ratatui::style::Color;
 
-/// Steps of the levels of red, green and blue: neighbours that look the same are the same, and are sent as one.
+/// Step to which red, green and blue are rounded. Neighbours that look alike become equal, and are sent together.
 const STEP: u8 = 8;
 
-/// A picture of half blocks: colours above and below in each cell, row by row; none where the background is.
+/// A picture of half blocks: colours of the upper and lower half of each cell, row by row; `None` for background.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Blocks {
     /// Columns and rows.
@@ -17,7 +17,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The blocks of a picture.
+    /// Makes half blocks from a picture.
     #[must_use]
     pub fn of(picture: &RgbaImage, size: Size) -> Self {
         let (columns, rows) = (u32::from(size.width), u32::from(size.height));
@@ -29,7 +29,7 @@ impl Blocks {
         Self { size, halves: cells.map(|(x, y)| [half(x, 2 * y), half(x, 2 * y + 1)]).collect() }
     }
 
-    /// Puts them into a buffer; a background stays that of the terminal.
+    /// Draws the blocks into a buffer; the background stays that of the terminal.
     pub fn render(&self, area: Rect, buffer: &mut Buffer) {
         let colour = |[r, g, b]: [u8; 3]| Color::Rgb(r, g, b);
         for (place, [above, below]) in area.positions().zip(&self.halves) {
@@ -48,7 +48,7 @@ impl Blocks {
     }
 }
 
-/// A picture as letters: the darker, the denser; background stays empty.
+/// Picture as letters: the darker, the denser. Background stays blank.
 #[must_use]
 pub fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
@@ -61,8 +61,8 @@ pub fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     (0..rows).map(|y| (0..columns).map(|x| letter(x, y)).collect()).collect()
 }
 
-/// The mean colour of what is opaque in one of so many columns and one of so many rows of a picture; none where that is
-/// less than half.
+/// Mean colour of the opaque part of a picture's block: one of `columns` columns and `rows` rows. `None` if less than
+/// half of it is opaque.
 fn mean(picture: &RgbaImage, (column, columns): (u32, u32), (row, rows): (u32, u32)) -> Option<[u8; 3]> {
     let part = |k: u32, of: u32, pixels: u32| {
         let from = (k * pixels / of).min(pixels.saturating_sub(1));
@@ -82,7 +82,7 @@ fn mean(picture: &RgbaImage, (column, columns): (u32, u32), (row, rows): (u32, u
     (2 * opaque >= all && opaque > 0).then(|| sum.map(|sum| (sum / opaque) as u8))
 }
 
-/// The part of a picture that is not transparent, with a small margin.
+/// Opaque part of a picture, with a small margin.
 #[must_use]
 pub fn cropped(picture: &RgbaImage) -> RgbaImage {
     let (width, height) = picture.dimensions();

@@ -1,43 +1,43 @@
-//! Labels of places on the screen, and the goals of jumps to them.
+//! Labels of places on the screen, and goals of jumps to them.
 
 use ratatui::layout::{Margin, Position, Rect};
 
 use crate::widgets::lists::first_shown;
 
-/// Letters of labels, those under the fingers first.
+/// Letters for labels, the easiest to type first.
 const LETTERS: &[u8; 26] = b"asdfghjklqwertyuiopzxcvbnm";
 
 /// Goal of a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// To a pane of the screen, the first is 0.
+    /// A pane of the screen, from 0.
     Pane(usize),
-    /// To a pane, and in it so many rows down.
+    /// A pane, then a number of rows down.
     Row(usize, isize),
-    /// To something that the screen counts itself: a cell of the grid, an edge of a piece.
+    /// An item by the screen's own numbering: a cell of the grid, an edge of a piece.
     Item(usize),
 }
 
-/// A place on the screen and where a jump to it leads.
+/// A place on the screen, and the goal of a jump to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Cell in which its letters stand.
+    /// Cell at which its label begins.
     pub at: Position,
-    /// Its goal.
+    /// Goal of the jump.
     pub goal: Goal,
 }
 
-/// The inside of a pane with a border.
+/// Area within a pane's border.
 pub fn inside(area: Rect) -> Rect {
     area.inner(Margin::new(1, 1))
 }
 
-/// The target of a pane, in its border.
+/// Target of a pane, on its border.
 pub fn pane(area: Rect, pane: usize) -> Target {
     Target { at: Position::new(area.x + 1, area.y), goal: Goal::Pane(pane) }
 }
 
-/// The rows of a list that are shown of so many around the selected one, below so many lines of a header.
+/// Targets of the shown rows of a list: `rows` in all, shown around the selected one, below a header of `head` lines.
 pub fn rows(pane: usize, area: Rect, head: usize, rows: usize, selected: usize) -> Vec<Target> {
     let height = usize::from(area.height).saturating_sub(head);
     let first = first_shown(selected, rows, height);
@@ -48,7 +48,7 @@ pub fn rows(pane: usize, area: Rect, head: usize, rows: usize, selected: usize) 
     (first..rows).take(height).map(target).collect()
 }
 
-/// The label of a target of so many: one letter, or two where there are more targets than letters.
+/// Label of target `k`: one letter, or two if there are more targets than letters.
 pub fn label(k: usize, targets: usize) -> String {
     let letter = |k: usize| char::from(LETTERS[k % LETTERS.len()]);
     if targets <= LETTERS.len() {

@@ -8,7 +8,7 @@ use ratatui::widgets::Block;
 use crate::widgets::text;
 use crate::widgets::theme::Theme;
 
-/// A pane; the one with the focus stands out by colour, weight and a mark in its title.
+/// A pane. The pane with the focus differs in colour, weight and a mark in its title.
 pub fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<'a> {
     let title = title.into();
     let title = if focused { format!(" ▸{title} ") } else { format!(" {title} ") };
@@ -16,18 +16,18 @@ pub fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<
     Block::bordered().border_style(theme.border(focused)).title(Span::styled(title, style))
 }
 
-/// A line as the selected one: one colour all along, so that it reads as one row.
+/// A line as the selected one, in one style.
 pub fn selected_line(line: Line<'static>, style: Style) -> Line<'static> {
     let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
     Line::styled(text, style)
 }
 
-/// The first line shown of a list, such that the selected one is near the middle.
+/// First line of a list to show, so that the selected one is near the middle.
 pub fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
-/// The lines of as many rows as there is room for, those around the selected one; without a style, none is set off.
+/// Lines of the rows that fit, around the selected row; without `style`, none is highlighted.
 pub fn listed<T>(
     rows: &[T],
     selected: usize,
@@ -44,13 +44,13 @@ pub fn listed<T>(
     lines.collect()
 }
 
-/// The line in the place of rows, where a filter leaves none or there are none at all.
+/// Line for an empty list: `filtered` if a filter hides all rows, else `none`.
 pub fn no_rows(filter: &str, filtered: &'static str, none: &'static str) -> Line<'static> {
     Line::raw(if filter.is_empty() { none } else { filtered })
 }
 
-/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
-/// the header says that there is more.
+/// Part of a table that fits: its header stays, and the lines below are scrolled. A mark at the end of the header shows
+/// that there are more.
 pub fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {
     let hidden = table.len().saturating_sub(usize::from(inner.height));
     if hidden == 0 || table.is_empty() {

@@ -1,4 +1,4 @@
-//! Tools for drawing and typing, which know nothing of the state.
+//! Tools for drawing and typing, independent of the state.
 
 pub mod ascii;
 pub mod braille;

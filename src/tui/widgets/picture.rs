@@ -1,7 +1,7 @@
 //! Pictures in the terminal: requests for them, and how pixels become cells.
 //!
-//! Nothing is asked of the terminal: its answer may come late, or take the first key with it (tmux: 1.8 s). What the
-//! environment and the window size say is enough; otherwise half blocks, which every terminal can show.
+//! The terminal itself is not queried: its answer may come late, or swallow the first key (tmux: 1.8 s). Environment
+//! and window size say enough; where they do not, half blocks work in every terminal.
 
 use image::{DynamicImage, RgbaImage, imageops};
 use ratatui::layout::Size;
@@ -40,30 +40,30 @@ impl std::str::FromStr for Images {
     }
 }
 
-/// Pixels that are drawn of a cell that shows two of them or a letter.
+/// Pixels rendered for a cell that shows two pixels or a letter.
 const SMALL: FontSize = FontSize::new(6, 12);
-/// Degrees of one turn.
+/// Angle of one step of turning, degrees.
 const TURN_DEG: i32 = 15;
-/// Least and greatest enlargement, percent; one step multiplies or divides by 5/4.
+/// Least and greatest enlargement, %. A step multiplies or divides by 5/4.
 const ZOOM_PCT: [u32; 2] = [100, 800];
 
-/// The drape from the front, whole.
+/// The whole drape, from the front.
 pub const FRONT: Look = Look { azimuth_deg: 0, zoom_pct: 100, rise_pct: 0 };
 
-/// The named view that a look has, if it has one.
+/// Named view of a look; `None` for other angles.
 #[must_use]
 pub fn view_of(look: Look) -> Option<View> {
     View::ALL.into_iter().find(|view| view.azimuth_deg() as i32 == look.azimuth_deg)
 }
 
-/// Name of a look: its view, or its angle; its enlargement.
+/// Name of a look: view or angle, then enlargement.
 #[must_use]
 pub fn look_name(look: Look) -> String {
     let side = view_of(look).map_or_else(|| format!("{}°", look.azimuth_deg), |view| view.as_str().to_owned());
     if look.zoom_pct == FRONT.zoom_pct { side } else { format!("{side} ×{:.1}", f64::from(look.zoom_pct) / 100.0) }
 }
 
-/// The named view after that of a look, or after the angle it has.
+/// Named view that follows a look.
 #[must_use]
 pub fn next_view(look: Look) -> Look {
     let at = view_of(look).and_then(|view| View::ALL.iter().position(|known| *known == view));
@@ -71,24 +71,24 @@ pub fn next_view(look: Look) -> Look {
     Look { azimuth_deg: next.azimuth_deg() as i32, ..look }
 }
 
-/// A look some turns on, round the drape.
+/// Look turned by some steps about the vertical.
 #[must_use]
 pub fn turned(look: Look, steps: isize) -> Look {
     let azimuth_deg = (look.azimuth_deg + TURN_DEG * steps as i32).rem_euclid(360);
     Look { azimuth_deg, ..look }
 }
 
-/// A look nearer or farther by some steps.
+/// Look enlarged by some steps, or reduced if negative.
 #[must_use]
 pub fn zoomed(look: Look, steps: i32) -> Look {
     let zoom_pct = if steps > 0 { look.zoom_pct * 5 / 4 } else { look.zoom_pct * 4 / 5 };
     let zoom_pct = zoom_pct.clamp(ZOOM_PCT[0], ZOOM_PCT[1]);
-    // The whole garment is in the middle.
+    // An unenlarged garment is in the middle.
     let rise_pct = if zoom_pct == ZOOM_PCT[0] { 0 } else { look.rise_pct };
     Look { zoom_pct, rise_pct, ..look }
 }
 
-/// An enlarged look higher or lower by some steps.
+/// Enlarged look, raised by some steps.
 #[must_use]
 pub fn raised(look: Look, steps: i32) -> Look {
     let step = (2000 / look.zoom_pct as i32).max(2);
@@ -96,7 +96,7 @@ pub fn raised(look: Look, steps: i32) -> Look {
     Look { rise_pct: (look.rise_pct + steps * step).clamp(-reach, reach), ..look }
 }
 
-/// The quantity that the colours show next.
+/// Map that follows another.
 #[must_use]
 pub fn next_map(map: Map) -> Map {
     let at = Map::ALL.iter().position(|known| *known == map).unwrap_or(0);
@@ -110,16 +110,16 @@ pub enum Pictured {
     Drape(JobId),
     /// The body of a subject, from the front and from the side.
     Body(SubjectId),
-    /// A garment sewn coarsely, by the number of its request.
+    /// A preview, by the number of its request.
     Preview(u64),
 }
 
-/// A picture that is wanted; one without cells has the body measured only.
+/// A request for a picture. With no cells, a body is only measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureRequest {
     /// Subject of the picture.
     pub of: Pictured,
-    /// Direction and distance from which the drape is seen.
+    /// Direction and enlargement of the view.
     pub look: Look,
     /// Map that colours the cloth.
     pub map: Map,
@@ -131,7 +131,7 @@ pub struct PictureRequest {
 
 /// A picture as the terminal shows it.
 pub enum Drawn {
-    /// Pixels, by a protocol for pictures.
+    /// Pixels, for a protocol for pictures.
     Pixels(Protocol),
     /// Half blocks, each with two colours.
     Blocks(Blocks),
@@ -149,10 +149,10 @@ impl std::fmt::Debug for Drawn {
     }
 }
 
-/// Turns pictures into cells.
+/// Encoder of pictures for the terminal.
 #[derive(Clone, Debug)]
 pub struct PictureEncoder {
-    /// Protocol by which pixels are sent, where they are.
+    /// Protocol for pixels; `None` for half blocks or letters.
     picker: Option<Picker>,
     letters: bool,
     /// Pixels of a cell.
@@ -160,7 +160,7 @@ pub struct PictureEncoder {
 }
 
 impl PictureEncoder {
-    /// The best way this terminal can show pictures; `None` where they are off.
+    /// Chooses the best way to show pictures in this terminal; `None` if they are off.
     #[must_use]
     pub fn new(images: Images, colours: Colours, env: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
         let letters = colours == Colours::None;
@@ -172,14 +172,14 @@ impl PictureEncoder {
         Some(Self::with(pixels, letters))
     }
 
-    /// Pixels by a protocol in cells of a size, letters, or half blocks.
+    /// Encoder for pixels by a protocol with cells of a size, for letters, or for half blocks.
     #[must_use]
     pub fn with(pixels: Option<(ProtocolType, FontSize)>, letters: bool) -> Self {
         let picker = pixels.map(|(protocol, cell)| picker_of(protocol, cell));
         Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) }
     }
 
-    /// Pixels to render for a picture, width by height.
+    /// Width and height, in pixels, at which a picture must be rendered.
     #[must_use]
     pub fn pixels(&self, request: &PictureRequest) -> (u32, u32) {
         (u32::from(request.columns) * u32::from(self.cell.width), u32::from(request.rows) * u32::from(self.cell.height))
@@ -197,7 +197,8 @@ impl PictureEncoder {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
         let Some(picker) = &self.picker else { return Ok(Drawn::Blocks(Blocks::of(&picture, size))) };
-        // Terminals differ in what shines through: the backdrop is part of it. Whole cells, so that nothing of the terminal shines through along the edges.
+        // Draws on the backdrop, since terminals differ in what shines through. Fills whole cells, so that nothing
+        // shines through at the edges.
         let (width, height) = (u32::from(size.width * cell.width), u32::from(size.height * cell.height));
         let opaque = |mut picture: RgbaImage| {
             picture.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
@@ -209,7 +210,8 @@ impl PictureEncoder {
     }
 }
 
-/// The protocol of a terminal that names itself; none inside tmux and screen, which pass pixels on only when told to.
+/// Protocol of a terminal that identifies itself; `None` inside tmux and screen, which pass pixels on only if they are
+/// told to.
 #[must_use]
 pub fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolType> {
     let is = |name: &str, value: &str| env(name).is_some_and(|found| found == value);
@@ -227,7 +229,7 @@ pub fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolTy
     }
 }
 
-/// Pixels of a cell, from the window size the kernel knows.
+/// Size of a cell in pixels, from the kernel's window size.
 fn cell_size() -> Option<FontSize> {
     let window = crossterm::terminal::window_size().ok()?;
     let (width, height) = (window.width.checked_div(window.columns)?, window.height.checked_div(window.rows)?);
@@ -235,14 +237,14 @@ fn cell_size() -> Option<FontSize> {
 }
 
 fn picker_of(protocol: ProtocolType, cell: FontSize) -> Picker {
-    // The constructor's replacement asks the terminal, which this module must not.
+    // The constructor that replaces this one queries the terminal.
     #[allow(deprecated)]
     let mut picker = Picker::from_fontsize(cell);
     picker.set_protocol_type(protocol);
     picker
 }
 
-/// Cells that a picture fills of a pane when it is scaled to touch two of its sides.
+/// Cells that a picture fills in a pane when scaled to touch two of its sides.
 fn fitted(picture: &RgbaImage, pane: Size, cell: FontSize) -> Size {
     let columns = f64::from(picture.width()) / f64::from(cell.width);
     let rows = f64::from(picture.height()) / f64::from(cell.height);

@@ -1,4 +1,4 @@
-//! The rows of an answer as they are looked at: sorted by a column, narrowed by a filter, the selected column in sight.
+//! Rows of an answer for a screen: sorted by a column, filtered, scrolled to the selected column.
 
 use std::cmp::Ordering;
 
@@ -6,17 +6,17 @@ use crate::widgets::text;
 use geom::units::significant;
 use store::{SqlAnswer, Value};
 
-/// Rows whose values decide the width of a column and whether it holds numbers.
+/// Number of rows that decide the width of a column, and if it holds numbers.
 const LOOKED_AT: usize = 300;
-/// The widest a column becomes.
+/// Greatest width of a column.
 const WIDEST: usize = 40;
 
-/// A column as it is shown.
+/// A column on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its width, in columns of the terminal.
+    /// Width in columns of the terminal.
     pub width: usize,
-    /// True where it holds numbers.
+    /// True if the column holds numbers.
     pub is_number: bool,
 }
 
@@ -24,22 +24,22 @@ pub struct Column {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResultTable {
     answer: SqlAnswer,
-    /// Each row in small letters, for the filter.
+    /// Each row in lower case, for the filter.
     words: Vec<String>,
-    /// Its columns as they are shown.
+    /// Widths and kinds of the columns.
     columns: Vec<Column>,
-    /// Rows shown, in order.
+    /// Indices of the shown rows, in order.
     shown: Vec<usize>,
-    /// Row selected, one of those shown.
+    /// Index of the selected row among those shown.
     pub row: usize,
-    /// Index of the column selected.
+    /// Index of the selected column.
     pub column: usize,
-    /// Column that sorts and whether it falls; the query's own order otherwise.
+    /// Column that sorts, and true if it falls; `None` for the order of the query.
     pub order: Option<(usize, bool)>,
 }
 
 impl ResultTable {
-    /// The table of an answer. Costs time in proportion to it: for threads that nobody waits for.
+    /// Makes the table of an answer, in a time proportional to its size. Meant for threads.
     #[must_use]
     pub fn of(answer: SqlAnswer) -> Self {
         let words = answer.table.rows.iter().map(|row| {
@@ -62,7 +62,7 @@ impl ResultTable {
         &self.answer.table.columns
     }
 
-    /// A column as it is shown.
+    /// Width and kind of a column.
     #[must_use]
     pub fn column_of(&self, k: usize) -> Column {
         self.columns[k]
@@ -80,19 +80,19 @@ impl ResultTable {
         self.answer.table.rows.len()
     }
 
-    /// True if the query has more rows than are here.
+    /// True if the query has more rows than the answer.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         self.answer.is_cut
     }
 
-    /// A row of those shown.
+    /// Values of a shown row.
     #[must_use]
     pub fn values(&self, row: usize) -> Option<&[Value]> {
         self.shown.get(row).map(|at| self.answer.table.rows[*at].as_slice())
     }
 
-    /// Shows the rows that contain a text, in the order wanted.
+    /// Filters and sorts the rows.
     pub fn arrange(&mut self, filter: &str) {
         let filter = filter.to_lowercase();
         self.shown = (0..self.words.len()).filter(|row| self.words[*row].contains(&filter)).collect();
@@ -106,35 +106,35 @@ impl ResultTable {
         self.row = self.row.min(self.shown.len().saturating_sub(1));
     }
 
-    /// Sorts by the selected column; a second time in the query's own order again.
+    /// Sorts by the selected column. The second time returns to the order of the query.
     pub fn sort(&mut self, filter: &str) {
         self.order =
             if self.order.is_some_and(|(by, _)| by == self.column) { None } else { Some((self.column, false)) };
         self.arrange(filter);
     }
 
-    /// Reverses the order, by the selected column where there is none yet.
+    /// Reverses the order; sorts by the selected column where the order is that of the query.
     pub fn reverse(&mut self, filter: &str) {
         let (by, falls) = self.order.unwrap_or((self.column, false));
         self.order = Some((by, !falls));
         self.arrange(filter);
     }
 
-    /// Goes some columns on.
+    /// Moves the selection by some columns.
     pub fn sideways(&mut self, step: isize) {
         let last = self.columns.len().saturating_sub(1);
         self.column = self.column.saturating_add_signed(step).min(last);
     }
 
-    /// The columns shown in so many columns of the terminal: the first, which stays, then those up to the selected one and
-    /// as many after it as there is room for.
+    /// Columns that fit into `room`: the first, which stays; then the last ones up to the selected column, and those
+    /// after it.
     #[must_use]
     pub fn columns_shown(&self, room: usize) -> Vec<usize> {
         let Some((first, rest)) = self.columns.split_first() else { return vec![] };
         let widths: Vec<usize> = rest.iter().map(|column| column.width + 2).collect();
         let mut left = room.saturating_sub(first.width);
         let mut from = 1;
-        // The selected column must fit; what lies before it scrolls away.
+        // The selected column must fit; columns before it are scrolled away.
         while from < self.column && widths[from - 1..self.column].iter().sum::<usize>() > left {
             from += 1;
         }
@@ -149,7 +149,7 @@ impl ResultTable {
         shown
     }
 
-    /// The rows shown, tab-separated under the names of the columns.
+    /// Shown rows as text, separated by tabs, below the names of the columns.
     #[must_use]
     pub fn copied(&self, rows: impl Iterator<Item = usize>) -> String {
         let line = |values: &[Value]| values.iter().map(Value::to_string).collect::<Vec<_>>().join("\t");
@@ -158,7 +158,7 @@ impl ResultTable {
     }
 }
 
-/// A value in a line: numbers with at most six significant digits, texts without line ends.
+/// Value in one line: numbers with at most six significant digits, texts without line feeds.
 #[must_use]
 pub fn cell_text(value: &Value) -> String {
     match value {
@@ -168,7 +168,7 @@ pub fn cell_text(value: &Value) -> String {
     }
 }
 
-/// The order of two values as SQLite has it: nothing, numbers, texts, bytes.
+/// Order of two values, as in SQLite: nulls, numbers, texts, blobs.
 fn compared(a: &Value, b: &Value) -> Ordering {
     let rank = |value: &Value| match value {
         Value::Null => 0,

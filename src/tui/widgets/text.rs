@@ -1,4 +1,4 @@
-//! Numbers and words as screens show them: aligned, never cut in the middle without a sign.
+//! Numbers and words for screens: aligned, and never cut without a mark.
 
 use ratatui::text::Span;
 
@@ -7,13 +7,13 @@ use spec::bodies::Sex;
 use store::{JobRow, Status};
 use wardrobe::SubjectRow;
 
-/// Columns a text takes.
+/// Width of a text in columns.
 #[must_use]
 pub fn width(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text in exactly so many columns, left-aligned; too long ends in `…`.
+/// Text in exactly `columns` columns, left-aligned; a long text ends in `…`.
 #[must_use]
 pub fn left(text: &str, columns: usize) -> String {
     let text = shortened(text, columns);
@@ -21,14 +21,14 @@ pub fn left(text: &str, columns: usize) -> String {
     format!("{text}{}", " ".repeat(gap))
 }
 
-/// A text in exactly so many columns, right-aligned; too long ends in `…`.
+/// Text in exactly `columns` columns, right-aligned; a long text ends in `…`.
 #[must_use]
 pub fn right(text: &str, columns: usize) -> String {
     let text = shortened(text, columns);
     format!("{}{text}", " ".repeat(columns - width(&text)))
 }
 
-/// A text in at most so many columns.
+/// Text in at most `columns` columns.
 #[must_use]
 pub fn shortened(text: &str, columns: usize) -> String {
     if width(text) <= columns {
@@ -45,7 +45,7 @@ pub fn shortened(text: &str, columns: usize) -> String {
     if columns == 0 {
         return short;
     }
-    // Whole words where that loses little.
+    // Keeps whole words if that loses little.
     match short.rfind(' ') {
         Some(space) if space * 2 > short.len() => short.truncate(space),
         _ => {}
@@ -54,41 +54,41 @@ pub fn shortened(text: &str, columns: usize) -> String {
     short
 }
 
-/// A length of cloth or body, in mm.
+/// Length in mm.
 #[must_use]
 pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
 
-/// A number as it can be typed, exactly: small ones with an exponent.
+/// Number as it can be typed, exactly; small numbers have an exponent.
 #[must_use]
 pub fn exact(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { value.to_string() }
 }
 
-/// A name of levels, regions or points in words.
+/// Name of a level, region or point in words.
 #[must_use]
 pub fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// A whole number with a true minus sign.
+/// Whole number with U+2212 as its minus sign.
 #[must_use]
 pub fn whole(value: f64) -> String {
     format!("{value:.0}").replace('-', "−")
 }
 
-/// An ease, in whole mm with its sign.
+/// Ease in whole mm, with its sign.
 #[must_use]
 pub fn ease_mm(metres: f64) -> String {
     format!("{:+.0}", metres * 1000.0)
 }
 
-/// A moment, ms since 1970, as date and time (UTC): `2026-03-01 07:05`.
+/// Time, ms since 1970, as date and time (UTC): `2026-03-01 07:05`.
 #[must_use]
 pub fn date(ms: i64) -> String {
     let (days, minutes) = (ms.div_euclid(86_400_000), ms.rem_euclid(86_400_000) / 60_000);
-    // Days from March of a year on, so that the leap day comes last; 146,097 days are 400 years.
+    // Years begin in March here, so that the leap day comes last; 146,097 days are 400 years.
     let (era, day) = ((days + 719_468).div_euclid(146_097), (days + 719_468).rem_euclid(146_097));
     let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
     let of_year = day - (365 * year + year / 4 - year / 100);
@@ -98,7 +98,7 @@ pub fn date(ms: i64) -> String {
     format!("{year:04}-{month:02}-{of_month:02} {:02}:{:02}", minutes / 60, minutes % 60)
 }
 
-/// A duration in at most six columns.
+/// Duration in at most six columns.
 #[must_use]
 pub fn duration(ms: i64) -> String {
     let seconds = ms.max(0) / 1000;
@@ -110,7 +110,7 @@ pub fn duration(ms: i64) -> String {
     }
 }
 
-/// The short name of a simulator.
+/// Short name of a simulator.
 #[must_use]
 pub fn sim(simulator: Simulator) -> &'static str {
     match simulator {
@@ -128,7 +128,7 @@ pub fn sex(subject: &SubjectRow) -> &'static str {
     }
 }
 
-/// A status in words.
+/// Status in words.
 #[must_use]
 pub fn status(status: Status) -> &'static str {
     match status {
@@ -137,7 +137,7 @@ pub fn status(status: Status) -> &'static str {
     }
 }
 
-/// A share, 0 to 1, as a bar of so many columns.
+/// Share, 0 to 1, as a bar of `columns` columns.
 #[must_use]
 pub fn progress_bar(share: f64, columns: usize) -> String {
     const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
@@ -146,8 +146,8 @@ pub fn progress_bar(share: f64, columns: usize) -> String {
     left(&bar, columns)
 }
 
-/// Distance of an evaluation ratio from 1, as a bar to the left or right of a middle line; `◀` or `▶` ends one that is
-/// longer than there is room. Each side has `side` columns and stands for 5 %.
+/// Departure of a chi from 1 as a bar to the left or right of a middle line. Each side has `side` columns for 5 %; `◀`
+/// or `▶` ends a longer bar.
 #[must_use]
 pub fn chi_bar(chi: f64, side: usize) -> String {
     let steps = (chi - 1.0) / 0.05 * side as f64;
@@ -164,7 +164,7 @@ pub fn chi_bar(chi: f64, side: usize) -> String {
     }
 }
 
-/// Distance of an evaluation ratio from 1, in one column: within 1 %, up or down by up to 3 %, or by more.
+/// Departure of a chi from 1 in one column: within 1 %, up to 3 % above or below, or more.
 #[must_use]
 pub fn chi_mark(chi: f64) -> &'static str {
     match chi - 1.0 {
@@ -176,7 +176,7 @@ pub fn chi_mark(chi: f64) -> &'static str {
     }
 }
 
-/// Numbers as a line of eight heights, the latest that fit; numbers that are not finite leave a gap.
+/// Latest numbers that fit, as a line of eight heights; a number that is not finite leaves a gap.
 #[must_use]
 pub fn sparkline(values: &[f64], columns: usize) -> String {
     const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
@@ -191,7 +191,7 @@ pub fn sparkline(values: &[f64], columns: usize) -> String {
     shown.into_iter().map(height).collect()
 }
 
-/// At most so many of the values, evenly chosen, the last always among them.
+/// At most `columns` of the values, evenly chosen; the last is always among them.
 fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
     let n = values.len();
     if n <= columns {
@@ -200,7 +200,7 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
     (1..=columns).map(|k| values[k * n / columns - 1]).collect()
 }
 
-/// Reason of the present status of a job, in a few words.
+/// Reason for the present status of a job, in a few words.
 #[must_use]
 pub fn why(job: &JobRow, paused: bool) -> String {
     match job.status {
@@ -222,7 +222,7 @@ pub fn why(job: &JobRow, paused: bool) -> String {
     }
 }
 
-/// A text in lines of at most so many columns, broken at spaces where there are any; longer words in their middle.
+/// Text in lines of at most `columns` columns, broken at spaces, or within a word that is longer.
 pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     let mut lines = vec![];
     for paragraph in text.lines() {
@@ -241,7 +241,7 @@ pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     lines
 }
 
-/// A word in pieces of at most so many columns.
+/// Word in pieces of at most `columns` columns.
 fn broken(word: &str, columns: usize) -> Vec<String> {
     let mut pieces = vec![String::new()];
     for letter in word.chars() {
@@ -256,7 +256,7 @@ fn broken(word: &str, columns: usize) -> Vec<String> {
     pieces
 }
 
-/// A text as one word of a shell's command line.
+/// Text as one word of a shell's command line.
 #[must_use]
 pub fn quoted(text: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./+@%".contains(letter);
@@ -266,7 +266,7 @@ pub fn quoted(text: &str) -> String {
     format!("'{}'", text.replace('\'', "'\\''"))
 }
 
-/// A percentile as a mark on a line of so many columns, its middle at the median.
+/// Percentile as a mark on a line of `columns` columns, with the median in the middle.
 pub fn place_bar(percentile: f64, columns: usize) -> String {
     if columns < 5 {
         return String::new();

@@ -1,6 +1,5 @@
-//! Colours: the sixteen of the terminal's own palette, so that light and dark backgrounds both stay readable, those of a
-//! file of one's own (see `theme_file`), or none.
-//! Colour never stands alone: a glyph or a bar beside it says the same.
+//! Colours: the sixteen of the terminal's own palette, so that light and dark backgrounds are readable; those of the
+//! user's file (`theme_file`); or none. A glyph or a bar always says the same as a colour.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -14,24 +13,24 @@ use store::{FitCell, Status};
 pub enum Colours {
     /// No colour at all.
     None,
-    /// The 16 of the terminal's own palette.
+    /// The 16 colours of the terminal's own palette.
     Basic,
-    /// The 256 of xterm.
+    /// The 256 colours of xterm.
     Indexed,
-    /// Red, green and blue of 8 bits.
+    /// Red, green and blue, 8 bits each.
     True,
 }
 
-/// Terminals that show 16 colours.
+/// Terminals with 16 colours.
 const BASIC: [&str; 6] = ["linux", "xterm", "screen", "vt220", "ansi", "xterm-16color"];
 
 impl Colours {
-    /// Detects them from the environment: `NO_COLOR`, `TERM`, `COLORTERM`.
+    /// Detects the colours from the environment: `NO_COLOR`, `TERM`, `COLORTERM`.
     #[must_use]
     pub fn detect(no_color: bool, env: &dyn Fn(&str) -> Option<String>) -> Self {
         let term = env("TERM").unwrap_or_default();
         let says_true = matches!(env("COLORTERM").as_deref(), Some("truecolor" | "24bit"));
-        // tmux turns colours its outer terminal lacks into near ones by itself.
+        // tmux replaces colours that its outer terminal lacks by near ones.
         let is_known = env("TMUX").is_some() || ["kitty", "ghostty", "direct", "foot"].iter().any(|t| term.contains(t));
         if no_color || env("NO_COLOR").is_some_and(|value| !value.is_empty()) || term == "dumb" {
             Self::None
@@ -45,7 +44,7 @@ impl Colours {
     }
 }
 
-/// True if the environment asks for ASCII: `TOILE_ASCII`, or a terminal that has nothing else.
+/// True if the environment asks for ASCII, by `TOILE_ASCII` or a terminal that has only ASCII.
 #[must_use]
 pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
     let term = env("TERM").unwrap_or_default();
@@ -63,19 +62,19 @@ pub enum Role {
     Bad,
     /// Not finished yet.
     Busy,
-    /// The border of the pane that has the focus.
+    /// Border of the pane with the focus.
     Focus,
-    /// Of less weight.
+    /// Less important.
     Dim,
-    /// Selected, in the pane that has the focus.
+    /// Selected, in the pane with the focus.
     Selected,
 }
 
 impl Role {
-    /// All of them.
+    /// All roles.
     pub const ALL: [Self; 7] = [Self::Good, Self::Warn, Self::Bad, Self::Busy, Self::Focus, Self::Dim, Self::Selected];
 
-    /// Its name in the file of colours.
+    /// Name in the file of colours.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -90,12 +89,12 @@ impl Role {
     }
 }
 
-/// The colours of roles.
+/// Colours by meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Roles {
-    /// That of each role, in the order of [`Role::ALL`]; `Reset` where it is told by weight alone.
+    /// Colours of roles, in the order of [`Role::ALL`]; `Reset` for a role that only weight shows.
     pub colours: [Color; Role::ALL.len()],
-    /// Those of seams and sizes, in turn.
+    /// Colours of seams and sizes, in turn.
     pub seams: &'static [Color],
 }
 
@@ -112,20 +111,20 @@ impl Default for Roles {
 pub struct Theme {
     /// Number of colours that the terminal shows.
     pub colours: Colours,
-    /// True where only ASCII is shown.
+    /// True to show only ASCII.
     pub ascii: bool,
-    /// Colour of each role.
+    /// Colours by meaning.
     pub roles: Roles,
 }
 
 impl Theme {
-    /// The theme of a terminal without a file of colours.
+    /// Theme of a terminal, without a file of colours.
     #[must_use]
     pub fn new(colours: Colours, ascii: bool) -> Self {
         Self { colours, ascii, roles: Roles::default() }
     }
 
-    /// The nearest of the colours there are; `Reset` where there are none.
+    /// Nearest colour that the terminal has; `Reset` without colours.
     fn shown(self, colour: Color) -> Color {
         match self.colours {
             Colours::None => Color::Reset,
@@ -135,7 +134,7 @@ impl Theme {
         }
     }
 
-    /// The style of a role, on top of one; `otherwise` where the role has no colour.
+    /// Adds the style of a role to a style, or `otherwise` if the role has no colour.
     fn of(self, role: Role, style: Style, otherwise: Style) -> Style {
         match self.shown(self.roles.colours[role as usize]) {
             Color::Reset => otherwise,
@@ -147,74 +146,74 @@ impl Theme {
         self.of(role, Style::new(), Style::new())
     }
 
-    /// Right or finished.
+    /// Style for right or finished.
     #[must_use]
     pub fn good(self) -> Style {
         self.plain(Role::Good)
     }
 
-    /// Style of what is worth a second look.
+    /// Style for worth a second look.
     #[must_use]
     pub fn warn(self) -> Style {
         self.plain(Role::Warn)
     }
 
-    /// Wrong or failed.
+    /// Style for wrong or failed.
     #[must_use]
     pub fn bad(self) -> Style {
         self.plain(Role::Bad)
     }
 
-    /// Style of what is not finished yet.
+    /// Style for not finished yet.
     #[must_use]
     pub fn busy(self) -> Style {
         self.plain(Role::Busy)
     }
 
-    /// Of less weight.
+    /// Style for less important.
     #[must_use]
     pub fn dim(self) -> Style {
         self.of(Role::Dim, Style::new(), Style::new().add_modifier(Modifier::DIM))
     }
 
-    /// A legend in a border: of less weight, whatever the border is like.
+    /// Style of a legend in a border: less important, even if the border has the focus.
     #[must_use]
     pub fn legend(self) -> Style {
         Style::reset().patch(self.dim())
     }
 
-    /// Of more weight.
+    /// Style for more important.
     #[must_use]
     pub fn bold(self) -> Style {
         Style::new().add_modifier(Modifier::BOLD)
     }
 
-    /// Selected, in the pane that has the focus.
+    /// Style of the selection in the pane with the focus.
     #[must_use]
     pub fn selected(self) -> Style {
         let reversed = Style::new().add_modifier(Modifier::REVERSED);
         self.of(Role::Selected, reversed, reversed)
     }
 
-    /// Selected, in another pane.
+    /// Style of the selection in another pane.
     #[must_use]
     pub fn marked(self) -> Style {
         Style::new().add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
-    /// The style of a selection.
+    /// Style of a selection.
     #[must_use]
     pub fn selection(self, focused: bool) -> Style {
         if focused { self.selected() } else { self.marked() }
     }
 
-    /// The border of a pane.
+    /// Style of a pane's border.
     #[must_use]
     pub fn border(self, focused: bool) -> Style {
         if focused { self.plain(Role::Focus).add_modifier(Modifier::BOLD) } else { self.dim() }
     }
 
-    /// The style of a status.
+    /// Style of a status.
     #[must_use]
     pub fn status(self, status: Status) -> Style {
         match status {
@@ -226,7 +225,7 @@ impl Theme {
         }
     }
 
-    /// The style of an evaluation ratio: how far it is from 1.
+    /// Style of a chi, by its departure from 1.
     #[must_use]
     pub fn chi(self, chi: f64) -> Style {
         match (chi - 1.0).abs() {
@@ -236,19 +235,19 @@ impl Theme {
         }
     }
 
-    /// The colour of a seam or a size, which its letter or line tells as well.
+    /// Colour of a seam or a size; its letter or line says the same.
     #[must_use]
     pub fn lettered(self, number: usize) -> Color {
         self.shown(self.roles.seams[number % self.roles.seams.len()])
     }
 
-    /// True if there are colours at all.
+    /// True if the terminal has colours.
     #[must_use]
     pub fn has_colours(self) -> bool {
         self.colours != Colours::None
     }
 
-    /// Turns colours the terminal lacks, as pictures have them, into the nearest it has.
+    /// Replaces colours that the terminal lacks, such as those of pictures, by the nearest it has.
     pub fn adapt(self, buffer: &mut Buffer, area: Rect) {
         if matches!(self.colours, Colours::None | Colours::True) {
             return;
@@ -260,10 +259,10 @@ impl Theme {
     }
 }
 
-/// The steps of the cube of xterm's colours.
+/// Levels of a channel in xterm's colour cube.
 const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
 
-/// The sixteen colours, as most terminals have them.
+/// The sixteen colours as most terminals show them.
 const SIXTEEN: [(Color, [u8; 3]); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [170, 0, 0]),
@@ -283,7 +282,7 @@ const SIXTEEN: [(Color, [u8; 3]); 16] = [
     (Color::White, [255, 255, 255]),
 ];
 
-/// The nearest colour of xterm's 256: of its cube or its greys, whichever is nearer.
+/// Nearest of xterm's 256 colours, in its cube or among its greys.
 fn indexed(colour: Color) -> Color {
     let Color::Rgb(r, g, b) = colour else { return colour };
     let level = |v: u8| (0..6).min_by_key(|k| LEVELS[*k].abs_diff(v)).unwrap_or(0);
@@ -300,7 +299,7 @@ fn indexed(colour: Color) -> Color {
     }
 }
 
-/// The nearest of the 16 colours.
+/// Nearest of the 16 colours.
 fn basic(colour: Color) -> Color {
     let wanted = match colour {
         Color::Rgb(r, g, b) => [r, g, b],
@@ -314,7 +313,7 @@ fn basic(colour: Color) -> Color {
     SIXTEEN.iter().min_by_key(|(_, to)| distance(to)).map_or(colour, |(near, _)| *near)
 }
 
-/// The glyph of a status.
+/// Glyph of a status.
 #[must_use]
 pub fn glyph(status: Status) -> &'static str {
     match status {
@@ -327,7 +326,7 @@ pub fn glyph(status: Status) -> &'static str {
     }
 }
 
-/// The glyph of a fit: its class, `!` where undersized, `~` where borderline.
+/// Glyph of a fit: its class, then `!` if undersized or `~` if borderline.
 #[must_use]
 pub fn fit_glyph(fit: &FitCell) -> String {
     let class = match fit.class {

@@ -1,4 +1,4 @@
-//! Colours of one's own: `theme.toml` in the config folder gives roles other colours.
+//! The user's own colours: `theme.toml` in the config folder assigns colours to roles.
 //!
 //! ```toml
 //! good = "#00875f"
@@ -13,17 +13,17 @@ use toml::de::DeValue;
 use crate::config::{Entry, Problems};
 use crate::widgets::theme::{Role, Roles};
 
-/// Its name in the config folder.
+/// Name of the file in the config folder.
 pub const FILE: &str = "theme.toml";
 
-/// The line with the colours of seams and sizes.
+/// Name of the entry with the colours of seams and sizes.
 const SEAMS: &str = "seams";
 
 /// Colours that are accepted.
 const ACCEPTED: &str = "accepted: black, red, green, yellow, blue, magenta, cyan, gray, dark-gray, light-red to light-cyan, \
      white, 0 to 255, \"#rrggbb\", or \"reset\" for the terminal's own";
 
-/// The colours of some lines, all others as they are without a file.
+/// Colours from some entries; others stay at their defaults.
 pub fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Roles {
     let mut roles = Roles::default();
     for entry in entries {
@@ -45,14 +45,14 @@ pub fn taken(entries: &[Entry<'_>], problems: &mut Problems) -> Roles {
     roles
 }
 
-/// The colour of a value.
+/// Reads a colour from a value.
 fn colour(value: &DeValue<'_>) -> Result<Color, String> {
     let number = value.as_integer().map(|number| number.as_str());
     let Some(text) = value.as_str().or(number) else { return Err(format!("{}; {ACCEPTED}", value.type_str())) };
     text.parse().map_err(|_| format!("no colour `{text}`; {ACCEPTED}"))
 }
 
-/// The colours of a list.
+/// Reads a list of colours from a value.
 fn colours(value: &DeValue<'_>) -> Result<Vec<Color>, String> {
     match value.as_array() {
         Some(list) if !list.is_empty() => list.iter().map(|entry| colour(entry.get_ref())).collect(),
@@ -99,7 +99,7 @@ mod tests {
         check("good = ", "theme.toml:1: ");
     }
 
-    /// Relative luminance of a colour, 0 to 1, as WCAG 2 defines it.
+    /// Relative luminance of a colour, 0 to 1 [WCAG 2.2].
     fn luminance(colour: Color) -> f64 {
         let Color::Rgb(r, g, b) = colour else { panic!("{colour:?} depends on the terminal") };
         let linear = [r, g, b].map(|v| (f64::from(v) / 255.0 + 0.055) / 1.055).map(|v| v.powf(2.4));

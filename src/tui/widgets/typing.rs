@@ -10,7 +10,7 @@ pub fn is_ctrl_c(event: &KeyEvent) -> bool {
     event.code == KeyCode::Char('c') && event.modifiers.contains(KeyModifiers::CONTROL)
 }
 
-/// Goes through a list that a text narrows, or edits the text: then the first row is selected.
+/// Handles a key in a list that a text narrows: moves among the rows, or edits the text and selects the first row.
 pub fn in_list(text: &mut String, row: &mut usize, event: &KeyEvent) {
     match event.code {
         KeyCode::Up => *row = row.saturating_sub(1),
@@ -25,7 +25,7 @@ pub fn in_list(text: &mut String, row: &mut usize, event: &KeyEvent) {
     }
 }
 
-/// Edits a line at its end; returns true if it changed.
+/// Edits a line at its end. Returns true if the line changed.
 pub fn edit(text: &mut String, event: &KeyEvent) -> bool {
     let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
     match event.code {

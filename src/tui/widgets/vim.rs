@@ -1,9 +1,9 @@
-//! Vim's keys on a text: a normal mode with motions, operators on them, and one text that was cut or copied.
+//! Vim's keys: a normal mode with motions, operators on motions, and one text that was cut or copied.
 
 use crate::widgets::editor::{Editor, Mode};
 
 impl Editor {
-    /// Handles a letter in normal mode; returns true if it is one of vim's.
+    /// Handles a letter in normal mode. Returns false if it is no command.
     pub(super) fn command(&mut self, letter: char) -> bool {
         if let Some(operator) = self.pending.take() {
             self.operate(operator, letter);
@@ -28,13 +28,13 @@ impl Editor {
         true
     }
 
-    /// Goes back to normal mode.
+    /// Returns to normal mode.
     pub(super) fn end_insert(&mut self) {
         self.mode = Mode::Normal;
         self.cursor = self.before().max(self.line_start());
     }
 
-    /// The cursor of normal mode is on a letter, never behind the last of a line.
+    /// Moves the cursor back onto a letter: in normal mode it is never behind the last letter of a line.
     fn stay_on_letter(&mut self) {
         if self.cursor == self.line_end() {
             self.cursor = self.before().max(self.line_start());
@@ -61,7 +61,7 @@ impl Editor {
         }
     }
 
-    /// Byte that a motion leads to; `None` for a letter that is no motion.
+    /// Byte to which a motion leads; `None` for a letter that is no motion.
     fn target(&self, motion: char) -> Option<usize> {
         Some(match motion {
             'h' => self.before().max(self.line_start()),
@@ -77,13 +77,13 @@ impl Editor {
         })
     }
 
-    /// Cuts, changes or copies what a motion goes over, or, where the operator is typed twice, the line.
+    /// Cuts, changes or copies the text of a motion; an operator typed twice takes the whole line.
     fn operate(&mut self, operator: char, motion: char) {
         let is_line = motion == operator;
         let (from, to) = if is_line {
             (self.line_start(), self.line_end())
         } else {
-            // To change a word leaves the blank after it.
+            // Changing a word keeps the blank after it.
             let motion = if operator == 'c' && motion == 'w' { 'e' } else { motion };
             let Some(target) = self.target(motion) else { return };
             let target = if motion == 'e' { self.letter_after(target) } else { target };
@@ -95,7 +95,7 @@ impl Editor {
             return;
         }
         self.remember();
-        // A line that is cut takes the end of a line with it.
+        // Cutting a line takes one line feed with it.
         let (from, to) = match () {
             () if !is_line || operator == 'c' => (from, to),
             () if to < self.text().len() => (from, to + 1),
@@ -109,7 +109,7 @@ impl Editor {
         }
     }
 
-    /// Puts in what was cut or copied: lines below this one, else after the letter.
+    /// Pastes the text: whole lines below the present line, else after the letter.
     fn paste(&mut self) {
         self.remember();
         let text = self.killed.clone();
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use crate::widgets::editor::Editing;
 
-    /// The text after some keys, the cursor as `|`; `^` is Esc.
+    /// Text after some keys, with the cursor as `|`; `^` is Esc.
     fn after(text: &str, keys: &str) -> String {
         let mut editor = Editor::default();
         editor.edit_as(Editing::Vim);

@@ -13,25 +13,25 @@ use store::{Result, Store, Table, Value};
 /// A fabric of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FabricRow {
-    /// Its name, numbers and their source.
+    /// Name and numbers of the fabric, with their source.
     pub fabric: Fabric,
     /// Number of the revision.
     pub revision: i64,
-    /// True where a user or a study added or changed it; else it is of the library.
+    /// True where a user or a study added or changed the fabric; false for a built-in one.
     pub is_own: bool,
-    /// Number of jobs that use any of its revisions.
+    /// Number of jobs that use any revision of the fabric.
     pub jobs: i64,
 }
 
 impl FabricRow {
-    /// True if it stands for a class of cloths, not for one cloth.
+    /// True if the fabric stands for a class of cloths, not for one cloth.
     #[must_use]
     pub fn is_class(&self) -> bool {
         self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
     }
 
-    /// Kind of a fabric of the library, in words: one cloth, with the parts that are of another, or a class, with the
-    /// bending lengths of eight tenths of its cloths. `None` for any other fabric.
+    /// Kind of a built-in fabric, in words: one cloth, with the numbers that come from another cloth; or a class, with
+    /// the bending lengths of the middle eight tenths of its cloths. `None` for any other fabric.
     #[must_use]
     pub fn stands_for(&self) -> Option<String> {
         let known = self.fabric.known()?;
@@ -49,8 +49,8 @@ impl FabricRow {
         Some(format!("{}{told}", known.kind))
     }
 
-    /// Force per width, N/m, that stretches a strip by a share of its length, along the grain and across it. The strip
-    /// is free to become narrower.
+    /// Force per width, N/m, that stretches a strip by a share of its length: along the grain, and across it. The strip
+    /// may become narrower.
     #[must_use]
     pub fn tensions_n_m(&self, stretch: f64) -> [f64; 2] {
         let strain = stretch * (1.0 + 0.5 * stretch);
@@ -59,7 +59,7 @@ impl FabricRow {
     }
 }
 
-/// The current fabrics, by name, without the number of their jobs.
+/// Current fabrics, by name; their numbers of jobs are left at 0.
 pub(super) fn stored_fabrics(connection: &Connection) -> Result<Vec<FabricRow>> {
     let sql = format!(
         "SELECT name, revision, is_own, source, {} FROM fabric JOIN catalogue_entry AS entry USING (name, revision)
@@ -88,9 +88,8 @@ const BENDING: [&str; 8] = [
     "class_length_weft_mm",
 ];
 
-/// Adds columns to a table of fabrics that has those of `v_fabrics`. The first are the kind of a fabric of the library and
-/// its parts that are of another cloth. The others are its bending lengths, their ranks among the known cloths of its
-/// weight, and the ranges of its class.
+/// Adds columns to a table of fabrics with the columns of `v_fabrics`: kind, numbers from other cloths, bending
+/// lengths, their ranks among the known cloths of the same weight, and the ranges of the class.
 #[must_use]
 pub fn with_bending(mut table: Table) -> Table {
     let column_of = |key: &str| table.columns.iter().position(|column| column == key);
@@ -107,7 +106,7 @@ pub fn with_bending(mut table: Table) -> Table {
     table
 }
 
-/// A number of a table.
+/// Number in a cell of a table.
 fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Real(number) => Some(*number),
@@ -116,7 +115,7 @@ fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// The values of [`BENDING`].
+/// Values of the columns [`BENDING`].
 fn bending(fabric: &Fabric) -> [Value; 8] {
     let tenths = |length_m: f64| (mm(length_m) * 10.0).round() / 10.0;
     let known = fabric.known();
@@ -131,7 +130,7 @@ fn bending(fabric: &Fabric) -> [Value; 8] {
     [kind, text(borrowed), along, across, rank_along, rank_across, class_along, class_across]
 }
 
-/// Parts of a cloth in words.
+/// Numbers that come from another cloth, in words.
 fn parts(parts: &[sim::fabric::Part]) -> String {
     parts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

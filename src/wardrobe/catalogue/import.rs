@@ -1,4 +1,5 @@
-//! Import of entries from files: all of them, or none where one has a problem, unless the good ones are asked for.
+//! Import of entries from files: all entries or, where one has a problem, none, unless only the good ones are asked
+//! for.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -20,8 +21,7 @@ use store::{Problem, Result, Store, StudyError};
 pub enum Strictness {
     /// No entry is imported.
     AllOrNone,
-    /// Rows without a problem are imported, and the others reported. A table that cannot be read at all is still
-    /// refused.
+    /// Rows without a problem are imported, the others reported. A table that cannot be read at all is refused.
     GoodRows,
 }
 
@@ -34,9 +34,9 @@ pub struct Imported {
     pub left_out: Vec<Problem>,
 }
 
-/// Imports all entries of some files into the catalogue. They are study files, TOML with tables of a study file, and
-/// for subjects and fabrics CSV with the same keys. A scan becomes a subject with the name of its file. `strictness`
-/// decides on files with problems.
+/// Imports all entries of some files into the catalogue. A file is a study file, TOML with tables of a study file or,
+/// for subjects and fabrics, CSV with the same keys. A scan becomes a subject named after its file. `strictness`
+/// decides about files with problems.
 ///
 /// # Errors
 /// All problems of the files, each with its line.
@@ -74,7 +74,7 @@ pub fn import(store: &mut Store, part: Part, files: &[PathBuf], strictness: Stri
     }
 }
 
-/// Imports the entries that `read` finds in files; a file that cannot be read at all is refused.
+/// Imports the entries that `read` finds in files. A file that cannot be read at all is refused.
 fn import_entries<T: Stored>(
     store: &mut Store,
     files: &[PathBuf],
@@ -117,7 +117,7 @@ fn import_entries<T: Stored>(
     Ok(Imported { saved, left_out: wrong })
 }
 
-/// Entries of a file without problems.
+/// Entries of a file in which none has a problem.
 fn all_good<T>(entries: Vec<Placed<T>>) -> std::result::Result<Read<T>, Vec<Problem>> {
     Ok(Read { entries, problems: Vec::new() })
 }
@@ -140,7 +140,7 @@ fn scanned(path: &Path, bytes: &[u8]) -> std::result::Result<Placed<ScannedPerso
     Ok(Placed { file: path.to_owned(), line: 1, name: name(path.file_stem()), entry })
 }
 
-/// Verifies entries on all cores, since a body takes long to build.
+/// Verifies entries on all cores, since building a body takes long.
 fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<String>, String>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = entries.len().div_ceil(threads).max(1);

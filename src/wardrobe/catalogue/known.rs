@@ -23,22 +23,22 @@ const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
 /// A subject of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubjectRow {
-    /// Number of the revision in the database. Its measurements never change.
+    /// Number of the revision's row in the database. The measurements of a revision never change.
     pub id: SubjectId,
     /// Name in studies, the same in all revisions.
     pub name: String,
-    /// Number of the revision.
+    /// Number of the revision, from 1.
     pub revision: i64,
-    /// Known measurements of the body; of a scan, those that are taken on it.
+    /// Measurements of the body; for a scan, those taken on the scan.
     pub measurements: Measurements,
-    /// File of the scan that is the body, where there is one.
+    /// Name of the scan's file; `None` where the body is built from measurements.
     pub scan: Option<String>,
-    /// Pose, where it differs from the one that the body is built or scanned in.
+    /// Pose; `None` for the pose in which the body is built or scanned.
     pub pose: Option<Pose>,
 }
 
-/// Adds the subjects of the thesis and the fabric library to the catalogue, where they are missing. A database that has
-/// those of this program is only read, so that queries need not wait for other processes that write.
+/// Adds the subjects of the thesis and the built-in fabrics to the catalogue, where they are missing. Does not write to
+/// a database that has them, so that queries need not wait for other processes that write.
 pub fn add_builtin(connection: &mut Connection) -> Result<()> {
     let mut content = blake3::Hasher::new();
     content.update(THESIS_SUBJECTS.as_bytes());
@@ -60,7 +60,7 @@ pub fn add_builtin(connection: &mut Connection) -> Result<()> {
     Ok(transaction.commit()?)
 }
 
-/// Entries that study files may name: the current ones of a database, or the built-in ones without a database.
+/// Entries that study files may name: the current ones of a database; without a database the built-in ones.
 pub fn known(connection: Option<&Connection>) -> Result<Known> {
     let Some(connection) = connection else {
         return Ok(Known {
@@ -84,7 +84,7 @@ pub fn known(connection: Option<&Connection>) -> Result<Known> {
     })
 }
 
-/// Entries that were removed and stay stored, such as `subject male-ii`.
+/// Entries that were removed but stay stored, such as `subject male-ii`.
 fn hidden(connection: &Connection) -> Result<BTreeSet<String>> {
     let sql = "SELECT part || ' ' || name FROM catalogue_entry WHERE is_retired";
     Ok(connection.prepare_cached(sql)?.query_map([], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?)
@@ -156,7 +156,7 @@ fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
     Ok(rows)
 }
 
-/// Query of the columns that [`subject_row`] reads.
+/// Query with the columns that [`subject_row`] reads.
 fn select_subject() -> String {
     let scan = "(SELECT file FROM scan WHERE scan.subject_id = subject.subject_id)";
     format!("SELECT subject_id, name, revision, sex, {scan}, pose, {} FROM subject", columns(&MEASUREMENTS))
@@ -172,7 +172,7 @@ fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     Ok(SubjectRow { id, name, revision, measurements, scan, pose })
 }
 
-/// The scan of a revision of a subject, where it has one.
+/// Scan of a subject's revision; `None` where the body is built from measurements.
 fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile>> {
     let sql = "SELECT file, unit, mesh FROM scan WHERE subject_id = ?";
     let row = |row: &Row<'_>| {
@@ -184,10 +184,10 @@ fn stored_scan(connection: &Connection, id: SubjectId) -> Result<Option<ScanFile
     Ok(connection.prepare_cached(sql)?.query_row([id.0], row).optional()?)
 }
 
-/// The person of a revision of a subject.
+/// Person of a subject's revision.
 ///
 /// # Errors
-/// When there is none of that number.
+/// When no revision has the number.
 pub fn person(store: &Store, id: SubjectId) -> Result<Person> {
     let SubjectRow { measurements, pose, .. } = subject_revision(store, id)?;
     Ok(Person { measurements, scan: stored_scan(&store.reader, id)?, pose })
@@ -204,7 +204,7 @@ pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     Ok(entries.into_iter().map(|placed| (placed.name, placed.entry)).collect())
 }
 
-/// The error of an entry that is asked for: it is hidden, or there is none of the name.
+/// Error for an entry that is not there: it is hidden, or nothing has the name.
 pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result<StudyError> {
     if hidden(connection)?.contains(&format!("{part} {name}")) {
         return Ok(StudyError::Hidden { what: part.as_str(), name: name.to_owned() });
@@ -215,10 +215,10 @@ pub(super) fn missing(connection: &Connection, part: Part, name: &str) -> Result
     Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
 }
 
-/// Removes an entry. Where jobs use it or it is built in, it is only hidden. A style is removed with its sizes.
+/// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
-/// When there is none of that name, or the database is open read-only.
+/// When no entry has the name, or the database is open read-only.
 pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
     if revision::current(transaction, part, name)?.is_none_or(|current| current.is_retired) {
         return Err(missing(transaction, part, name)?);
@@ -248,7 +248,7 @@ pub fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<R
     Ok(Removed { part, name: name.to_owned(), jobs, is_hidden })
 }
 
-/// Names of the sizes of a style that were not removed.
+/// Names of a style's sizes that were not removed.
 fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
     let sql = "SELECT DISTINCT style || '/' || size FROM v_sizes WHERE style = ? AND NOT is_retired";
     let mut statement = transaction.prepare_cached(sql)?;
@@ -264,10 +264,10 @@ pub fn subjects(store: &Store) -> Result<Vec<SubjectRow>> {
     stored_subjects(&store.reader)
 }
 
-/// A revision of a subject, current or not.
+/// A subject's revision, current or not.
 ///
 /// # Errors
-/// When there is none of that number.
+/// When no revision has the number.
 pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
     let sql = format!("{} WHERE subject_id = ?", select_subject());
     let found = store.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
@@ -282,7 +282,7 @@ pub fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
 /// Returns the current revision of a subject of the catalogue.
 ///
 /// # Errors
-/// When there is none of that name.
+/// When no subject has the name.
 pub fn subject(store: &Store, name: &str) -> Result<Person> {
     match known(Some(&store.reader))?.subjects.remove(name) {
         Some(person) => Ok(person),

@@ -1,6 +1,6 @@
 //! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, or makes an earlier one
-//! of the same content current. Revisions never change, since results refer to them. An entry that results use is only
-//! hidden when it is removed.
+//! with the same content current. Revisions never change, since results refer to them. Removing an entry that results
+//! use only hides it.
 
 mod fabrics;
 mod format;
@@ -38,7 +38,7 @@ pub use percentiles::{doubts, is_doubtful, percentile, percentile_text};
 pub use sizes::{SizeRow, sizes, style_of, workpiece};
 pub use style::{StyleGiven, save_seams, save_size, save_style};
 
-/// Opens a database with a catalogue; without `readonly` it is created where there is none, brought up to date, and has
+/// Opens a database with a catalogue. Without `readonly` it is created where it is missing, and brought up to date with
 /// the built-in fabrics and subjects.
 ///
 /// # Errors
@@ -83,14 +83,14 @@ impl fmt::Display for Part {
     }
 }
 
-/// Way of saving an entry: whether one of its name must be there.
+/// Condition for saving an entry: its name is free, taken, or either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// There must be none of the name.
+    /// The name must be free.
     Add,
-    /// There must be one of the name.
+    /// The name must be taken.
     Edit,
-    /// There may be one of the name.
+    /// The name may be free or taken.
     Import,
 }
 
@@ -103,7 +103,7 @@ pub struct Saved {
     pub name: String,
     /// Number of the revision that is now current.
     pub revision: i64,
-    /// Change of the catalogue.
+    /// Change made to the catalogue.
     pub deed: Deed,
     /// Values that are possible but rare.
     pub doubts: Vec<String>,
@@ -116,7 +116,7 @@ pub struct Saved {
 pub enum Deed {
     /// The entry is new, or was removed before.
     Added,
-    /// It has a new revision.
+    /// The entry has a new revision.
     Revised,
     /// An earlier revision has the same content and is current again.
     Restored,
@@ -143,7 +143,7 @@ pub struct Removed {
     pub part: Part,
     /// Name of the entry.
     pub name: String,
-    /// Jobs that use it. It is hidden, and stays stored, where there are any or where it is built in.
+    /// Number of jobs that use the entry.
     pub jobs: i64,
     /// True where the entry is hidden and stays stored.
     pub is_hidden: bool,
@@ -164,18 +164,17 @@ impl fmt::Display for Removed {
 trait Stored: Sync {
     const PART: Part;
 
-    /// Checks that the entry is possible; returns doubts about rare values.
+    /// Checks that the entry is possible. Returns doubts about rare values.
     fn verify(&self) -> std::result::Result<Vec<String>, String>;
 
-    /// Stores it as the current revision of its name.
+    /// Stores the entry as the current revision of its name.
     fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
 }
 
 impl Stored for Person {
     const PART: Part = Part::Subject;
 
-    /// Makes the body, since only that shows whether a person can have the measurements, and whether a scan can wear
-    /// garments.
+    /// Builds the body: only that shows if a person can have the measurements, and if a scan can wear garments.
     fn verify(&self) -> std::result::Result<Vec<String>, String> {
         self.body().map_err(|error| error.to_string())?;
         Ok(doubts(&self.measurements))
@@ -203,7 +202,7 @@ impl Stored for Fabric {
     }
 }
 
-/// The error of an entry that cannot be saved.
+/// Error for an entry that cannot be saved.
 fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
     StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems }
 }
@@ -246,16 +245,16 @@ fn save(
 /// A scan that becomes a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScanGiven {
-    /// OBJ, PLY, STL or GLB.
+    /// Mesh file: OBJ, PLY, STL or GLB.
     pub file: PathBuf,
-    /// Unit of the file; inferred from its height where it is not given.
+    /// Unit of the file; `None` to infer it from the height.
     pub unit: Option<LengthUnit>,
-    /// Sex; inferred from the shape where it is not given.
+    /// Sex; `None` to infer it from the shape.
     pub sex: Option<Sex>,
 }
 
-/// Saves a subject: given values in place of those that it has, or of none. The body is built to check that it is
-/// possible.
+/// Saves a subject. Given values replace those that it has; a new subject has no others. The body is built, to check
+/// that it is possible.
 ///
 /// # Errors
 /// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), the subject is a scan, or the
@@ -273,7 +272,7 @@ pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) 
     save_entry(store, mode, name, &Person::from(measurements))
 }
 
-/// Saves a subject whose body is a scan, with the measurements that are taken on it.
+/// Saves a subject whose body is a scan, with the measurements taken on the scan.
 ///
 /// # Errors
 /// When the scan cannot be read or wear garments, the name is taken (`Add`) or unknown (`Edit`), or the database is
@@ -285,7 +284,7 @@ pub fn save_scan(store: &mut Store, mode: Mode, name: &str, given: &ScanGiven) -
     Ok(Saved { notes, ..save_entry(store, mode, name, &person)? })
 }
 
-/// Saves a fabric: given values in place of those that it has, of those of the fabric `like`, or of none.
+/// Saves a fabric. Given values replace those that it has, or else those of the fabric `like`.
 ///
 /// # Errors
 /// As [`save_subject`].
@@ -298,10 +297,10 @@ pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>
     save_entry(store, mode, name, &entry_of(Part::Fabric, name, base.as_ref(), given)?)
 }
 
-/// Returns the current revision of a fabric of the catalogue; of the usual one where none is named.
+/// Current revision of a fabric of the catalogue; of the default fabric where none is named.
 ///
 /// # Errors
-/// When there is none of that name.
+/// When no fabric has the name.
 pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
     let name = name.unwrap_or(USUAL);
     match known(Some(&store.reader))?.fabrics.remove(name) {
@@ -310,7 +309,7 @@ pub fn cloth(store: &Store, name: Option<&str>) -> Result<Fabric> {
     }
 }
 
-/// Returns an entry of given values in place of those of `base`.
+/// Returns an entry in which given values replace those of `base`.
 fn entry_of<T: Entry>(part: Part, name: &str, base: Option<&T>, given: &[Given]) -> Result<T> {
     let texts = |problems: Vec<Given>| problems.into_iter().map(|(_, problem)| problem).collect();
     filled(base, name, given).map_err(|problems| refused(part, name, texts(problems)))
@@ -326,10 +325,10 @@ fn save_entry<T: Stored>(store: &mut Store, mode: Mode, name: &str, entry: &T) -
     Ok(Saved { doubts, ..saved })
 }
 
-/// Removes an entry. Where jobs use it or it is built in, it is only hidden. A style is removed with its sizes.
+/// Removes an entry. A built-in entry, and one that jobs use, is only hidden. A style is removed with its sizes.
 ///
 /// # Errors
-/// When there is none of that name, or the database is open read-only.
+/// When no entry has the name, or the database is open read-only.
 pub fn remove(store: &mut Store, part: Part, name: &str) -> Result<Removed> {
     let transaction = store::write(store.writer()?)?;
     let removed = known::remove(&transaction, part, name)?;

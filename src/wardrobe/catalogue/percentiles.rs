@@ -2,11 +2,11 @@
 
 use body::{self, Dimension, Measurements, Sex};
 
-/// Least and greatest percentile that is not doubted.
+/// Percentiles between which a measurement is not doubted.
 const ORDINARY: (f64, f64) = (1.0, 99.0);
 
-/// Percentile of a value, in the unit of its key, among adults of a sex [Gordon 2014], 0 to 100; `None` for a key that
-/// is no measurement of a subject.
+/// Percentile, 0 to 100, of a value among adults of a sex [Gordon 2014]. The value is in the unit of its key; `None`
+/// for a key that is no measurement of a subject.
 #[must_use]
 pub fn percentile(sex: Sex, key: &str, value: f64) -> Option<f64> {
     let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.key() == key)?;

@@ -1,4 +1,4 @@
-//! Revisions of entries: found by their content, added where it is new, and made current.
+//! Revisions of entries: found by their content, added where that is new, and made current.
 
 use rusqlite::{OptionalExtension, ToSql, Transaction, named_params, params};
 
@@ -14,28 +14,29 @@ use store::{Result, now_ms};
 /// Origin of a revision, which decides whether it becomes current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// The program, with a built-in entry: it becomes current where no user or study has changed the entry.
+    /// The program, for a built-in entry. The revision becomes current if it is new, unless a user or study has changed
+    /// the entry or somebody has removed it.
     Program,
-    /// A study that is run: it becomes current where its content is new.
+    /// A study that is run. The revision becomes current if it is new.
     Study,
-    /// A user: it becomes current.
+    /// A user. The revision becomes current.
     User,
 }
 
 /// A revision of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Revision {
-    /// Row of the entry's table.
+    /// Number of the row in the table of the entry's part.
     pub id: i64,
-    /// Number, from 1.
+    /// Number of the revision, from 1.
     pub number: i64,
-    /// True where it was added now.
+    /// True where the revision was added just now.
     pub is_new: bool,
 }
 
 /// The current revision of an entry.
 pub(super) struct Current {
-    /// Its number.
+    /// Number of the revision.
     pub number: i64,
     /// True where the entry was removed.
     pub is_retired: bool,
@@ -48,7 +49,7 @@ pub(super) fn current(transaction: &Transaction<'_>, part: Part, name: &str) -> 
     Ok(transaction.prepare_cached(sql)?.query_row([part.as_str(), name], row).optional()?)
 }
 
-/// Makes a revision the current one, where its origin allows it.
+/// Makes a revision current, if its origin allows that.
 fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision: Revision, by: By) -> Result<()> {
     transaction
         .prepare_cached(
@@ -64,19 +65,19 @@ fn make_current(transaction: &Transaction<'_>, part: Part, name: &str, revision:
     Ok(())
 }
 
-/// The revision that a query with the columns id and number finds.
+/// Revision that a query finds; its columns are id and number.
 fn found(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Option<Revision>> {
     let row = |row: &rusqlite::Row<'_>| Ok(Revision { id: row.get(0)?, number: row.get(1)?, is_new: false });
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row).optional()?)
 }
 
-/// The revision that a statement adds, which returns its id and number.
+/// Revision that a statement adds; it returns id and number.
 fn added(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Revision> {
     let row = |row: &rusqlite::Row<'_>| Ok(Revision { id: row.get(0)?, number: row.get(1)?, is_new: true });
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, row)?)
 }
 
-/// The revision of a subject with this body, added where it is new.
+/// Revision of a subject with this body, added where the body is new.
 pub fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: By) -> Result<Revision> {
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, person);
@@ -103,7 +104,7 @@ pub fn subject(transaction: &Transaction<'_>, name: &str, person: &Person, by: B
     Ok(revision)
 }
 
-/// The revision of a fabric with these numbers, added where it is new.
+/// Revision of a fabric with these numbers, added where they are new.
 pub fn fabric(transaction: &Transaction<'_>, cloth: &Fabric, by: By) -> Result<Revision> {
     let mut inputs = Inputs::default();
     fabric_inputs(&mut inputs, cloth);
@@ -121,7 +122,7 @@ pub fn fabric(transaction: &Transaction<'_>, cloth: &Fabric, by: By) -> Result<R
     Ok(revision)
 }
 
-/// Adds a revision of a subject or a fabric. Its text and its numbers have the names of their columns.
+/// Adds a revision of a subject or a fabric. Texts and numbers come with the names of their columns.
 fn insert(
     transaction: &Transaction<'_>,
     table: &str,
@@ -144,7 +145,7 @@ fn insert(
     added(transaction, &sql, &parameters)
 }
 
-/// The revision of a style with this seam file, added where it is new. Without a seam file its name and text are empty.
+/// Revision of a style with this seam file, added where it is new. Without a seam file its name and text are empty.
 pub fn style(transaction: &Transaction<'_>, name: &str, seams: Option<&SourceFile>, by: By) -> Result<Revision> {
     let none = SourceFile { name: String::new(), bytes: [].into() };
     let seams = seams.unwrap_or(&none);
@@ -164,7 +165,7 @@ pub fn style(transaction: &Transaction<'_>, name: &str, seams: Option<&SourceFil
     Ok(revision)
 }
 
-/// The revision of a size with this pattern, added where it is new.
+/// Revision of a size with this pattern, added where it is new.
 pub fn size(
     transaction: &Transaction<'_>,
     (style, name): (&str, &str),

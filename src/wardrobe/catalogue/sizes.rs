@@ -1,4 +1,4 @@
-//! Sizes of the styles of the catalogue: as lists show them, and as pieces of work on their seams.
+//! Sizes of the styles of the catalogue, for lists and for work on their seams.
 
 use rusqlite::{OptionalExtension, Row};
 
@@ -13,15 +13,15 @@ use store::{JobId, Result, SizeKey, Store, StudyError};
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SizeRow {
-    /// Numbers of the two revisions.
+    /// Numbers of the revisions of style and size.
     pub key: SizeKey,
     /// Name of the style.
     pub style: String,
-    /// Revision of the style.
+    /// Number of the style's revision.
     pub style_revision: i64,
     /// Name of the size within the style.
     pub size: String,
-    /// Revision of the size.
+    /// Number of the size's revision.
     pub revision: i64,
     /// Name of the pattern file.
     pub pattern_file: String,
@@ -29,7 +29,7 @@ pub struct SizeRow {
     pub seam_file: Option<String>,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<String>,
-    /// Proposed seams of the style that nobody has confirmed yet.
+    /// Number of the style's proposed seams that nobody has confirmed.
     pub unconfirmed: usize,
 }
 
@@ -66,7 +66,7 @@ pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
     Ok(sizes)
 }
 
-/// The pattern and the seam file of a size.
+/// Pattern and seam file of a size, for work on its seams.
 ///
 /// # Errors
 /// When there are no such revisions.

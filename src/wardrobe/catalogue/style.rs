@@ -1,4 +1,4 @@
-//! Saving and importing styles: a seam file, and for each size a pattern that can be sewn by it.
+//! Saving and importing styles: a seam file, and for each size a pattern that the seam file sews.
 
 use std::path::PathBuf;
 
@@ -14,38 +14,38 @@ use spec::patterns::{self, Nest, SizePieces};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Problem, Result, Store, StudyError};
 
-/// Given parts of a style or a size; an edit keeps the others.
+/// Parts of a style or a size that are given; an edit keeps the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StyleGiven {
     /// Seam file of the style.
     pub seams: Option<PathBuf>,
-    /// True where seams are proposed for a new style that has neither a seam file nor patterns that hold seams.
+    /// True to propose seams for a new style that has neither a seam file nor patterns with seams.
     pub is_proposed: bool,
     /// Unit of the patterns, where their files name none: `mm`, `cm`, `in` or `m`.
     pub unit: Option<String>,
-    /// Patterns, each with the name of its size; without a name all sizes of the file are taken.
+    /// Patterns with the names of their sizes; without a name, all sizes of the file.
     pub patterns: Vec<(Option<String>, PathBuf)>,
 }
 
-/// Name of the size of a pattern that names none.
+/// Name of the size of a pattern that names no size.
 const UNNAMED: &str = "ONE";
 
-/// Seams that a style is saved with.
+/// Seams to save with a style.
 enum Seams {
-    /// Those that the style has.
+    /// The seams that the style has.
     Kept,
-    /// Those of a file, or those of the patterns themselves.
+    /// The seams of a file; `None` for those that the patterns hold.
     Given(Option<SourceFile>),
 }
 
-/// A style as it is to be stored: its seams and sizes.
+/// A style to be stored.
 struct Draft {
     name: String,
     seams: Seams,
     sizes: Vec<KnownSize>,
 }
 
-/// Saves a style: its seam file and its sizes. Every size, given now or earlier, must fit the seams.
+/// Saves a style: its seam file and its sizes. The seams must fit every size, given now or earlier.
 ///
 /// # Errors
 /// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the database is open
@@ -67,8 +67,8 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
     store_style(store, mode, Draft { name: name.to_owned(), seams, sizes })
 }
 
-/// Proposes the seam file of all sizes of a style. It is made on the sample size of a pattern that holds several sizes,
-/// the last one where there are several such patterns, or else on the middle size.
+/// Proposes one seam file for all sizes of a style. It is made on the sample size of the last pattern with several
+/// sizes; without such a pattern, on the middle size.
 fn proposed(style: &str, sizes: &[KnownSize]) -> Result<SourceFile> {
     let unit_of = |unit: &Option<String>| unit.as_deref().and_then(patterns::unit_of);
     let mut made_on = &sizes[sizes.len() / 2];
@@ -87,7 +87,7 @@ fn proposed(style: &str, sizes: &[KnownSize]) -> Result<SourceFile> {
     Workpiece { pattern, seams: None, size: size.name.clone(), unit: unit_of(unit) }.proposed_for(style, drawn)
 }
 
-/// Saves other seams of a style of the catalogue. Every size must fit them.
+/// Replaces the seams of a style of the catalogue. The new ones must fit every size.
 ///
 /// # Errors
 /// As [`save_style`].
@@ -139,8 +139,8 @@ pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) 
     saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
 }
 
-/// Imports the garments of study files, or of files with garments only, into the catalogue; for [`Part::Size`] only
-/// their sizes.
+/// Imports garments of study files, or of files with nothing but garments, into the catalogue. With [`Part::Size`]
+/// imports only their sizes.
 pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
     let mut drafts: Vec<Placed<Draft>> = Vec::new();
     let mut problems = Vec::new();
@@ -178,7 +178,7 @@ pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) ->
     Ok(saved)
 }
 
-/// The sizes that are given of a style, with their units; all sizes of the style, where only the unit is given.
+/// Sizes given for a style, with their units; all sizes of the style where only the unit is given.
 fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<KnownSize>> {
     let unit = given.unit.clone();
     if given.patterns.is_empty() {
@@ -205,8 +205,8 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Kno
     Ok(sizes)
 }
 
-/// Problems of sizes that do not fit the seams of a draft: its own sizes, and with new seams also those of the
-/// catalogue.
+/// Problems of sizes that the seams of a draft do not fit: the draft's own sizes and, with new seams, the style's other
+/// sizes.
 fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     let (seams, is_new) = match (&draft.seams, seams_of(store, &draft.name)?) {
         (Seams::Given(seams), _) => (seams.clone(), true),
@@ -228,7 +228,7 @@ fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
     Ok(sizes.iter().filter_map(problem).collect())
 }
 
-/// The seam file of the current revision of a style, where it has one; `None` where there is no such style.
+/// Seam file of the current revision of a style. The outer `None` means no such style; the inner, patterns with seams.
 fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
     let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
         WHERE part = 'style' AND name = ? AND NOT is_retired";
@@ -255,7 +255,7 @@ fn sizes_of(store: &Store, style: &str) -> Result<Vec<KnownSize>> {
     Ok(sizes)
 }
 
-/// Rows of the current sizes with their current styles, by style.
+/// Rows of current sizes with their current styles, by style.
 pub(super) const CURRENT_SIZES: &str = "FROM size
     JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
         AND sized.revision = size.revision AND NOT sized.is_retired
@@ -264,12 +264,12 @@ pub(super) const CURRENT_SIZES: &str = "FROM size
         AND styled.revision = style.revision AND NOT styled.is_retired
     ORDER BY style.name, size_id";
 
-/// A seam file from its columns; the name is empty for a style without one.
+/// Seam file from its two columns; the name is empty for a style without one.
 pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
     (!name.is_empty()).then(|| SourceFile { name, bytes: text.into_bytes().into() })
 }
 
-/// A garment of a file as it is to be stored.
+/// Draft of a style from a garment of a file.
 fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
     let Sewn { seams, unit, sizes } = sewn;
     let seams = if part == Part::Style { Seams::Given(seams) } else { Seams::Kept };
@@ -283,7 +283,7 @@ fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
     Ok(file.sizes().into_iter().map(str::to_owned).collect())
 }
 
-/// Stores a draft: its seams, where they are given, by one mode, and its sizes by another.
+/// Stores a draft. The first mode is for the style with its seams, the second for its sizes.
 fn store_draft(transaction: &Transaction<'_>, [mode, of_sizes]: [Mode; 2], draft: &Draft) -> Result<Vec<Saved>> {
     let mut saved = Vec::new();
     if let Seams::Given(seams) = &draft.seams {

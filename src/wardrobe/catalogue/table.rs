@@ -1,4 +1,4 @@
-//! Entries of the catalogue from a CSV table, with a column for each key and a row for each entry.
+//! Entries of the catalogue from a CSV table: a column for each key, a row for each entry.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -12,26 +12,26 @@ use spec::entry::{Entry, filled, keys};
 use spec::file::Placed;
 use store::{Problem, nearest};
 
-/// Entries of a file.
+/// Entries read from a file.
 pub(super) struct Read<T> {
     /// Entries without a problem.
     pub entries: Vec<Placed<T>>,
-    /// Problems of the others.
+    /// Problems of the other rows.
     pub problems: Vec<Problem>,
 }
 
-/// Columns that hold the name of an entry, besides that of its part (`subject`).
+/// Headings of a column with names of entries, besides the name of the part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
-/// Columns that views have besides the values of an entry.
+/// Columns of views that are not values of an entry.
 const IGNORED: [&str; 6] = ["revision", "hash", "is_latest", "is_retired", "scan", "pose"];
-/// Those of them that change the body of a subject, so that a table with them cannot be imported.
+/// Ignored columns that change a subject's body: a value in one prevents the import, for this reason.
 const BODIES: [(&str, &str); 2] =
     [("scan", "the scan's own file is imported"), ("pose", "a study says the poses of its subjects")];
 
 /// Reads a table. Empty cells are no values.
 ///
 /// # Errors
-/// When it is no table, or a heading is wrong.
+/// When the file is no table, or a heading is wrong.
 pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Read<T>, Vec<Problem>> {
     let mut rows = table::rows(text_of(path, bytes)?).into_iter();
     let head = rows.next().unwrap_or(Row { line: 1, cells: vec![] });
@@ -55,13 +55,13 @@ pub(super) fn read<T: Entry>(path: &Path, part: Part, bytes: &[u8]) -> Result<Re
     Ok(Read { entries, problems })
 }
 
-/// A column: the key that its heading stands for, and the factor that converts its numbers to the unit of the key.
+/// A column: the key of its heading, and the factor that converts its numbers to the unit of the key.
 struct Column {
     key: String,
     factor: f64,
 }
 
-/// Units of headings: their names, the unit of keys that they are converted to, and the factor.
+/// Units in headings: their names, the unit of keys to which they are converted, and the factor.
 const UNITS: [(&str, &str, f64); 9] = [
     ("mm", "mm", 1.0),
     ("cm", "mm", 10.0),
@@ -96,7 +96,7 @@ impl Column {
         found.unwrap_or_else(|| unconverted(heading))
     }
 
-    /// A cell in the unit of the key; a text that is no number stays as it is.
+    /// Value of a cell, in the unit of the key; a text that is no number stays as it is.
     fn value(&self, cell: &str) -> String {
         match cell.parse::<f64>() {
             Ok(number) if self.factor != 1.0 => significant(number * self.factor, 9),

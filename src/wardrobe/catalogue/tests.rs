@@ -137,7 +137,7 @@ fn tables_are_imported_wholly_or_not_at_all() {
     let again = bench.import(Part::Subject, "people.csv", &good.replace("1650", "1660")).expect("good");
     assert_eq!(again.iter().map(|(_, deed)| *deed).collect::<Vec<_>>(), [Deed::Revised, Deed::Unchanged]);
 
-    // Headings may be in words, and in other units.
+    // Headings may be in words and in other units.
     let inches = "Name,Sex,Stature (cm),Chest Girth [in],weight_lb\ndora,f,165.5,36,132\n";
     bench.import(Part::Subject, "people.csv", inches).expect("good");
     let read = |key: &str| bench.one(&format!("SELECT {key} FROM subject WHERE name = 'dora'"));
@@ -188,7 +188,7 @@ fn what_follows_from_the_numbers_of_a_fabric_is_told_beside_them() {
     check(&bench, "cotton_broad", "one cloth; membrane, shear; 21.2; 21.2; p81; >p90; ; ");
     check(&bench, "interlock_tshirt", "one cloth; ; 14.7; 12.5; p21; p17; ; ");
     check(&bench, "thesis_10", "model; ; 1.7; 1.7; <p10; <p10; ; ");
-    // One that somebody changed is theirs, whatever its name.
+    // An entry that somebody has changed counts as theirs, even under a built-in name.
     let given = [("bending_warp_nm".to_owned(), "1e-4".to_owned())];
     save_fabric(&mut bench.store, Mode::Edit, "denim_raw", None, &given).expect("possible");
     check(&bench, "denim_raw", "; ; 29.4; 21.2; p88; p75; ; ");
@@ -289,7 +289,7 @@ fn good_rows_are_taken_where_they_are_asked_for_and_the_others_told() {
     let Imported { saved, left_out } = taken(Strictness::GoodRows).expect("a good row");
     assert_eq!(saved.iter().map(|saved| saved.name.as_str()).collect::<Vec<_>>(), ["anna"]);
     assert_eq!(left_out.iter().map(|problem| problem.line).collect::<Vec<_>>(), [Some(3), Some(4)]);
-    // Where none is good, and where the heading is not, nothing can be taken.
+    // Nothing is imported if no row is good, or if the heading is not.
     let path = bench.write("bad.csv", "name,sex,stature_mm\ndan,x,1800\n");
     assert!(import(&mut bench.store, Part::Subject, &[path], Strictness::GoodRows).is_err());
     let path = bench.write("odd.csv", "name,sex,hight\nanna,f,1650\n");
@@ -328,7 +328,7 @@ fn a_scan_is_a_subject_that_is_the_mesh_itself() {
     let table = "name,sex,stature_mm,scan\nbo,m,1750,bo.obj\n";
     let told = bench.import(Part::Subject, "people.csv", table).expect_err("its scan would be lost");
     assert!(told.contains("its `scan` is in no table"), "{told}");
-    // A study may name it, and exports it with its mesh.
+    // A study may name the subject; its export holds the mesh.
     let text = "[[subject]]\nid = \"x\"\nlike = \"bo\"\n";
     let done = bench.import(Part::Subject, "study.toml", text).expect("good");
     assert_eq!(done[0].1, Deed::Added);

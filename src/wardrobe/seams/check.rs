@@ -1,4 +1,4 @@
-//! Checks of the seams of patterns.
+//! Checks of the seams of patterns, without a simulation.
 
 use std::path::Path;
 
@@ -30,15 +30,15 @@ pub struct SizeCheck {
     pub seams: usize,
     /// Number of measurements.
     pub measurements: usize,
-    /// Girths for the fit by body level, mm.
+    /// Pattern girths that decide the fit, by level of the body, mm.
     pub fit_mm: Vec<(String, f64)>,
     /// Vertices of the mesh at [`CHECK_EDGE_MM`].
     pub vertices: usize,
-    /// Least angle of its triangles, degrees.
+    /// Least angle of the mesh's triangles, degrees.
     pub min_angle_deg: f64,
-    /// Findings for a person to look at.
+    /// Findings that a person should look at.
     pub findings: Vec<Finding>,
-    /// Reason why it cannot be sewn or meshed.
+    /// Reason why the size cannot be sewn or meshed.
     pub error: Option<String>,
 }
 
@@ -50,11 +50,11 @@ impl SizeCheck {
     }
 }
 
-/// Checks every size of every garment of a study, by the path of its file or its folder. Subjects and fabrics that the
-/// file names are looked up in `database`, if it exists.
+/// Checks every size of every garment of a study, by the path of its file or folder. Subjects and fabrics that the file
+/// names come from `database`, if that exists.
 ///
 /// # Errors
-/// Problems of the study file itself; the problem of a pattern is in its row.
+/// Problems of the study file itself; a problem of a pattern is in the row of its size.
 pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
     let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
@@ -69,7 +69,7 @@ pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
 /// Checks every size of a pattern with its seam file.
 ///
 /// # Errors
-/// When a file cannot be read; the problem of a size is in its row.
+/// When a file cannot be read; a problem of a size is in its row.
 pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> Result<Vec<SizeCheck>> {
     let source = SourceFile::read_pattern(pattern)?;
     let seams = seams.map(SourceFile::read).transpose()?;
@@ -90,7 +90,7 @@ struct Sewn {
     unit: Option<Unit>,
 }
 
-/// A size that can be sewn, with the index of its row.
+/// A size that can be sewn, with the index of its row in the result.
 struct ReadSize<'a> {
     row: usize,
     name: &'a str,
@@ -98,7 +98,7 @@ struct ReadSize<'a> {
 }
 
 impl Sewn {
-    /// A row for each size, with findings on lengths that leap from one size to the next.
+    /// Checks sizes, a row for each. Findings include lengths that leap from one size to the next.
     fn check(&self, sizes: &[SizeFile]) -> Vec<SizeCheck> {
         let (mut rows, mut read) = (Vec::new(), Vec::new());
         for (index, size) in sizes.iter().enumerate() {

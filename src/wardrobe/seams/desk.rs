@@ -1,5 +1,5 @@
-//! The desk: pieces as they lie in the arrangement, with their numbered edges and their seams, as pictures and edits of
-//! a seam file need them. Also the proposal of seams, and the confidences that a seam file keeps of it.
+//! The desk: pieces laid out flat around the wearer's head, with numbered edges and seams, as pictures and edits of a
+//! seam file need them. Also the proposal of seams, and its confidences in a seam file.
 
 use std::path::Path;
 
@@ -16,31 +16,31 @@ use spec::patterns::{Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Result};
 
-/// Distance within which a notch lies at an edge, m.
+/// Greatest distance of a notch from the edge that it belongs to, m.
 const NOTCH_M: f64 = 0.005;
-/// Confidence from which a proposed seam is sure.
+/// Confidence from which a proposed seam counts as sure.
 pub const SURE: f64 = 0.8;
 
-/// An edge of a piece, placed in the arrangement.
+/// An edge of a piece, placed on the desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskEdge {
     /// Number in the picture, from 1 counter-clockwise.
     pub number: usize,
-    /// Name in the seam file; `None` where it has none yet.
+    /// Name in the seam file; `None` where the file does not name the edge.
     pub name: Option<String>,
     /// Points, counter-clockwise, mm. `x` is to the wearer's right, `y` is positive for fronts, and the head is at the
     /// origin.
     pub line_mm: Vec<[f64; 2]>,
     /// Length of the sew line, mm.
     pub length_mm: f64,
-    /// Name of the seam that holds it.
+    /// Name of the seam that the edge is in, if any.
     pub seam: Option<String>,
-    /// Notches along it, mm from its start.
+    /// Places of notches, mm from the start of the edge.
     pub notches_mm: Vec<f64>,
 }
 
 impl DeskEdge {
-    /// Its midpoint, mm, and there the unit normal into the piece, which is to the left since edges run
+    /// Midpoint, mm, and there the unit normal into the piece. This points to the left, since edges run
     /// counter-clockwise.
     #[must_use]
     pub fn middle(&self) -> [[f64; 2]; 2] {
@@ -59,16 +59,16 @@ impl DeskEdge {
     }
 }
 
-/// A piece, placed in the arrangement.
+/// A piece, placed on the desk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DeskPiece {
     /// Identifier of the piece in the seam file.
     pub id: String,
     /// Role in the garment.
     pub role: Role,
-    /// Counter-clockwise rotation from its place in the pattern file, degrees.
+    /// Counter-clockwise rotation from the drawing in the pattern file, degrees.
     pub turned_deg: f64,
-    /// Edges, counter-clockwise, which make up the outline.
+    /// Edges, counter-clockwise; together they are the outline.
     pub edges: Vec<DeskEdge>,
 }
 
@@ -77,9 +77,9 @@ pub struct DeskPiece {
 pub struct DeskSeam {
     /// Name of the seam in the seam file.
     pub name: String,
-    /// Edges of one side as (index of the piece, index of the edge), in order.
+    /// Edges of the one side, in order: (index of the piece, index of the edge).
     pub a: Vec<(usize, usize)>,
-    /// Edges of the other side.
+    /// Edges of the other side, likewise.
     pub b: Vec<(usize, usize)>,
     /// True where both sides are sewn in their counter-clockwise direction.
     pub same_direction: bool,
@@ -94,16 +94,16 @@ pub struct DeskSeam {
 /// Pieces and seams of a style, as they are drawn and edited.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Desk {
-    /// Pieces, placed.
+    /// Pieces, placed on the desk.
     pub pieces: Vec<DeskPiece>,
     /// Seams between edges of those pieces.
     pub seams: Vec<DeskSeam>,
-    /// Names of drawn pieces that the seam file leaves out.
+    /// Names of the drawn pieces that the seam file leaves out.
     pub left_out: Vec<String>,
 }
 
 impl Desk {
-    /// The pieces and seams of a style.
+    /// Lays out the pieces and seams of a style.
     #[must_use]
     pub fn of(style: &Style) -> Self {
         let seam_of = |edge: EdgeRef| {
@@ -155,7 +155,7 @@ struct EdgeNotch {
     along_mm: f64,
 }
 
-/// Notches of a piece, each on the nearest edge; those farther than [`NOTCH_M`] from all edges are left out.
+/// Notches of a piece, each on its nearest edge. Drops notches farther than [`NOTCH_M`] from every edge.
 fn notches(piece: &StylePiece) -> Vec<EdgeNotch> {
     let nearest = |at: V2| {
         let mut best = (NOTCH_M, None);
@@ -180,27 +180,27 @@ pub struct Proposed {
     /// The proposed seams.
     #[serde(flatten)]
     pub proposal: Proposal,
-    /// The pieces of the proposal, placed, and the seams between them.
+    /// Pieces and seams of the proposal.
     pub desk: Desk,
 }
 
-/// Options of a proposal.
+/// Options for proposing seams.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Asking<'a> {
-    /// Size that it is made on; `None` for the sample size.
+    /// Size that the proposal is made on; `None` for the sample size.
     pub size: Option<&'a str>,
     /// Unit of the files, where they name none.
     pub unit: Option<Unit>,
     /// Seam allowance of pieces without a sew line, m.
     pub allowance_m: f64,
-    /// Answers: number of the question and letter of the choice.
+    /// Answers to questions of the proposal: number of the question, letter of the choice.
     pub answers: &'a [(usize, char)],
 }
 
 /// Proposes a seam file for the pieces of a pattern, on one size, and checks it on the others.
 ///
 /// # Errors
-/// When a file cannot be read or has no such size, or an answer is to nothing that is asked.
+/// When a file cannot be read or lacks the size, or an answer fits no question.
 pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     let ProposalOnPieces { proposal, pieces } = proposal(&SourceFile::read_pattern(path)?, how)?;
     if proposal.is_empty() {
@@ -215,7 +215,7 @@ pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
     Ok(Proposed { proposal, desk })
 }
 
-/// A proposal, and the pieces of the size that it is made on.
+/// A proposal, and the pieces of the size on which it is made.
 pub struct ProposalOnPieces {
     /// The proposed seams.
     pub proposal: Proposal,
@@ -223,7 +223,7 @@ pub struct ProposalOnPieces {
     pub pieces: Vec<Piece>,
 }
 
-/// Proposes seams for a pattern that is in memory, as [`fn@propose`] does.
+/// Proposes seams as [`fn@propose`] does, for a pattern in memory.
 pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPieces> {
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
     let size = how.size.unwrap_or(nest.sample_size());
@@ -236,7 +236,7 @@ pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPiec
     Ok(ProposalOnPieces { proposal, pieces })
 }
 
-/// Checks a proposal on the sizes that it was not made on. A seam that does not hold there becomes a question.
+/// Checks a proposal on the other sizes than `made_on`. A seam that cannot be sewn there becomes a question.
 pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, pieces: &[Piece], others: Vec<SizePieces>) {
     let mut sound = Vec::new();
     for SizePieces { size, pieces } in others {
@@ -250,8 +250,8 @@ pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, pieces: &[Piece],
     }
 }
 
-/// Confidences of the seams of a seam file, by their order in it, from the remarks `# confidence 0.83` beside their
-/// headers; `None` for a seam that is confirmed or was not proposed.
+/// Confidences of the seams in a seam file, in order, from the remarks `# confidence 0.83` beside their headers. `None`
+/// for a seam that is confirmed or was not proposed.
 pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     let Ok(document) = text.parse::<DocumentMut>() else { return vec![] };
     let seams = document.get("seam").and_then(Item::as_array_of_tables);
@@ -262,8 +262,8 @@ pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     seams.map_or(vec![], |seams| seams.iter().map(confidence_of).collect())
 }
 
-/// The text of a seam file without the confidences of those seams that `is_sure` accepts by name and confidence; `None`
-/// where there is no such seam.
+/// Text of a seam file without the confidences of the seams that `is_sure` accepts, by name and confidence. `None` if
+/// it accepts none.
 pub(crate) fn confirmed(text: &str, is_sure: impl Fn(&str, Option<f64>) -> bool) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;

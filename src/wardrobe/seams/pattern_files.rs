@@ -1,5 +1,5 @@
-//! Pattern files with the tables beside them: grade rules and piece information. They are inspected, reduced to
-//! features, and converted to other formats.
+//! Pattern files with the tables beside them (grade rules, piece information): inspected, reduced to features, and
+//! converted to other formats.
 
 use std::path::Path;
 
@@ -18,20 +18,20 @@ use store::{InOrigin, Origin, Result};
 /// Choices and tables that go with a pattern file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beside<'a> {
-    /// Only pieces of this size.
+    /// Size to which the pattern is reduced, if any.
     pub size: Option<&'a str>,
     /// Unit of DXF files.
     pub unit: Option<Unit>,
-    /// Grade rule table: the file is of the sample size, and all sizes are made.
+    /// Grade rule table. With it the pattern file is the sample size, from which all sizes are made.
     pub rules: Option<&'a Path>,
-    /// Unit of its numbers, in place of the one that it names.
+    /// Unit of the table's numbers, replacing the unit that it names.
     pub rule_unit: Option<Unit>,
     /// Path of the table of piece information, CSV or XLSX.
     pub info: Option<&'a Path>,
 }
 
 impl Beside<'_> {
-    /// Grades a pattern and adds its piece information; returns it with remarks on the tables.
+    /// Grades a pattern and adds its piece information. Returns the pattern with remarks on the tables.
     fn complete(&self, mut pattern: PatternFile) -> Result<(PatternFile, Vec<String>)> {
         let mut notes = Vec::new();
         if let Some(path) = self.rules {
@@ -49,14 +49,14 @@ impl Beside<'_> {
         Ok((pattern, notes))
     }
 
-    /// The pattern of a file, in the size that is asked for, after a check that all its pieces can be sewn; with
-    /// remarks on the tables beside it.
+    /// Reads a pattern in the size asked for and checks that all its pieces can be sewn. Returns the pattern with
+    /// remarks on the tables.
     fn usable_pattern(&self, source: &SourceFile) -> Result<(PatternFile, Vec<String>)> {
         let read = source::read(&source.bytes, &source.name, self.unit).origin(Origin::Pattern)?;
         let (mut pattern, notes) = self.complete(read)?;
         let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
         for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
-            // A nest is no garment: each of its sizes is checked by itself.
+            // A nest is no garment, so each of its sizes is checked by itself.
             pattern.to_sew(Some(&size)).origin(Origin::Pattern)?;
         }
         self.keep_size(&mut pattern);
@@ -71,8 +71,8 @@ impl Beside<'_> {
     }
 }
 
-/// Reports the contents of a pattern file of any kind, or of every one below a folder, by name. A file that cannot be
-/// read has its error in its report.
+/// Reports the contents of a pattern file of any kind, or of every pattern below a folder, by name. An unreadable file
+/// has its error in its report.
 ///
 /// # Errors
 /// When the path cannot be read, or a file beside it is wrong.
@@ -84,12 +84,12 @@ pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
 fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
     let is_alone = beside.size.is_none() && beside.rules.is_none() && beside.info.is_none();
     if is_alone && source::kind(bytes) == Kind::GarmentCode {
-        // The specification has more on its unit than a pattern.
+        // The GarmentCode specification says more about its unit than a pattern does.
         let read = garmentcode::read(bytes, name);
         let unreadable = |error: &garmentcode::GarmentCodeError| FileReport::unreadable(name, error.to_string());
         return Ok(read.as_ref().map_or_else(unreadable, FileReport::from));
     }
-    // A file that cannot be read is a finding; a wrong table beside it is an error for the user to correct.
+    // An unreadable file is a finding; a wrong table beside it is the user's to correct.
     let (mut pattern, notes) = match source::read(bytes, name, beside.unit) {
         Ok(read) => beside.complete(read)?,
         Err(error) => return Ok(FileReport::unreadable(name, error.to_string())),
@@ -99,7 +99,7 @@ fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
     Ok(FileReport::from(&pattern))
 }
 
-/// The features of a pattern's pieces, as JSON; with remarks on the tables beside it.
+/// Returns the features of a pattern's pieces as JSON, with remarks on the tables.
 ///
 /// # Errors
 /// When a file cannot be read, or a piece of it is refused.
@@ -110,8 +110,8 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<(String, Vec<String>
     Ok((serde_json::to_string_pretty(&features).origin(Origin::Pattern)?, notes))
 }
 
-/// Writes a pattern as DXF by a standard, half pieces as halves and all its sizes as a nest; with remarks on the tables
-/// beside it.
+/// Writes a pattern as DXF by a standard, half pieces as halves and all sizes as a nest. Returns remarks on the tables
+/// too.
 ///
 /// # Errors
 /// As [`features`].
@@ -120,10 +120,10 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> R
     Ok((dxf::write_pieces(&pattern.pieces, &pattern.texts, standard), notes))
 }
 
-/// A pattern as its sample size and a grade rule table.
+/// A pattern as sample size and grade rule table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
-    /// The sample size as DXF.
+    /// Sample size as DXF.
     pub dxf: Vec<u8>,
     /// Text of the grade rule table.
     pub rules: String,
@@ -131,11 +131,11 @@ pub struct Graded {
     pub notes: Vec<String>,
 }
 
-/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it. The
+/// Writes the sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes from it. The
 /// DXF names the table.
 ///
 /// # Errors
-/// As [`features`]; and where a piece is not the same in every size.
+/// As [`features`]; also when a piece is missing or different in one size.
 pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, table_name: &str) -> Result<Graded> {
     let all = Beside { size: None, ..*beside };
     let (pattern, mut remarks) = all.usable_pattern(&SourceFile::read(path)?)?;
@@ -150,7 +150,7 @@ pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard, t
     Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules, notes: remarks })
 }
 
-/// Writes a pattern and its seams as GarmentCode JSON; with remarks on the tables beside it.
+/// Writes a pattern and its seams as GarmentCode JSON. Returns remarks on the tables too.
 ///
 /// # Errors
 /// When a file cannot be read, or the seams do not fit the pattern.
@@ -161,7 +161,7 @@ pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside
         (Some(seams), _) => {
             let (file, remarks) = beside.usable_pattern(&source)?;
             notes = remarks;
-            // The size of a file of one size need not have the name that is asked for.
+            // A file with one size need not name it as it is asked for.
             let size = beside.size.filter(|_| file.sizes().len() > 1);
             let pieces = file.to_sew(size).origin(Origin::Pattern)?;
             let seams = SourceFile::read(seams)?;

@@ -1,4 +1,4 @@
-//! Edits of a proposed seam file, found by comparison and applied to another proposal.
+//! Edits that a person made to a proposed seam file: found by comparison, and applied to a later proposal.
 
 use toml_edit::DocumentMut;
 
@@ -7,10 +7,10 @@ use pattern::seam_edit::{Edit, Sizes, edited};
 use pattern::seams::{PieceEntry, SeamEntry, SeamFile};
 use store::{InOrigin, Origin, Result};
 
-/// Tables of a seam file that no proposal has.
+/// Tables of a seam file that only a person writes.
 const OWN_TABLES: [&str; 3] = ["measurement", "reinforce", "fit"];
 
-/// Two texts of a seam file: as it was proposed, and as a person has edited it.
+/// A seam file as proposed, and as a person has edited it.
 #[derive(Clone, Copy)]
 pub struct Reworked<'a> {
     /// Text of the seam file as it was proposed.
@@ -22,7 +22,7 @@ pub struct Reworked<'a> {
 }
 
 impl Reworked<'_> {
-    /// Applies all edits of this proposal to another one. A seam that cannot be sewn any more becomes a question.
+    /// Applies all these edits to another proposal. A seam that can no longer be sewn becomes a question.
     ///
     /// # Errors
     /// When a text is no seam file.
@@ -39,12 +39,13 @@ impl Reworked<'_> {
         edits.into_iter().fold(text, |text, edit| match edited(&text, self.file, sizes, &edit) {
             Ok(after) => after,
             Err(error) if matches!(edit, Edit::Add { .. }) => asked(&text, &error),
-            // Any other edit fails where it is done already, or where its seam or piece is not proposed any more.
+            // Another edit fails where it is done already, or where its seam or piece is no longer proposed. Both are
+            // fine.
             Err(_) => text,
         })
     }
 
-    /// Copies the tables that a person has written into a text.
+    /// Copies the tables that only a person writes into a text.
     fn with_own_tables(&self, text: String) -> Result<String> {
         let parse = |text: &str| text.parse::<DocumentMut>().origin(Origin::Pattern);
         let own = parse(self.own)?;
@@ -59,13 +60,13 @@ impl Reworked<'_> {
     }
 }
 
-/// Adds a question about a seam that does not fit any more to a text.
+/// Adds a question to a text about a hand-made seam that no longer fits.
 fn asked(text: &str, error: &StyleError) -> String {
     let told = error.to_string().replace(['\n', '\r'], " ");
     format!("# ASK: a seam that was sewn by hand does not fit any more: {told}\n{text}")
 }
 
-/// Edits of pieces: left out, taken in, or given another role.
+/// Edits of pieces: left out, taken in, given another role.
 fn edits_of_pieces(proposed: &SeamFile, own: &SeamFile) -> Vec<Edit> {
     let is_new = |id: &&String| !proposed.piece.contains_key(*id);
     let left_out = proposed.piece.keys().filter(|id| !own.piece.contains_key(*id));
@@ -84,7 +85,7 @@ fn edits_of_pieces(proposed: &SeamFile, own: &SeamFile) -> Vec<Edit> {
     edits
 }
 
-/// Edits of seams and open edges, in the names of the file `known` that they are applied to.
+/// Edits of seams and open edges, in the edge names of `known`, to which they will be applied.
 fn edits_of_seams(proposed: &SeamFile, own: &SeamFile, known: &SeamFile) -> Vec<Edit> {
     let is_same = |seam: &SeamEntry, other: &SeamEntry| seam.a == other.a && seam.b == other.b;
     let among = |seams: &[SeamEntry], seam: &SeamEntry| seams.iter().find(|other| is_same(seam, other)).cloned();
@@ -112,7 +113,7 @@ fn edits_of_seams(proposed: &SeamFile, own: &SeamFile, known: &SeamFile) -> Vec<
     edits
 }
 
-/// Name of an edge of a file in another file; its corners where it has no name there.
+/// Name of an edge of `own` in the file `other`; the corners of the edge where it has no name there.
 fn called(own: &SeamFile, other: &SeamFile, edge: &str) -> String {
     let Some((piece, name)) = edge.split_once('.') else { return edge.to_owned() };
     let in_file = |file: &SeamFile| file.piece.get(piece).and_then(|entry| entry.edges.get(name)).copied();
@@ -159,7 +160,7 @@ mod tests {
             Edit::Remove { a: a.clone(), b: b.clone() },
             Edit::Add { a, b, name: Some("side_right".to_owned()), is_eased: true },
         ]);
-        // What a person has measured stays.
+        // Measurements that a person has added stay.
         let own = format!("{proposed}{measurements}");
         let again =
             Reworked { proposed, own: &own, file: "t" }.done_again(proposed.to_owned(), &sizes).expect("it can be");

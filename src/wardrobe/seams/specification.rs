@@ -1,4 +1,4 @@
-//! Specification sheets: the points of measure of a pattern in all its sizes.
+//! Specification sheets: the points of measure of a pattern, in all its sizes.
 
 use std::path::Path;
 
@@ -21,26 +21,26 @@ pub struct SpecifiedPoint {
     pub point: &'static str,
     /// Name of the size, such as `M`.
     pub size: String,
-    /// Its length, mm.
+    /// Length of the point, mm.
     pub length_mm: f64,
-    /// Length less that of the size before, mm; `None` for the first size.
+    /// Length minus that of the size before, mm; `None` for the first size.
     pub step_mm: Option<f64>,
-    /// Definition of the point.
+    /// Definition of the point in words.
     pub definition: &'static str,
 }
 
-/// The points of measure of a pattern.
+/// Points of measure of a pattern in its sizes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Specification {
     /// Name of the pattern.
     pub garment: String,
-    /// Its sizes, from the smallest to the largest.
+    /// Names of the sizes, the smallest first.
     pub sizes: Vec<String>,
     /// Every point of every size, by point.
     pub points: Vec<SpecifiedPoint>,
     /// Remarks for the reader, as sentences.
     pub notes: Vec<String>,
-    /// The pieces of the first size with the points numbered, as SVG.
+    /// Drawing of the first size's pieces with numbered points, as SVG.
     #[serde(skip)]
     pub drawing: String,
 }
@@ -48,7 +48,7 @@ pub struct Specification {
 /// Measures every size of a pattern at its points of measure. Without a seam file the pattern is sewn as proposed.
 ///
 /// # Errors
-/// When a file cannot be read, a size does not fit the seams, or no piece has a role that points are found by.
+/// When a file cannot be read, a size does not fit the seams, or no piece has a role by which points are found.
 pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
     let source = SourceFile::read_pattern(pattern)?;
     let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -75,7 +75,7 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
                 read.push(size.clone());
                 styles.push(style);
             }
-            // A size that cannot be sewn is left out with a note, unless no size can be sewn.
+            // Such a size is left out with a note, unless no size can be sewn.
             Err(error) if size == &sizes[sizes.len() - 1] && styles.is_empty() => return Err(error),
             Err(error) => notes.push(format!("size {size} is left out: {error}")),
         }
@@ -124,7 +124,8 @@ impl Specification {
         Self { garment, sizes, points, notes, drawing }
     }
 
-    /// Returns the sheet: a row for each point, a column for each size, mm, and one for each step from the size before.
+    /// Returns the sheet: a row for each point; columns with the length in each size and the step from the size before,
+    /// mm.
     #[must_use]
     pub fn table(&self) -> Table {
         let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };

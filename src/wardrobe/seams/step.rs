@@ -8,22 +8,22 @@ use store::files::SourceFile;
 pub enum SeamStep {
     /// Edit a seam, an edge or a piece.
     Edit(Edit),
-    /// Confirm the proposed seam of a name.
+    /// Confirm the proposed seam with this name.
     Confirm(String),
-    /// Confirm all proposed seams that are sure.
+    /// Confirm all proposed seams that count as sure.
     ConfirmSure,
-    /// Answer a question of a proposal. Seams are proposed anew, and those that were confirmed and are proposed again
-    /// stay so.
+    /// Answer a question of a proposal. Seams are proposed again with the answer. Confirmed seams that come back stay
+    /// confirmed.
     Answer {
-        /// The question, as it is asked.
+        /// Text of the question.
         question: String,
-        /// Index of the choice.
+        /// Index of the answer.
         choice: usize,
     },
-    /// Take a seam file that was written by hand.
+    /// Replace the file by one that was written by hand.
     Written(SourceFile),
-    /// Settle a question of a proposal, since the file is as it should be.
+    /// Settle the question with this text: the file is right as it is.
     Decide(String),
-    /// Propose all seams anew, for the style of a name.
+    /// Propose all seams again, for the style with this name.
     Propose(String),
 }

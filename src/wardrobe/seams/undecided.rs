@@ -1,4 +1,4 @@
-//! Open questions about the seams of a size, one at a time, each with its likely answers.
+//! Open questions about the seams of a size, each with its likely answers.
 
 use crate::seams::desk::{Desk, DeskEdge, DeskPiece, DeskSeam, SURE};
 use crate::seams::step::SeamStep;
@@ -10,55 +10,54 @@ use pattern::seam_edit::Edit;
 /// Index of a piece, and index of an edge on it.
 type EdgeAt = (usize, usize);
 
-/// Number of partners of an edge that are offered.
+/// Number of partners that are offered for an edge.
 const OFFERED: usize = 4;
-/// Number of left out pieces that one question asks about.
+/// Number of left-out pieces that one question asks about.
 pub const LEFT_OUT: usize = 4;
-/// Weight of the distance of a partner over the extent of all pieces. This and the next three weights add to the
-/// relative difference of length.
+/// Weight of the distance between partners, divided by the extent of all pieces. The likeliest partner has the least
+/// sum of the relative difference in length, this term and the next three.
 const FAR: f64 = 0.25;
-/// Weight of notches that do not match.
+/// Term for notches that do not match.
 const UNNOTCHED: f64 = 0.15;
-/// Weight of a side of two edges instead of one.
+/// Term for a side of two edges instead of one.
 const OF_TWO: f64 = 0.05;
-/// Weight of a partner on a piece that is not sewn to the edge's piece: the same piece, unless it closes on itself as a
-/// sleeve does, or the other sleeve.
+/// Term for a piece that the edge's own is not sewn to ([`may_meet`]).
 const OWN: f64 = 0.3;
-/// Greatest difference of length between partners, share of the longer.
+/// Greatest difference in length between partners, as a share of the longer.
 const UNLIKE: f64 = 0.4;
-/// Greatest difference of the places of notches that match, share of the edge.
+/// Greatest difference in place between notches that match, as a share of the edge.
 const SAME_NOTCH: f64 = 0.03;
 
-/// An answer, and the step of work that it asks for.
+/// An answer to a question, and what it does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The answer in words.
+    /// Answer in words.
     pub label: String,
-    /// Step of work that carries it out.
+    /// Step of work that carries out the answer.
     pub step: SeamStep,
-    /// Edges that it names.
+    /// Edges that the answer names.
     pub edges: Vec<EdgeAt>,
 }
 
 /// An open question about seams.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Undecided {
-    /// The question in words.
+    /// Question in words.
     pub text: String,
-    /// Edges that it is about.
+    /// Edges that the question is about.
     pub edges: Vec<EdgeAt>,
-    /// Likely answers; none where only an edit helps.
+    /// Likely answers; empty where only an edit helps.
     pub choices: Vec<Choice>,
-    /// Index of the answer that counts until another is given.
+    /// Index of the answer that counts until another is given; `None` where none does.
     pub stands: Option<usize>,
-    /// Index of the seam that it is about.
+    /// Index of the seam that the question is about, if any.
     pub seam: Option<usize>,
-    /// True where the answer that counts is sure.
+    /// True where the answer that counts is a sure proposal.
     pub is_sure: bool,
 }
 
 impl Undecided {
-    /// The question of a proposal.
+    /// Question of a proposal.
     pub(crate) fn asked(question: Question) -> Self {
         let written = question.to_string();
         let answer = |(choice, label): (usize, &String)| Choice {
@@ -81,7 +80,7 @@ impl Undecided {
         }
     }
 
-    /// The question whether a proposed seam is right; `None` for a seam that is confirmed or was not proposed.
+    /// Asks if a proposed seam is right; `None` for a seam that is confirmed or was not proposed.
     pub(crate) fn unsure(desk: &Desk, seam: usize) -> Option<Self> {
         let found = &desk.seams[seam];
         let sure = 100.0 * found.confidence?;
@@ -107,7 +106,7 @@ impl Undecided {
         })
     }
 
-    /// The question what to do with a seam that is sewn.
+    /// Asks what to do with a seam.
     #[must_use]
     pub fn seam(desk: &Desk, seam: usize) -> Self {
         let DeskSeam { name, a, b, a_mm, b_mm, .. } = &desk.seams[seam];
@@ -131,7 +130,7 @@ impl Undecided {
         }
     }
 
-    /// The question about a finding of a check.
+    /// Asks about a finding of a check.
     pub(crate) fn found(desk: &Desk, finding: &Finding) -> Self {
         let free = if finding.kind == FindingKind::FreeEdge { desk.edge_of(&finding.place) } else { None };
         match free {
@@ -143,7 +142,7 @@ impl Undecided {
         }
     }
 
-    /// The question what an edge that is in no seam is sewn to.
+    /// Asks what an edge in no seam is sewn to.
     #[must_use]
     pub fn free(desk: &Desk, edge: EdgeAt) -> Self {
         let (name, length_mm) = (desk.edge_name(edge), desk.edge(edge).length_mm);
@@ -164,7 +163,7 @@ impl Undecided {
         Self { text, edges: vec![edge], choices, stands: None, seam: None, is_sure: false }
     }
 
-    /// The question about the role of a piece that nothing is sewn to.
+    /// Asks for the role of a piece that nothing is sewn to.
     pub(crate) fn unsewn(desk: &Desk, piece: usize) -> Self {
         let asked = Self::piece(desk, piece);
         Self {
@@ -174,7 +173,7 @@ impl Undecided {
         }
     }
 
-    /// The question which of the left out pieces, from index `first` on, is worn too; `None` where there are no more.
+    /// Asks which of the left-out pieces, from index `first` on, is worn too; `None` where no more are left out.
     #[must_use]
     pub fn left_out(desk: &Desk, first: usize) -> Option<Self> {
         let shown = desk.left_out.get(first..)?;
@@ -189,7 +188,7 @@ impl Undecided {
         (!shown.is_empty()).then_some(asked)
     }
 
-    /// The question about the role of a piece, and whether it is worn at all.
+    /// Asks for the role of a piece, and if it is worn at all.
     #[must_use]
     pub fn piece(desk: &Desk, piece: usize) -> Self {
         let drawn = &desk.pieces[piece];
@@ -222,14 +221,14 @@ impl Desk {
         &self.pieces[piece].edges[edge]
     }
 
-    /// Name of an edge in edits: `front.side_left`, or `front.3` where it has no name.
+    /// Name of an edge in edits: `front.side_left`, or `front.3` for an edge without a name.
     #[must_use]
     pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
         let drawn = &self.pieces[piece].edges[edge];
         format!("{}.{}", self.pieces[piece].id, drawn.name.clone().unwrap_or_else(|| drawn.number.to_string()))
     }
 
-    /// True if a piece has no particular role and nothing is sewn to it.
+    /// True if nothing is sewn to a piece and its role is not known.
     pub(crate) fn is_unsewn(&self, piece: usize) -> bool {
         let DeskPiece { role, edges, .. } = &self.pieces[piece];
         *role == Role::Other && edges.iter().all(|edge| edge.seam.is_none())
@@ -245,13 +244,12 @@ impl Desk {
     }
 }
 
-/// A chain of edges in words, such as `front.armhole + back.armhole`.
+/// Chain of edges in words, such as `front.armhole + back.armhole`.
 fn names(desk: &Desk, chain: &[EdgeAt]) -> String {
     chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join(" + ")
 }
 
-/// Sides that an edge may be sewn to, of one or two edges in no seam. The likeliest is the first, by length, by notches
-/// and by place.
+/// Sides that an edge may be sewn to, each of one or two edges in no seam, the likeliest first.
 fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     let free: Vec<EdgeAt> = desk.all_edges().filter(|at| *at != edge && desk.edge(*at).seam.is_none()).collect();
     let extent_mm = extent_mm(desk);
@@ -280,7 +278,7 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
 }
 
-/// Roles that pieces of a style may have: those of trousers, of a garment with a skirt, or of a top.
+/// Roles to offer for a style's pieces: of trousers, of a garment with a skirt, or of a top.
 fn roles(desk: &Desk) -> [Role; 8] {
     use Role::{
         Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight, LegLeft,
@@ -307,7 +305,7 @@ fn may_meet(desk: &Desk, one: usize, other: usize) -> bool {
     !matches!((role, partner), (SleeveRight, SleeveLeft) | (SleeveLeft, SleeveRight))
 }
 
-/// Diagonal of the bounding box of all pieces as they lie, mm.
+/// Diagonal of the bounding box of all pieces on the desk, mm.
 fn extent_mm(desk: &Desk) -> f64 {
     let points = || desk.pieces.iter().flat_map(|piece| &piece.edges).flat_map(|edge| &edge.line_mm);
     let size = |k: usize| {
@@ -317,13 +315,13 @@ fn extent_mm(desk: &Desk) -> f64 {
     size(0).hypot(size(1)).max(1.0)
 }
 
-/// Distance of the midpoints of two edges as they lie, mm.
+/// Distance between the midpoints of two edges on the desk, mm.
 fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
     let ([[a, b], _], [[c, d], _]) = (one.middle(), other.middle());
     (a - c).hypot(b - d)
 }
 
-/// True if two edges have the same number of notches, at the same shares of their lengths in either direction.
+/// True if two edges have as many notches, at the same shares of their lengths in either direction.
 fn notches_match(one: &DeskEdge, other: &DeskEdge) -> bool {
     let shares = |edge: &DeskEdge| {
         let mut shares: Vec<f64> = edge.notches_mm.iter().map(|mm| mm / edge.length_mm.max(1e-6)).collect();
@@ -342,7 +340,7 @@ mod tests {
     use pattern::Style;
     use pattern::draft::Model;
 
-    /// The drafted T-shirt, some of its seams opened.
+    /// The drafted T-shirt with some seams opened.
     fn desk(opened: &[&str]) -> Desk {
         let mut style = Style::read(&Model::Tshirt.drafts()[0].pieces, Model::Tshirt.seams(), "t").expect("our own");
         style.seams.retain(|seam| !opened.contains(&seam.name.as_str()));
@@ -366,8 +364,8 @@ mod tests {
         check(&all, "sleeve_left.cap", "armhole_left");
     }
 
-    /// Counts seams between two edges of a style whose seams are all opened: those whose other edge is offered first,
-    /// those where it is offered at all, and all.
+    /// Number of seams between two edges, all opened, whose first edge is offered its partner first; is offered it at
+    /// all; and of all such seams.
     fn offered(style: &Style) -> [usize; 3] {
         let whole = Desk::of(style);
         let opened = Desk::of(&Style { seams: vec![], ..style.clone() });

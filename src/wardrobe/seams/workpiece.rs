@@ -1,4 +1,4 @@
-//! A size of a style while its seams are edited: its pattern, and the text of its seam file.
+//! A size of a style whose seams are worked on: its pattern, and the text of its seam file.
 
 use std::path::{Path, PathBuf};
 
@@ -17,19 +17,19 @@ use spec::patterns::{self, Nest, SizePieces, Unit};
 use store::files::SourceFile;
 use store::{InOrigin, Origin, Problem, Result, StudyError};
 
-/// Begins a line of a proposed seam file with a question that a person must answer.
+/// Start of a line with a question that a person must answer.
 const QUESTION: &str = "# ASK: ";
-/// Begins a line with a question that is settled, since a person has said that the file is as it should be.
+/// Start of a line with a question that is settled: a person has said that the file is right as it is.
 const SETTLED: &str = "# SETTLED: ";
-/// Begins a line with a question that a person has answered.
+/// Start of a line with a question that a person has answered.
 const ANSWERED: &str = "# ANSWERED: ";
 
-/// A pattern and the seams of one of its sizes.
+/// Pattern and seam file of a size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Workpiece {
     /// Pattern file with its bytes.
     pub pattern: SourceFile,
-    /// Seam file; `None` where the pattern holds its seams, or has none yet.
+    /// Seam file; `None` where the pattern holds its seams, or where there is none yet.
     pub seams: Option<SourceFile>,
     /// Name of the size.
     pub size: String,
@@ -51,18 +51,18 @@ pub struct DeskLength {
 /// A size, laid out for work on its seams.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
-    /// Pieces and seams; a seam that was proposed and not confirmed has its confidence.
+    /// Pieces and seams. A proposed seam that nobody has confirmed has its confidence.
     pub desk: Desk,
     /// Measurements of the seam file, in its order.
     pub lengths: Vec<DeskLength>,
     /// Open questions: those of a proposal, unsure seams, and findings of a check.
     pub undecided: Vec<Undecided>,
-    /// Greatest difference of length between the sides of a seam that is no finding, mm.
+    /// Difference in length between the sides of a seam above which a check reports it, mm.
     pub tolerance_mm: f64,
 }
 
 impl Workpiece {
-    /// Reads a pattern and its seam file; without a size the sample size.
+    /// Reads a pattern and its seam file, in the sample size where `size` is `None`.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -78,7 +78,7 @@ impl Workpiece {
     /// Lays the pieces out with their seams.
     ///
     /// # Errors
-    /// When a file cannot be read or does not fit the other.
+    /// When a file cannot be read, or seams and pattern do not fit each other.
     pub fn laid_out(&self) -> Result<LaidOut> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let mut desk = Desk::of(&style);
@@ -88,7 +88,7 @@ impl Workpiece {
                 seam.confidence = confidence;
             }
             let asked: Vec<Question> = marked(&text, QUESTION).collect();
-            // A seam that the proposal has a question about, by its name, is not asked about again.
+            // If the proposal has a question about a seam, no second question asks about its confidence.
             let is_new = |seam: &usize| {
                 let name = &desk.seams[*seam].name;
                 !asked.iter().any(|question| question.text.split_once(": ").is_some_and(|(about, _)| about == name))
@@ -98,12 +98,12 @@ impl Workpiece {
             let entries = SeamFile::parse(&file.bytes, &file.name).origin(Origin::Pattern)?;
             tolerance_mm = entries.length_tolerance_mm;
             let found = self.findings(&style)?;
-            // A piece that the file does not name is left out on purpose, and no question.
+            // A piece that the file does not name is left out on purpose, so it raises no question.
             let is_left_out = |finding: &&Finding| finding.kind == FindingKind::UnusedPiece;
             desk.left_out = found.iter().filter(is_left_out).map(|finding| finding.place.clone()).collect();
             let unsewn: Vec<usize> = (0..desk.pieces.len()).filter(|piece| desk.is_unsewn(*piece)).collect();
             undecided.extend(unsewn.iter().map(|piece| Undecided::unsewn(&desk, *piece)));
-            // The edges of a piece without a role are asked about once it has one.
+            // The edges of a piece without a role raise questions once it has one.
             let is_of_unsewn = |finding: &&Finding| {
                 let is_on = |piece: &usize| finding.place.starts_with(&format!("{}.", desk.pieces[*piece].id));
                 finding.kind == FindingKind::FreeEdge && unsewn.iter().any(is_on)
@@ -165,20 +165,20 @@ impl Workpiece {
         act(&Sizes { name: &self.size, pieces: &pieces, others: &others })
     }
 
-    /// Proposes a seam file for the pieces, which is checked on all sizes of the pattern.
+    /// Proposes a seam file for the pieces, checked on all sizes of the pattern.
     ///
     /// # Errors
-    /// When the pattern cannot be read, or no piece of it is recognised.
+    /// When the pattern cannot be read, or none of its pieces is recognised.
     pub fn proposed(&self, style: &str) -> Result<SourceFile> {
         self.proposed_for(style, Nest::read(&self.pattern, self.unit)?.others(&self.size))
     }
 
-    /// Proposes a seam file as [`Workpiece::proposed`] does, checked on given sizes.
+    /// Proposes a seam file as [`Workpiece::proposed`] does, checked on the sizes `others`.
     pub(crate) fn proposed_for(&self, style: &str, others: Vec<SizePieces>) -> Result<SourceFile> {
         self.proposed_with_answers(style, others, &Answers::new())
     }
 
-    /// The text of a proposal after the answer to a question. Seams that were confirmed and are proposed again stay so.
+    /// Text of the seam file after a question is answered. Confirmed seams that are proposed again stay confirmed.
     fn answered(&self, text: &str, question: &str, choice: usize) -> Result<String> {
         let asked: Vec<Question> = marked(text, QUESTION).chain(marked(text, ANSWERED)).collect();
         let known = asked.iter().find(|asked| asked.text == question);
@@ -233,7 +233,7 @@ impl Workpiece {
         entries.map_or_else(Vec::new, |entries| entries.open)
     }
 
-    /// Findings of a check of the size as it is sewn; none of a pattern that holds its own seams.
+    /// Findings of a check of this size; empty for a pattern that holds its own seams.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -249,7 +249,7 @@ impl Workpiece {
     }
 }
 
-/// The text of a seam file in which a question is settled.
+/// Text of a seam file in which a question is marked as settled.
 fn settled(text: &str, question: &str) -> String {
     let line = |line: &str| match line.strip_prefix(QUESTION) {
         Some(asked) if asked.trim_end() == question => format!("{SETTLED}{asked}"),
@@ -258,15 +258,15 @@ fn settled(text: &str, question: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
 
-/// Questions on the lines of a seam file that begin with a mark.
+/// Questions on the lines of a seam file that begin with `mark`.
 fn marked<'a>(text: &'a str, mark: &'a str) -> impl Iterator<Item = Question> + 'a {
     text.lines().filter_map(move |line| line.strip_prefix(mark)).map(|line| Question::parse(line.trim_end()))
 }
 
-/// Returns a seam file after a step of work, checked against the pattern. Comments of the file stay.
+/// Returns a seam file after a step of work, checked against the pattern. Comments in the file stay.
 ///
 /// # Errors
-/// When a file cannot be read, the edit names a part that is not there, or its result does not fit the pattern.
+/// When a file cannot be read, the edit names a missing part, or the result does not fit the pattern.
 pub fn edit_seams(
     pattern: &Path,
     seams: &Path,
@@ -277,7 +277,7 @@ pub fn edit_seams(
     Workpiece::open(pattern, Some(seams), size, unit)?.after(step)
 }
 
-/// Path of the seam file of a style in the folder of a study, if its contents are still those that are stored.
+/// Path of a style's seam file in the folder of a study, if its contents are still the stored ones.
 #[must_use]
 pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathBuf> {
     let text = std::fs::read_to_string(study).ok()?;
@@ -288,10 +288,10 @@ pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathB
     std::fs::read(&path).is_ok_and(|bytes| *bytes == *stored.bytes).then_some(path)
 }
 
-/// Replaces a seam file whose contents are still those of `before`.
+/// Replaces a seam file, if its contents are still those of `before`.
 ///
 /// # Errors
-/// When its contents have changed, or it cannot be read or written.
+/// When the contents have changed, or the file cannot be read or written.
 pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Result<()> {
     let found = std::fs::read(path).map_err(StudyError::io(path))?;
     if *found != *before.bytes {
@@ -307,7 +307,7 @@ mod tests {
     use pattern::draft::Model;
     use pattern::seam_edit::Edit;
 
-    /// The T-shirt, size S, with seams of a text or none.
+    /// The T-shirt, size S, with seams from a text, or without any.
     fn tshirt(seams: Option<String>) -> Workpiece {
         let files = Model::Tshirt.files();
         let (name, bytes) = files.into_iter().find(|(name, _)| name.ends_with("s.dxf")).expect("a size S");
@@ -372,7 +372,7 @@ mod tests {
         let undecided = piece.laid_out().expect("it fits").undecided;
         let free = undecided.iter().find(|asked| asked.text.contains("back.side_right")).expect("it is said").clone();
         assert!(piece.after(&SeamStep::Decide(free.text.clone())).is_err(), "the check finds it, nobody asks it");
-        // Its likeliest answer sews it again.
+        // The likeliest answer sews the edge again.
         piece.seams = Some(piece.after(&free.choices[0].step).expect("they fit"));
         assert!(piece.laid_out().expect("it fits").undecided.is_empty());
     }

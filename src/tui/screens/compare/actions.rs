@@ -1,4 +1,4 @@
-//! Choosing runs to compare.
+//! Choosing runs for the comparison.
 
 use crate::keys::screen::Screen;
 use crate::messages::snapshot::Compared;
@@ -8,7 +8,7 @@ use crate::screens::state::State;
 use crate::widgets::text;
 use store::{JobId, JobRow, RecommendationRow};
 
-/// The runs to compare: those selected; else the job looked at and its cell by the other simulator.
+/// Runs to compare: those marked; without marks, the shown job and that of the same cell by the other simulator.
 #[must_use]
 pub fn to_compare(state: &State) -> Vec<JobId> {
     if state.marks.len() > 1 {
@@ -20,13 +20,13 @@ pub fn to_compare(state: &State) -> Vec<JobId> {
     pair.into_iter().map(|job| job.id).collect()
 }
 
-/// The runs compared, as they were read.
+/// Runs in the comparison, as read from the database.
 #[must_use]
 pub fn compared(state: &State) -> &[Compared] {
     state.data.as_ref().map_or(&[], |data| &data.compared)
 }
 
-/// The recommendation that stands beside the comparison: that of the first run's garment and fit class.
+/// Recommendation for the garment and fit class of the first run.
 #[must_use]
 pub fn recommended(state: &State) -> Option<&RecommendationRow> {
     let data = state.data.as_ref()?;
@@ -35,7 +35,7 @@ pub fn recommended(state: &State) -> Option<&RecommendationRow> {
     data.recommendations.iter().find(|row| row.garment == job.garment && row.class == class)
 }
 
-/// Selects a run for a comparison, or no longer.
+/// Marks a run for a comparison, or takes the mark away.
 pub fn mark_run(state: &mut State) {
     let Some(id) = state.job().map(|job| job.id) else { return state.say("no job is selected") };
     if !state.marks.remove(&id) {
@@ -51,14 +51,14 @@ pub fn mark_run(state: &mut State) {
     });
 }
 
-/// Takes all selections back.
+/// Takes all marks away.
 pub fn unmark_runs(state: &mut State) {
     state.say(format!("{} runs were selected, none is now", state.marks.len()));
     state.marks.clear();
 }
 
 impl CompareScreen {
-    /// The measurements shown: all, or those in which the runs differ.
+    /// Rows that are shown: all measurements, or those in which the runs differ.
     #[must_use]
     pub fn rows(&self, state: &State) -> Vec<ComparisonRow> {
         let filter = state.filter_of(Screen::Compare);
@@ -75,7 +75,7 @@ impl CompareScreen {
         rows
     }
 
-    /// The comparison, tab-separated.
+    /// Comparison as text, separated by tabs.
     #[must_use]
     pub fn table(&self, state: &State) -> Option<String> {
         let jobs: Vec<&JobRow> = compared(state).iter().map(|run| &run.job).collect();

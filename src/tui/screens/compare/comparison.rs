@@ -1,31 +1,31 @@
-//! Runs measurement by measurement, and what that says.
+//! Comparison of runs, measurement by measurement, with its conclusions.
 
 use crate::messages::snapshot::Compared;
 use crate::widgets::text;
 use store::{ChiRow, JobRow, RecommendationRow};
 
-/// Runs that are compared at most.
+/// Most runs in a comparison.
 pub const MOST: usize = 6;
-/// chi of two runs differ where the third decimal does.
+/// Least difference between chi of two runs that counts: half of the third decimal.
 const DIFFERS: f64 = 0.0005;
-/// EI that are nearer than this make no practical difference (the margin of the recommendation).
+/// Difference of EI below which runs are equally good in practice, as for recommendations.
 const MARGIN: f64 = 0.01;
 
-/// One measurement over all runs compared.
+/// One measurement of all compared runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonRow {
-    /// Number in the style.
+    /// Number of the measurement in the style.
     pub no: u32,
     /// Name of the measurement in the style.
     pub name: String,
-    /// Pattern length of the first run that has it, m.
+    /// Pattern length in the first run with the measurement, m.
     pub l2d_m: f64,
-    /// chi of each run; `None` where it has no such measurement.
+    /// Chi of each run; `None` for a run without the measurement.
     pub chi: Vec<Option<f64>>,
 }
 
 impl ComparisonRow {
-    /// True if the runs differ.
+    /// True if the runs differ in the measurement.
     #[must_use]
     pub fn differs(&self) -> bool {
         let first = self.chi[0];
@@ -35,7 +35,7 @@ impl ComparisonRow {
         })
     }
 
-    /// The run nearest to 1, where one alone is.
+    /// Index of the run whose chi is nearest to 1; `None` where several are.
     #[must_use]
     pub fn nearest(&self) -> Option<usize> {
         let error = |k: usize| self.chi[k].map_or(f64::INFINITY, |chi| (chi - 1.0).abs());
@@ -45,7 +45,7 @@ impl ComparisonRow {
     }
 }
 
-/// The parts of the names of runs that are not the same in all.
+/// Labels of runs: the parts of their names that are not the same in all.
 #[must_use]
 pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
     let parts: [fn(&JobRow) -> String; 5] = [
@@ -69,7 +69,7 @@ pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
         .collect()
 }
 
-/// The measurements of all runs, by the numbers and names of their last stage.
+/// Measurements of all runs, each run at its last stage, matched by number and name.
 #[must_use]
 pub fn comparison_rows(runs: &[Compared]) -> Vec<ComparisonRow> {
     let mut found: Vec<ComparisonRow> = Vec::new();
@@ -95,7 +95,7 @@ fn last_stage(chi: &[ChiRow]) -> impl Iterator<Item = &ChiRow> {
     chi.iter().filter(move |row| Some(row.stage.as_str()) == last)
 }
 
-/// Conclusions of the comparison, in sentences, the most important first.
+/// Conclusions, in sentences, the most important first.
 #[must_use]
 pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Vec<String> {
     let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
@@ -127,7 +127,7 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
     said
 }
 
-/// The run with the least EI, or those that nothing tells apart in practice.
+/// Names the run with the least EI, or the runs that are equally good in practice.
 fn truest(runs: &[Compared], names: &[String]) -> String {
     let mut ranked: Vec<(&str, f64)> =
         runs.iter().zip(names).filter_map(|(run, name)| Some((name.as_str(), run.metrics.as_ref()?.ei))).collect();
@@ -147,7 +147,8 @@ fn truest(runs: &[Compared], names: &[String]) -> String {
     }
 }
 
-/// Names of the inputs in which the runs differ from the first, without those of the same cell's other simulator.
+/// Names of inputs in which runs differ from the first, without the hash of default parameters, which differs between
+/// simulators.
 #[must_use]
 pub fn differing_inputs(runs: &[Compared]) -> Vec<String> {
     let Some((first, rest)) = runs.split_first() else { return vec![] };

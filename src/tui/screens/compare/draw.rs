@@ -23,18 +23,18 @@ use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
 use store::{JobRow, MetricsRow};
 
-/// Columns of one run.
+/// Columns for one run.
 const RUN: usize = 12;
-/// Columns of number and pattern length.
+/// Columns for number and pattern length.
 const FIXED: usize = 3 + 8;
 /// Lines above the measurements.
 const HEAD: usize = 3;
-/// The fewest columns of a name.
+/// Fewest columns for a name.
 const LEAST_NAME: usize = 12;
-/// Columns of the difference of two.
+/// Columns for the difference of two runs.
 const DELTA: usize = 9;
 
-/// Names of what is shown, as the glossary has them.
+/// Names of the quantities on the screen, as in the glossary.
 const NAMES: [&str; 8] = ["chi", "diff", "L2D", "E(chi)", "EI", "measurement", "FEM", "HYB"];
 
 impl Draw for CompareScreen {
@@ -146,7 +146,7 @@ impl CompareScreen {
     }
 }
 
-/// The panes: table, verdict, and one picture a run.
+/// The panes: table, conclusions, and a picture for each run.
 struct Panes {
     table: Option<Rect>,
     verdict: Option<Rect>,
@@ -177,13 +177,13 @@ fn panes(area: Rect, state: &State) -> Panes {
     Panes { table: Some(table), verdict: Some(verdict), pictures }
 }
 
-/// The panes of the pictures, one a run as far as there is room.
+/// Panes of the pictures, for as many runs as fit.
 pub fn picture_panes(area: Rect, state: &State) -> Vec<(Pictured, Rect)> {
     let drapes = compared(state).iter().map(|run| Pictured::Drape(run.job.id));
     drapes.zip(panes(area, state).pictures).collect()
 }
 
-/// The truest run, the inputs that differ, then the rest of the verdict: a small pane cuts what comes last.
+/// Truest run, inputs that differ, then other conclusions: a small pane cuts the last.
 fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
     let inputs = differing_inputs(runs).join(", ");
     let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
@@ -223,10 +223,10 @@ fn title(runs: &[Compared]) -> String {
     format!("{} runs{}{}", runs.len(), if shared.is_empty() { "" } else { " · " }, shared.join(" "))
 }
 
-/// Widths: the name takes what the runs leave.
+/// Widths of columns; the name takes what the runs leave.
 struct Columns {
     name: usize,
-    /// Runs there is room for.
+    /// Number of runs that fit.
     runs: usize,
     delta: bool,
 }
@@ -234,7 +234,7 @@ struct Columns {
 impl Columns {
     fn new(rows: &[ComparisonRow], runs: usize, width: usize) -> Self {
         let longest = rows.iter().map(|row| text::width(&row.name)).max().unwrap_or(0).max(11) + 1;
-        // The runs matter more than their difference, which is left out first.
+        // Runs matter more than their difference, which is left out first.
         let delta = runs == 2 && width >= FIXED + LEAST_NAME + 2 * RUN + DELTA;
         let taken = FIXED + if delta { DELTA } else { 0 };
         let runs = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
@@ -255,7 +255,7 @@ fn line(state: &State, row: &ComparisonRow, columns: &Columns) -> Line<'static> 
         spans.push(Span::styled(right(&text, RUN), style));
     }
     if let ([Some(a), Some(b)], true) = (row.chi.as_slice(), columns.delta) {
-        // Adding nothing to a difference that rounds to nothing takes its sign away.
+        // Adding zero removes the sign of a difference that rounds to zero.
         let difference = ((b - a) * 1e3).round() / 1e3 + 0.0;
         spans.push(Span::raw(right(&format!("{difference:+.3}").replace('-', "−"), DELTA - 2)));
     }

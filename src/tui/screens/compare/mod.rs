@@ -1,4 +1,4 @@
-//! Screen 6: runs side by side: chi of each measurement, what that says, and the drapes where there is room.
+//! Screen 6: runs side by side, with chi of each measurement, conclusions, and drapes where they fit.
 
 pub mod actions;
 mod comparison;

@@ -1,12 +1,12 @@
-//! State of the screen of comparisons.
+//! State of the Compare screen.
 
-/// The screen of comparisons.
+/// The Compare screen.
 #[derive(Default)]
 pub struct CompareScreen {
-    /// True where only the measurements are shown in which compared runs differ.
+    /// True to show only measurements in which the runs differ.
     pub differences_only: bool,
-    /// True where those that differ most come first.
+    /// True to sort by difference, the greatest first.
     pub sorts_by_difference: bool,
-    /// Measurement selected, a row of the table shown.
+    /// Index of the selected row.
     pub row: usize,
 }

@@ -10,7 +10,7 @@ use spec::FABRIC_NUMBERS;
 use wardrobe::{FabricRow, Mode, Part};
 
 impl FabricsScreen {
-    /// Fabrics that pass the filter, in order.
+    /// Fabrics that pass the filter, in the order of the list.
     #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a FabricRow> {
         let Some(data) = &state.data else { return vec![] };
@@ -28,7 +28,7 @@ impl FabricsScreen {
         fabrics
     }
 
-    /// Index of the selected fabric among those shown: the first, where the one chosen is not shown.
+    /// Index of the selected fabric in the list; 0 where the chosen fabric is not shown.
     #[must_use]
     pub fn index_in(&self, shown: &[&FabricRow]) -> usize {
         shown.iter().position(|row| Some(&row.fabric.name) == self.chosen.as_ref()).unwrap_or(0)
@@ -41,14 +41,14 @@ impl FabricsScreen {
         shown.get(self.index_in(&shown)).copied()
     }
 
-    /// Moves in the list.
+    /// Moves the selection in the list.
     pub fn go_in_list(&mut self, state: &State, movement: Movement) {
         let shown = self.shown(state);
         let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
         self.chosen = next.map(|row| row.fabric.name.clone());
     }
 
-    /// Asks for the values of a new fabric, at first those of the selected one.
+    /// Opens the form for a new fabric, with the values of the selected one.
     pub fn add(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
             let otherwise = "no fabric is selected that a new one could start with: Esc clears the filter";
@@ -56,7 +56,7 @@ impl FabricsScreen {
         }
     }
 
-    /// Asks for other values of the selected fabric.
+    /// Opens the form of the selected fabric.
     pub fn edit(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
             catalogue::fill_in(state, self.form(state, Mode::Edit), "no fabric is selected");
@@ -68,7 +68,7 @@ impl FabricsScreen {
         self.selected(state).map(|row| Form::of_fabric(row, mode, all))
     }
 
-    /// Removes the selected fabric, once that is confirmed.
+    /// Removes the selected fabric, after a question.
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Fabric) {
             let name = self.selected(state).map(|row| row.fabric.name.clone());
@@ -76,7 +76,7 @@ impl FabricsScreen {
         }
     }
 
-    /// The selected fabric, tab-separated.
+    /// Selected fabric as text, separated by tabs.
     #[must_use]
     pub fn line(&self, state: &State) -> Option<String> {
         let fabric = &self.selected(state)?.fabric;

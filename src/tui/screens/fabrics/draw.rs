@@ -18,8 +18,7 @@ use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use spec::FABRIC_NUMBERS;
 use wardrobe::FabricRow;
 
-/// Headings of the numbers in the list, their columns, and the factors by which numbers are multiplied to be read with
-/// ease.
+/// Columns of numbers in the list: heading, width, and factor by which numbers are multiplied for reading.
 const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
     ("g/m²", 6, 1e3),
     ("mm", 6, 1.0),
@@ -30,30 +29,30 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
     ("b.weft", 7, 1e6),
 ];
 
-/// Columns of the marks after a name, and the fewest of a name.
+/// Columns for marks after a name, and fewest for a name.
 const MARKS: usize = 5;
 const LEAST_NAME: usize = 14;
-/// Headings of the quantities that follow from the numbers, where there is room, and their columns.
+/// Columns of quantities that follow from the numbers, where they fit: heading and width.
 const FOLLOWS: [(&str, usize); 2] = [("bends mm", 12), ("of weight", 11)];
-/// Meaning of the columns of the list.
+/// Legend of the list.
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled  ~ class";
 
-/// Lines of the table of a fabric: its numbers, and two bending lengths.
+/// Number of lines in the table of a fabric: its numbers, and two bending lengths.
 pub fn table_lines() -> usize {
     FABRIC_NUMBERS.len() + 2
 }
 
-/// Columns of a value in the table.
+/// Columns for a value in the table.
 const VALUE: usize = 10;
-/// Lines of the pane with the source, without the curves.
+/// Lines of the pane with the source, without its curves.
 const FACTS: u16 = 8;
-/// Most columns of the bar that shows where a number stands among all fabrics.
+/// Most columns of the bar that shows the rank of a number among all fabrics.
 const BAR: usize = 12;
-/// Stretches up to which the curves go: that of a woven, and how far beyond its law that of a knit.
+/// Greatest stretch on the curves of a woven; and, for a knit, the factor on the stretch that its law reaches.
 const WOVEN: f64 = 0.05;
 const BEYOND: f64 = 1.25;
 
-/// The panes: list, table of the selected fabric, source and curves.
+/// The panes: list, table of the selected fabric, source with curves.
 fn panes(area: Rect) -> [Rect; 3] {
     let lines = (table_lines() + 3) as u16;
     let below = lines.min(area.height.saturating_sub(10)).max(area.height / 2);
@@ -63,7 +62,7 @@ fn panes(area: Rect) -> [Rect; 3] {
     [list, table, facts]
 }
 
-/// Lines of the table that are shown at a time.
+/// Number of table lines that fit.
 pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
@@ -124,7 +123,7 @@ impl Draw for FabricsScreen {
 }
 
 impl FabricsScreen {
-    /// The list with its header; the name takes what the numbers leave.
+    /// List with its header; the name takes what the numbers leave.
     fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let fabrics = self.shown(state);
         let width = usize::from(width);
@@ -183,8 +182,8 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
     text
 }
 
-/// Quantities that follow from the numbers of a fabric, along and across the grain, once where both are the same: bending
-/// lengths, and the standing of its bending among the known cloths of its weight.
+/// Quantities that follow from the numbers of a fabric, along and across the grain, or once where both are the same:
+/// bending lengths, and their ranks among the known cloths of its weight.
 fn tail(row: &FabricRow) -> String {
     let lengths = row.fabric.bending_lengths_m().map(text::mm);
     let ranks = row.fabric.standings().map(|standing| standing.to_string());
@@ -201,7 +200,7 @@ fn in_four(value: f64) -> String {
     }
 }
 
-/// All numbers with their units, and the rank of each among the fabrics of the catalogue; quantities that follow from them.
+/// All numbers with units and their ranks in the catalogue; then the quantities that follow from them.
 fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
     let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
     let label = columns.saturating_sub(VALUE + 7).min(34);
@@ -227,7 +226,7 @@ fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// The share of other values that are less than a value, percent; `None` where all are the same.
+/// Share of other values that are less than a value, %; `None` where all are the same.
 fn rank(value: f64, all: impl Iterator<Item = f64>) -> Option<f64> {
     let (mut below, mut above) = (0, 0);
     for other in all {
@@ -237,7 +236,7 @@ fn rank(value: f64, all: impl Iterator<Item = f64>) -> Option<f64> {
     (below + above > 0).then(|| 100.0 * below as f64 / (below + above) as f64)
 }
 
-/// Draws the source of the numbers, the users of the fabric, and, where there is room, its curves of force over stretch.
+/// Draws source and users of the fabric and, where they fit, its curves of force against stretch.
 fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&FabricRow>) {
     let block = pane(state.theme, "source", false);
     let inner = block.inner(area);
@@ -252,7 +251,7 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
     };
     let mut lines = vec![Line::styled(shortened(&format!("{origin}; {used}"), columns), state.theme.bold())];
     lines.extend(row.stands_for().into_iter().flat_map(|text| wrapped(&text, columns)).map(Line::raw));
-    // Where there is room for the whole table, it tells that.
+    // Where the whole table fits, it has the bending lengths.
     if usize::from(area.height) < table_lines() + 3 {
         let [along, across] = row.fabric.bending_lengths_m().map(text::mm);
         let [rank_along, rank_across] = row.fabric.standings();
@@ -268,7 +267,7 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
     }
 }
 
-/// Force per width of a strip along the grain and of one across it over its stretch.
+/// Draws force per width against stretch, for strips along and across the grain.
 fn draw_curves(frame: &mut Frame<'_>, area: Rect, state: &State, row: &FabricRow) {
     const POINTS: usize = 40;
     let most = row.fabric.stretched.map_or(WOVEN, |law| law.stretch * BEYOND);

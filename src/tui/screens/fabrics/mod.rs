@@ -1,4 +1,4 @@
-//! Screen 9: the fabrics of the catalogue, and of the selected one its numbers, their source, and its curves of force over
+//! Screen 9: the fabrics of the catalogue; for the selected one its numbers, their source, and curves of force against
 //! stretch.
 
 mod actions;

@@ -1,22 +1,22 @@
-//! State of the screen of fabrics.
+//! State of the Fabrics screen.
 
 use crate::screens::order::Order;
 
-/// Numbers in the list of fabrics, by their places in [`spec::FABRIC_NUMBERS`].
+/// Numbers in the list, as indices into [`spec::FABRIC_NUMBERS`].
 pub const FABRIC_SHOWN: [usize; 7] = [0, 1, 2, 3, 5, 6, 7];
 
-/// Order of fabrics.
+/// Order of the list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum FabricOrder {
     /// By name, alphabetically.
     #[default]
     Name,
-    /// By a number of [`FABRIC_SHOWN`], the smallest first.
+    /// By the number at an index of [`FABRIC_SHOWN`], the smallest first.
     Number(usize),
 }
 
 impl FabricOrder {
-    /// The order that `sort` comes to next.
+    /// Order after this one, for the key that sorts.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -27,11 +27,11 @@ impl FabricOrder {
     }
 }
 
-/// The screen of fabrics.
+/// The Fabrics screen.
 #[derive(Default)]
 pub struct FabricsScreen {
-    /// Name of the fabric chosen.
+    /// Name of the chosen fabric.
     pub chosen: Option<String>,
-    /// Order of fabrics.
+    /// Order of the list.
     pub order: Order<FabricOrder>,
 }

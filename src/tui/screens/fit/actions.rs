@@ -1,4 +1,4 @@
-//! Choosing a level and a quantity; asking for cross sections.
+//! Choosing a level and a quantity; requesting cross sections.
 
 use crate::keys::screen::Screen;
 use crate::messages::answered::Answered;
@@ -11,13 +11,13 @@ use crate::widgets::text::words;
 use results::{CrossSection, GarmentWorn};
 use store::JobId;
 
-/// The subject looked at in the grid.
+/// Subject of the selected cell of the grid.
 #[must_use]
 pub fn wearer(state: &State) -> Option<&String> {
     state.grid()?.subjects.get(state.place.subject)
 }
 
-/// Fit of the garment looked at on that subject, once it was read.
+/// Fit of the shown garment on that subject; `None` until it is read.
 #[must_use]
 pub fn worn(state: &State) -> Option<&GarmentWorn> {
     let (garment, wearer) = (&state.grid()?.garment, wearer(state)?);
@@ -25,7 +25,7 @@ pub fn worn(state: &State) -> Option<&GarmentWorn> {
     Some(worn).filter(|worn| worn.card.garment == *garment && worn.card.subject == *wearer)
 }
 
-/// The levels of its card that pass the filter.
+/// Levels of the fit card that pass the filter.
 #[must_use]
 pub fn card_levels(state: &State) -> Vec<&str> {
     let mut levels = worn(state).map_or(vec![], |worn| worn.card.levels());
@@ -33,7 +33,7 @@ pub fn card_levels(state: &State) -> Vec<&str> {
     levels
 }
 
-/// The quantities of its sizes that pass the filter.
+/// Quantities of the sizes that pass the filter.
 #[must_use]
 pub fn quantities_shown(state: &State) -> Vec<Quantity> {
     let mut rows = worn(state).map_or(vec![], |worn| quantities(&worn.sizes));
@@ -48,7 +48,7 @@ pub fn passes(state: &State, name: &str) -> bool {
 }
 
 impl FitScreen {
-    /// Cross sections of what is looked at; `None` while they are being cut.
+    /// Cross sections of the shown results; `None` while they are cut.
     #[must_use]
     pub fn sections(&self, state: &State) -> Option<&Sections> {
         let jobs = jobs_of(worn(state)?);
@@ -59,7 +59,7 @@ impl FitScreen {
         self.sections(state).and_then(|sections| sections.as_deref().ok()).unwrap_or_default()
     }
 
-    /// The level looked at: the one chosen, else the one that is worst with the size to wear.
+    /// Level that is shown: the chosen one, else the worst level of the size to wear.
     #[must_use]
     pub fn level<'a>(&'a self, state: &'a State) -> Option<&'a str> {
         let worn = worn(state)?;
@@ -70,13 +70,13 @@ impl FitScreen {
         chosen.or(worst).or(known.first().copied())
     }
 
-    /// Index of the level looked at among levels.
+    /// Index of the shown level in `levels`.
     #[must_use]
     pub fn level_in(&self, state: &State, levels: &[&str]) -> Option<usize> {
         self.level(state).and_then(|level| levels.iter().position(|other| is_same(other, level)))
     }
 
-    /// The section at the level looked at; where none was chosen and there is none, the first.
+    /// Section at the shown level; the first section where no level was chosen and the shown one has none.
     #[must_use]
     pub fn section(&self, state: &State) -> Option<&CrossSection> {
         let (level, sections) = (self.level(state)?, self.known_sections(state));
@@ -84,7 +84,7 @@ impl FitScreen {
         sections.iter().find(|section| is_same(&section.level, level)).or(first)
     }
 
-    /// Goes to the section at the next level, or to the one before.
+    /// Shows the section at the next level, or at the previous one.
     pub fn step_level(&mut self, state: &mut State, step: isize) {
         let sections = self.known_sections(state);
         let shown = self.section(state);
@@ -99,7 +99,7 @@ impl FitScreen {
         }
     }
 
-    /// Reason why there is no section at the level looked at.
+    /// Reason why the shown level has no section.
     #[must_use]
     pub fn why_no_section(&self, state: &State) -> String {
         match (worn(state), self.sections(state)) {
@@ -114,7 +114,7 @@ impl FitScreen {
         }
     }
 
-    /// Moves in the part that has the focus.
+    /// Moves the selection in the part that has the focus.
     pub fn go_in_view(&mut self, state: &mut State, movement: Movement) {
         match (self.view, movement) {
             (View::Card, _) => {
@@ -132,7 +132,7 @@ impl FitScreen {
         }
     }
 
-    /// Gives the focus to the next part, or to the one before; from what to change, back to the one before that.
+    /// Moves the focus to the next or previous part. From the alteration, moves back to the part under it.
     pub fn step_view(&mut self, step: isize) {
         if std::mem::take(&mut self.alter.is_open) {
             return;
@@ -141,14 +141,14 @@ impl FitScreen {
         self.view = View::ALL[at.unwrap_or(0)];
     }
 
-    /// Has the results that are looked at cut, where that was not asked for yet.
+    /// Requests sections of the shown results, unless they were requested before.
     pub fn ask_for_sections(&mut self, state: &State) -> Option<Effect> {
         let jobs = worn(state).map(jobs_of).filter(|jobs| !jobs.is_empty() && *jobs != self.asked)?;
         self.asked.clone_from(&jobs);
         Some(Effect::Cut(jobs))
     }
 
-    /// Takes in sections that are still wanted.
+    /// Stores sections that are still wanted.
     pub fn take_sections(&mut self, jobs: Vec<JobId>, sections: Sections) {
         if jobs == self.asked {
             self.cut = Some(Answered { request: jobs, outcome: sections });
@@ -156,19 +156,19 @@ impl FitScreen {
     }
 }
 
-/// The results of the sizes that have one.
+/// Jobs of the sizes that have a drape.
 fn jobs_of(worn: &GarmentWorn) -> Vec<JobId> {
     worn.sizes.iter().map(|size| size.job).collect()
 }
 
-/// True if two levels are one: the bust is the chest of women's garments.
+/// True if two names mean the same level: the bust is the chest of women's garments.
 #[must_use]
 pub fn is_same(level: &str, other: &str) -> bool {
     let plain = |level| if level == "bust" { "chest" } else { level };
     plain(level) == plain(other)
 }
 
-/// The fit card, tab-separated.
+/// Fit card as text, separated by tabs.
 #[must_use]
 pub fn card_table(state: &State) -> Option<String> {
     let card = &worn(state).filter(|worn| !worn.card.sizes.is_empty())?.card;
@@ -190,7 +190,7 @@ pub fn card_table(state: &State) -> Option<String> {
     Some(table)
 }
 
-/// The sizes side by side, tab-separated.
+/// Sizes side by side as text, separated by tabs.
 #[must_use]
 pub fn size_table(state: &State) -> Option<String> {
     let sizes = &worn(state).filter(|worn| !worn.sizes.is_empty())?.sizes;

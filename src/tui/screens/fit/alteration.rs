@@ -1,4 +1,4 @@
-//! Drawing the change of a size: handles, ease before and after, the drape, and remarks.
+//! Drawing the alteration of a size: handles, ease before and after, drape, and remarks.
 
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -13,12 +13,12 @@ use crate::widgets::theme::Theme;
 use advice::{Alteration, AlteredLevel, MovedHandle};
 use results::Sits;
 
-/// Columns of an amount, a target, an ease and its sign.
+/// Columns for an amount, a target, and an ease with its sign.
 const AMOUNT: usize = 8;
 const TARGET: usize = 9;
 const EASE: usize = 8;
 const SIGN: usize = 3;
-/// The fewest columns with the ease that is promised, and words beside signs.
+/// Least columns at which promised ease and words beside signs are shown.
 const ROOMY: usize = 62;
 
 impl Alter {
@@ -30,7 +30,7 @@ impl Alter {
         }
     }
 
-    /// Mark of the numbers of lines above and below those shown.
+    /// Mark with the numbers of lines hidden above and below.
     pub fn hidden_mark(&self, hidden: usize) -> Option<String> {
         let down = self.down.min(hidden);
         let mark = match (down, hidden - down) {
@@ -42,13 +42,13 @@ impl Alter {
         Some(mark)
     }
 
-    /// Number of lines that there is no room for in a pane.
+    /// Number of lines that do not fit into a pane.
     pub fn hidden(&self, state: &State, pane: Rect) -> usize {
         let (columns, rows) = inner(pane);
         self.lines(state, columns, rows).len().saturating_sub(rows)
     }
 
-    /// All lines. Where so many rows have room for that, parts are set apart, and it is said in full what handles do.
+    /// All lines. Where they fit into `rows`, blank lines part them, and the effects of handles are given in full.
     pub fn lines(&self, state: &State, columns: usize, rows: usize) -> Vec<Line<'static>> {
         let theme = state.theme;
         let told = |text: &str, style: Style| -> Vec<Line<'static>> {
@@ -85,18 +85,18 @@ impl Alter {
     }
 }
 
-/// Columns and rows inside a pane.
+/// Columns and rows within the border of a pane.
 pub fn inner(pane: Rect) -> (usize, usize) {
     (usize::from(pane.width.saturating_sub(2)), usize::from(pane.height.saturating_sub(2)))
 }
 
-/// A remark, its further lines set in.
+/// Lines of a remark, indented from the second on.
 fn hanging(remark: &str, columns: usize) -> Vec<Line<'static>> {
     let lines = wrapped(remark, columns.saturating_sub(2)).into_iter().enumerate();
     lines.map(|(k, line)| Line::raw(format!("{}{line}", if k == 0 { "• " } else { "  " }))).collect()
 }
 
-/// Verdict in a line: the number of handles that change, and the levels that are missed then.
+/// Line with the number of handles that move, and the levels that are missed all the same.
 fn verdict(theme: Theme, found: &Alteration, columns: usize) -> Vec<Line<'static>> {
     let missed: Vec<&AlteredLevel> = found.levels.iter().filter(|level| !level.is_met()).collect();
     let has_target = found.levels.iter().any(|level| level.target_mm.is_some());
@@ -120,7 +120,7 @@ fn verdict(theme: Theme, found: &Alteration, columns: usize) -> Vec<Line<'static
     lines.into_iter().map(|line| Line::styled(line, style.patch(theme.bold()))).collect()
 }
 
-/// The handles that move: amount and effect, the whole of it or as far as there is room in a line.
+/// Lines of the handles that move: amount and effect, in full or as far as one line holds.
 fn moves(theme: Theme, found: &Alteration, columns: usize, is_whole: bool) -> Vec<Line<'static>> {
     if found.moves.is_empty() {
         return vec![];
@@ -144,13 +144,13 @@ fn moves(theme: Theme, found: &Alteration, columns: usize, is_whole: bool) -> Ve
     told
 }
 
-/// A text or its first clause; nothing where there is no room for that.
+/// Text or its first clause, whichever fits; empty where neither fits.
 fn clause(whole: &str, columns: usize) -> &str {
     let first = whole.split([':', ';']).next().unwrap_or(whole);
     [whole, first].into_iter().find(|text| text::width(text) <= columns).unwrap_or_default()
 }
 
-/// Ease at the levels that pass the filter, from the neck down.
+/// Lines with the ease at the levels that pass the filter, from the neck down.
 fn levels(state: &State, found: &Alteration, columns: usize) -> Vec<Line<'static>> {
     let (theme, is_roomy) = (state.theme, columns >= ROOMY);
     let order = worn(state).map_or(vec![], |worn| worn.card.levels());
@@ -183,7 +183,7 @@ fn levels(state: &State, found: &Alteration, columns: usize) -> Vec<Line<'static
     told
 }
 
-/// An ease in so many columns, and its sign.
+/// Ease in `columns` columns, with its sign.
 fn ease(theme: Theme, altered: &AlteredLevel, mm: f64, columns: usize) -> Span<'static> {
     let sits = altered.sits(mm);
     let (sign, style) = sign(theme, sits);
@@ -191,7 +191,7 @@ fn ease(theme: Theme, altered: &AlteredLevel, mm: f64, columns: usize) -> Span<'
     Span::styled(format!("{} {sign}{mark}", right(&signed(mm), columns)), style)
 }
 
-/// A length with its sign, to a tenth.
+/// Length with its sign, to 0.1 mm.
 fn signed(mm: f64) -> String {
     format!("{mm:+.1}").replace('-', "−")
 }

@@ -1,4 +1,4 @@
-//! Asking what to change of a size, draping and writing it.
+//! Requesting the alteration of a size, draping it and writing it.
 
 use crate::keys::screen::Screen;
 use crate::messages::alterations::AlterRequest;
@@ -15,11 +15,11 @@ use fit::Simulator;
 use report::file_part;
 use store::JobRow;
 
-/// Message where nothing is shown that could be changed.
+/// Message while no alteration is shown.
 const CLOSED: &str = "a finds what to change first";
 
 impl Alter {
-    /// Shows what to change; where that is shown already, it is found anew. What was draped is kept.
+    /// Shows the alteration. If it is shown already, requests it again; if it was draped, keeps it.
     pub fn open(&mut self, state: &mut State) -> Vec<Effect> {
         state.show(Screen::Fit);
         let was_open = std::mem::replace(&mut self.is_open, true);
@@ -34,13 +34,13 @@ impl Alter {
         }
     }
 
-    /// The change that was found, where it is shown or kept.
+    /// Alteration that was found, shown or not.
     #[must_use]
     pub fn found(&self) -> Option<&Alteration> {
         self.answer.as_ref()?.as_deref().ok()
     }
 
-    /// Asks what to change of what is looked at, where it is shown and that was not asked for yet.
+    /// Requests the alteration for the shown garment and subject, if it is to be shown and was not requested before.
     pub fn ask_if_wanted(&mut self, state: &State) -> Option<Effect> {
         let is_asked = self.asked.as_ref().is_some_and(|asked| is_looked_at(state, asked));
         if !self.is_open || is_asked {
@@ -49,13 +49,13 @@ impl Alter {
         to_alter(state).map(|request| self.ask(request))
     }
 
-    /// Forgets what was found and asks for something else.
+    /// Forgets the present alteration and requests another.
     fn ask(&mut self, request: AlterRequest) -> Effect {
         *self = Self { is_open: true, asked: Some(request.clone()), ..Self::default() };
         Effect::Alter(request)
     }
 
-    /// Asks what to change of the next larger size, or of the next smaller one.
+    /// Requests the alteration of the next larger or smaller size.
     pub fn step_size(&mut self, state: &mut State, step: isize) -> Vec<Effect> {
         let asked = self.asked.clone().filter(|_| self.is_open);
         let Some((asked, grid)) = asked.zip(state.grid()) else {
@@ -71,7 +71,7 @@ impl Alter {
         }
     }
 
-    /// Has the changed pattern draped.
+    /// Requests the drape of the altered pattern.
     pub fn drape(&mut self, state: &mut State) -> Vec<Effect> {
         let Self { is_open, asked, answer, draping, .. } = &*self;
         let why_not = match (asked, answer) {
@@ -90,7 +90,7 @@ impl Alter {
         state.reply(why_not)
     }
 
-    /// Expected duration of a drape of what is asked for, in words.
+    /// Expected duration of the drape, in words.
     #[must_use]
     pub fn how_long(&self, state: &State) -> String {
         self.drape_ms(state).map_or("that may take minutes".to_owned(), |ms| {
@@ -98,7 +98,7 @@ impl Alter {
         })
     }
 
-    /// Duration of the study's own drape of what is asked for, ms, else the longest of the garment.
+    /// Duration of the study's own drape of this size, ms; without one, the longest of the garment.
     fn drape_ms(&self, state: &State) -> Option<i64> {
         let asked = self.asked.as_ref()?;
         let is_drape = |job: &&JobRow| job.simulator == Simulator::Fem && job.status.has_result();
@@ -108,7 +108,7 @@ impl Alter {
         same.or(of_garment.filter_map(|job| job.wall_ms).max())
     }
 
-    /// Asks for the folder that the changed pattern goes into.
+    /// Asks for the folder for the altered pattern.
     pub fn write(&self, state: &mut State) {
         match self.found().filter(|_| self.is_open) {
             Some(found) => {
@@ -120,7 +120,7 @@ impl Alter {
         }
     }
 
-    /// Takes in what was found, where it is still wanted. A drape that failed leaves the change as it was.
+    /// Stores an alteration that is still wanted. Where only its drape failed, the alteration stays.
     pub fn take(&mut self, state: &mut State, request: &AlterRequest, found: Result<Box<Alteration>, String>) {
         let flat = AlterRequest { is_draped: false, ..request.clone() };
         if self.asked.as_ref() != Some(&flat) {
@@ -139,12 +139,12 @@ impl Alter {
         }
     }
 
-    /// Scrolls what is shown of a change, of which so many lines are hidden.
+    /// Scrolls the alteration, of which `hidden` lines do not fit.
     pub fn scroll(&mut self, movement: Movement, hidden: usize) {
         self.down = movement.from(self.down.min(hidden), hidden + 1);
     }
 
-    /// The command that finds the same and writes it.
+    /// Command that finds and writes the same alteration.
     #[must_use]
     pub fn command(&self, state: &State) -> Option<String> {
         let (asked, found) = (self.asked.as_ref()?, self.found()?);
@@ -160,7 +160,7 @@ impl Alter {
     }
 }
 
-/// The size to wear of what is looked at; the selected one of the grid where none is to wear.
+/// Request for the size to wear of the shown garment and subject; where there is none, for the selected size.
 fn to_alter(state: &State) -> Option<AlterRequest> {
     let (worn, grid) = (worn(state)?, state.grid()?);
     let to_wear = worn.card.to_wear().map(|size| &size.size);
@@ -174,12 +174,12 @@ fn to_alter(state: &State) -> Option<AlterRequest> {
     })
 }
 
-/// True if a request is for what is looked at, in any of its sizes.
+/// True if a request is for the shown garment and subject, in any size.
 fn is_looked_at(state: &State, asked: &AlterRequest) -> bool {
     to_alter(state).is_none_or(|request| request.is_for_same(asked))
 }
 
-/// The folder that a changed pattern is meant to go into.
+/// Folder that is proposed for an altered pattern.
 fn folder(found: &Alteration) -> String {
     format!("altered/{}", file_part(&format!("{}_{}_{}", found.garment, found.size, found.subject)))
 }

@@ -1,4 +1,4 @@
-//! The fit card: a row a level, a column a size.
+//! The fit card: a row for each level, a column for each size.
 
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -15,15 +15,15 @@ use results::{FitCard, GarmentWorn, LevelSits, Sits, SizeSits};
 
 /// Meaning of the signs.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
-/// Columns of body and target.
+/// Columns for body and target.
 const BODY: usize = 6;
 const TARGET: usize = 10;
-/// Columns of a size with words in full and in short; of its ease and sign alone.
+/// Columns for a size: with words in full, with short words, with only ease and sign.
 const LONG: usize = 20;
 const SHORT: usize = 18;
 const SIGNS: usize = 9;
 
-/// Title of the pane: garment, subject and its number, intended fit.
+/// Title of the pane: garment, subject with its number, intended fit.
 pub fn title(state: &State) -> String {
     let Some(grid) = state.grid() else { return "fit".to_owned() };
     let at = state.place.subject;
@@ -38,7 +38,7 @@ pub fn title(state: &State) -> String {
 }
 
 impl FitScreen {
-    /// The card in so many columns, and at most so many lines.
+    /// Lines of the card, at most `lines` of them.
     pub fn card_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
         let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
         let card = &worn.card;
@@ -63,7 +63,7 @@ impl FitScreen {
         told
     }
 
-    /// The levels that can be gone to.
+    /// Places of the levels, for a jump.
     pub fn card_targets(&self, state: &State, inner: Rect) -> Vec<Target> {
         let Some(worn) = worn(state).filter(|worn| !worn.card.sizes.is_empty()) else { return vec![] };
         let (columns, lines) = (usize::from(inner.width), usize::from(inner.height));
@@ -77,7 +77,7 @@ impl FitScreen {
     }
 }
 
-/// Note on the parts that are missing where there is no drape.
+/// Note on what is not shown without a drape.
 fn missing(worn: &GarmentWorn, columns: usize) -> Vec<String> {
     if worn.sizes.is_empty() {
         wrapped("no drape yet: sections and the comparison of sizes need one, R runs the study", columns)
@@ -86,7 +86,7 @@ fn missing(worn: &GarmentWorn, columns: usize) -> Vec<String> {
     }
 }
 
-/// The verdict, the faults of the sizes beside the one to wear where there is room in so many lines, and the header.
+/// Header of the card, below the verdict and, where they fit, the faults of the neighbouring sizes.
 fn head(theme: Theme, card: &FitCard, widths: &Columns<'_>, columns: usize, lines: usize) -> Vec<Line<'static>> {
     let mut told = vec![verdict(theme, card, columns)];
     let others = others(card, columns);
@@ -97,7 +97,7 @@ fn head(theme: Theme, card: &FitCard, widths: &Columns<'_>, columns: usize, line
     told
 }
 
-/// The size to wear, and its worst fault.
+/// Line with the size to wear and its worst fault.
 fn verdict(theme: Theme, card: &FitCard, columns: usize) -> Line<'static> {
     let (sign, style) =
         card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |sits| sign(theme, sits.sits()));
@@ -105,13 +105,13 @@ fn verdict(theme: Theme, card: &FitCard, columns: usize) -> Line<'static> {
     Line::styled(verdict, style.patch(theme.bold()))
 }
 
-/// The worst faults of the sizes beside the one to wear.
+/// Lines with the worst faults of the neighbouring sizes.
 fn others(card: &FitCard, columns: usize) -> Vec<String> {
     let others = card.beside().iter().filter(|size| size.place.is_some_and(|place| place != 1));
     wrapped(&others.map(|size| format!("not {}: {}", size.size, size.words())).collect::<Vec<_>>().join("; "), columns)
 }
 
-/// Columns that there is room for: as many as possible of the size to wear and those beside it, then target and body.
+/// Columns that fit: as many as possible of the size to wear and its neighbours, then target and body.
 struct Columns<'a> {
     level: usize,
     sizes: Vec<&'a SizeSits>,
@@ -129,7 +129,7 @@ impl<'a> Columns<'a> {
         let size = [LONG, SHORT].into_iter().find(|size| left_over(*size, &sizes) >= Some(BODY + TARGET - 1));
         let size = size.or_else(|| left_over(SHORT, &sizes).map(|_| SHORT)).unwrap_or(SIGNS);
         while sizes.len() > 1 && left_over(size, &sizes).is_none() {
-            // The size to wear stays.
+            // Keeps the size to wear.
             let last = sizes.len() - 1;
             sizes.remove(if sizes[last].place == Some(1) { 0 } else { last });
         }
@@ -138,7 +138,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// A level in words, or in fewer.
+/// Name of a level, whole or short.
 pub fn name(level: &str, is_short: bool) -> String {
     let name = words(level);
     if is_short { name.replace("across ", "") } else { name }
@@ -176,7 +176,7 @@ pub fn is_to_wear(card: &FitCard, size: &str) -> bool {
     card.to_wear().is_some_and(|wear| wear.size == size)
 }
 
-/// The colour of a size.
+/// Colour of a size's line and column.
 pub fn colour(theme: Theme, card: &FitCard, size: &str) -> Style {
     let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     Style::new().fg(theme.lettered(number))
@@ -203,7 +203,7 @@ fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Li
     Line::from(spans)
 }
 
-/// The ease that is meant, from where to where; in ASCII with two dots, for one would be that of a decimal.
+/// Target ease, from where to where; in ASCII with two dots, since one would be a decimal point.
 pub fn target(theme: Theme, target_mm: Option<[f64; 2]>) -> String {
     let to = if theme.ascii { ".." } else { "…" };
     target_mm.map_or("—".to_owned(), |[least, most]| format!("{}{to}{}", whole(least), whole(most)))
@@ -224,7 +224,7 @@ fn cell(theme: Theme, sits: &LevelSits, columns: usize) -> Span<'static> {
     Span::styled(left(format!("{} {sign} {told}{mark}", right(&ease, 5)).trim_end(), columns), style)
 }
 
-/// The sign and the colour of how a size sits at a level.
+/// Sign and colour of an ease relative to its target.
 pub fn sign(theme: Theme, sits: Option<Sits>) -> (&'static str, Style) {
     match sits {
         None => (" ", theme.dim()),
@@ -234,7 +234,7 @@ pub fn sign(theme: Theme, sits: Option<Sits>) -> (&'static str, Style) {
     }
 }
 
-/// True if a size is too tight at a level and smaller than the body.
+/// True if a size is tight at a level and smaller than the body.
 fn is_undersized(sits: &LevelSits) -> bool {
     sits.ease_mm < 0.0 && sits.sits() == Some(Sits::Tight)
 }

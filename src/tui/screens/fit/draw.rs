@@ -16,14 +16,14 @@ use crate::widgets::layout::WIDE;
 use crate::widgets::lists::pane;
 use crate::widgets::text::{self, words};
 
-/// Bodies of at least so many rows have room for the card above the comparison.
+/// Least rows at which the card stands above the comparison of sizes.
 const TALL: u16 = 34;
-/// Columns of a card whose words are whole, with its borders.
+/// Columns for a card with whole words, its borders included.
 const CARD: u16 = 94;
-/// The fewest columns of a section beside the card.
+/// Fewest columns for a section beside the card.
 const SECTION: u16 = 40;
 
-/// Names of what is shown, as the glossary has them.
+/// Names of the quantities on the screen, as in the glossary.
 const NAMES: [&str; 11] = [
     "ease",
     "target",
@@ -89,7 +89,7 @@ impl Draw for FitScreen {
 }
 
 impl FitScreen {
-    /// The parts that there is room for, each with its place.
+    /// Parts that fit, with their places.
     fn parts(&self, area: Rect, state: &State) -> Vec<(View, Rect)> {
         let view = self.view;
         if !has_drape(state) {
@@ -110,7 +110,7 @@ impl FitScreen {
         vec![section, (left_view, left)]
     }
 
-    /// Number of lines of what to change that there is no room for.
+    /// Number of lines of the alteration that do not fit.
     pub fn hidden_lines(&self, state: &State) -> usize {
         self.alter.hidden(state, alteration_panes(state.body(), state).0)
     }
@@ -122,7 +122,7 @@ impl FitScreen {
         }
         let hidden = self.alter.hidden(state, pane_area);
         let more = self.alter.hidden_mark(hidden).unwrap_or_default();
-        // Where there is room for one of both, that there is more matters more.
+        // Where only one of both fits, the mark for hidden lines goes before the legend.
         let has_legend = text::width(&more) + text::width(card::LEGEND) + 2 < usize::from(pane_area.width);
         let legend = if has_legend || more.is_empty() { card::LEGEND } else { "" };
         let block = pane(state.theme, self.alter.title(), true)
@@ -154,12 +154,12 @@ fn has_drape(state: &State) -> bool {
     worn(state).is_none_or(|worn| !worn.sizes.is_empty())
 }
 
-/// The card and the section in a wide area.
+/// Panes of card and section side by side.
 fn beside(area: Rect) -> [Rect; 2] {
     Layout::horizontal([Constraint::Length(CARD.min(area.width - SECTION)), Constraint::Fill(1)]).areas(area)
 }
 
-/// The pane of what to change, and beside it that of the section where there is room.
+/// Panes of the alteration and, where it fits, of the section.
 fn alteration_panes(area: Rect, state: &State) -> (Rect, Option<Rect>) {
     if area.width < WIDE || !has_drape(state) {
         return (area, None);

@@ -1,5 +1,5 @@
-//! Screen 0: the fit of a garment on a subject: its fit card, a cross section of all sizes, the sizes side by side, and
-//! the change of a size so that it fits.
+//! Screen 0: the fit of a garment on a subject. It has a fit card, a cross section of all sizes, the sizes side by
+//! side, and the alteration that makes a size fit.
 
 pub mod actions;
 mod alteration;
@@ -19,7 +19,7 @@ use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
-/// Keys and what they do; Tab leads to the next part.
+/// Keys with their meanings; `next` is the part that Tab leads to.
 const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
     [
         ("Tab", next),
@@ -33,7 +33,7 @@ const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
     ]
 }
 
-/// The same where it is shown what to change.
+/// Keys with their meanings while an alteration is shown.
 const ALTER_HINTS: [(&str, &str); 8] = [
     ("d", "drape"),
     ("w", "write"),
@@ -58,7 +58,7 @@ impl Page for FitScreen {
         state.step_subject(step);
     }
 
-    /// Levels and quantities have one order.
+    /// Does nothing: levels and quantities have a fixed order.
     fn sort(&mut self, _state: &mut State) {}
 
     fn copied(&self, state: &State) -> Option<Copied> {

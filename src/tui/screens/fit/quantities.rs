@@ -1,18 +1,18 @@
-//! Quantities measured on the drapes of a garment, a row a quantity, a cell a size.
+//! Quantities measured on the drapes of a garment: a row for each, with a cell for each size.
 
 use crate::widgets::text::{whole, words};
 use results::{FoldLine, SizeWorn};
 
-/// A quantity of all sizes.
+/// A quantity in all sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
-    /// Its name; lengths are in mm.
+    /// Name of the quantity; lengths are in mm.
     pub name: String,
-    /// Its value in each size; `None` where it is not measured.
+    /// Value in each size; `None` where it is not measured.
     pub cells: Vec<Option<String>>,
 }
 
-/// Differences of heights, with their names.
+/// Quantities that are differences of heights, with the names shown.
 const DIFFERENCES: [(&str, &str); 4] = [
     ("hem_front_over_back", "hem, front over back"),
     ("hem_right_over_left", "hem, right over left"),
@@ -20,7 +20,7 @@ const DIFFERENCES: [(&str, &str); 4] = [
     ("waist_right_over_left", "waist, right over left"),
 ];
 
-/// The quantities that any size has: balance, pressure, folds, openings drawn by a movement, gaps, points of measure.
+/// Quantities that any size has: balance, pressure, folds, displaced openings, gaps, points of measure.
 #[must_use]
 pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     let mut rows = Rows { sizes, found: vec![] };
@@ -63,14 +63,14 @@ pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     rows.found
 }
 
-/// Rows as they come together.
+/// Rows under construction.
 struct Rows<'a> {
     sizes: &'a [SizeWorn],
     found: Vec<Quantity>,
 }
 
 impl Rows<'_> {
-    /// Adds a quantity, where any size has it.
+    /// Adds a quantity that any size has.
     fn add(&mut self, name: &str, cell: impl Fn(&SizeWorn) -> Option<String>) {
         let cells: Vec<Option<String>> = self.sizes.iter().map(cell).collect();
         if cells.iter().any(Option::is_some) {
@@ -79,7 +79,7 @@ impl Rows<'_> {
     }
 }
 
-/// Names that any size has, in order.
+/// Names that occur in any size, in order.
 fn names(sizes: &[SizeWorn], names_of: fn(&SizeWorn) -> Vec<&str>) -> Vec<&str> {
     let mut found = vec![];
     for name in sizes.iter().flat_map(names_of) {
@@ -90,12 +90,12 @@ fn names(sizes: &[SizeWorn], names_of: fn(&SizeWorn) -> Vec<&str>) -> Vec<&str> 
     found
 }
 
-/// A whole number with its sign; none where it is 0.
+/// Whole number with its sign; 0 has none.
 fn signed(value: f64) -> String {
     if value.abs() < 0.5 { "0".to_owned() } else { format!("{value:+.0}").replace('-', "−") }
 }
 
-/// Angle and direction in which a side seam leans on its way down.
+/// Angle of a side seam from the vertical, and the direction in which its lower end lies.
 fn lean(deg: f64) -> String {
     match deg {
         deg if deg.abs() < 0.5 => "upright".to_owned(),
@@ -104,7 +104,7 @@ fn lean(deg: f64) -> String {
     }
 }
 
-/// Number of folds of a kind, and length of the longest.
+/// Number of folds of a kind, with the length of the longest.
 fn longest(folds: &[FoldLine], kind: &str) -> String {
     let lengths = || folds.iter().filter(|fold| fold.kind == kind).map(|fold| fold.length_mm);
     let longest = lengths().reduce(f64::max);

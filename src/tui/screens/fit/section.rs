@@ -1,4 +1,4 @@
-//! A cross section: the body and the cloth of all sizes over each other, seen from above.
+//! A cross section: the body and the cloth of all sizes, seen from above.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -15,26 +15,26 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{left, right, whole, words};
 use results::{CrossSection, CutCloth, CutLine, FitCard};
 
-/// Legend of the view, in full and in a few words.
+/// Legend of the view, in full and short.
 const LEGEND: [&str; 2] = [" front up, the subject's right on the right ", " front up, right on the right "];
-/// Columns of the legend, and of its parts: a piece of the line, the name, least, mean and greatest gap.
+/// Columns for the key of the lines, and for each of its parts: sample, name, three gaps.
 const KEY: u16 = 33;
 const SAMPLE: usize = 4;
 const NAME: usize = 8;
 const GAPS: [(&str, usize); 3] = [("least", 6), ("mean", 5), ("greatest", 9)];
-/// Room around the lines, as a share.
+/// Factor on the extent of the lines that leaves a margin.
 const MARGIN: f64 = 1.04;
-/// The lines of body and size to wear, and of the other sizes by their numbers.
+/// Dashes of the lines: of body and size to wear, then of the other sizes.
 const WHOLE: Dash = Dash { on: 1, off: 0 };
 const DASHES: [Dash; 4] =
     [Dash { on: 1, off: 1 }, Dash { on: 4, off: 2 }, Dash { on: 2, off: 3 }, Dash { on: 7, off: 3 }];
-/// Levels of the trunk, round which sleeves are cut too.
+/// Levels of the trunk, where sleeves are cut too.
 const TRUNK: [&str; 4] = ["chest", "underbust", "waist", "hip"];
-/// Dots between those that fill the body.
+/// Spacing of the dots that fill the body.
 const FILL: usize = 4;
 
 impl FitScreen {
-    /// Draws the section, or why there is none.
+    /// Draws the section, or the reason why there is none.
     pub fn draw_section(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         let section = self.section(state);
         let title = match (section, self.level(state)) {
@@ -51,7 +51,7 @@ impl FitScreen {
             return;
         };
         let key = key(state, section, &worn.card);
-        // Beside a wide picture the key takes nothing of its height.
+        // Beside a wide picture the key does not take any of its height.
         let is_wide = inner.width > 3 * inner.height && inner.width > 2 * KEY;
         let [key_area, picture] = if is_wide {
             Layout::horizontal([Constraint::Length(KEY + 1), Constraint::Fill(1)]).areas(inner)
@@ -63,14 +63,14 @@ impl FitScreen {
     }
 }
 
-/// Dash and style of the lines of a size.
+/// Dash and style of a size's line.
 fn pen(state: &State, card: &FitCard, size: &str) -> (Dash, Style) {
     let number = card.sizes.iter().position(|other| other.size == size).unwrap_or(0);
     let dash = if is_to_wear(card, size) { WHOLE } else { DASHES[number % DASHES.len()] };
     (dash, colour(state.theme, card, size))
 }
 
-/// Key of the lines: size, least, mean and greatest gap.
+/// Lines of the key: size, then least, mean and greatest gap.
 fn key(state: &State, section: &CrossSection, card: &FitCard) -> Vec<Line<'static>> {
     let head: String = GAPS.iter().map(|(title, columns)| right(title, *columns)).collect();
     let mut told = vec![Line::styled(left("gap, mm", SAMPLE + 1 + NAME) + &head, state.theme.dim())];
@@ -92,7 +92,7 @@ fn key(state: &State, section: &CrossSection, card: &FitCard) -> Vec<Line<'stati
     told
 }
 
-/// A piece of a line.
+/// Sample of a line, for the key.
 fn sample(dash: Dash, style: Style) -> Span<'static> {
     let mut dots = Dots::new(SAMPLE, 1);
     dots.line(&[[0.0, 2.0], [2.0 * SAMPLE as f64, 2.0]], dash, style);
@@ -100,7 +100,7 @@ fn sample(dash: Dash, style: Style) -> Span<'static> {
     Span::styled(left(&line.to_string(), SAMPLE), style)
 }
 
-/// Body and cloth in a place, the size to wear last, so that nothing hides it.
+/// Lines with body and cloth; the size to wear is drawn last, on top.
 fn outlines(state: &State, section: &CrossSection, card: &FitCard, area: Rect) -> Vec<Line<'static>> {
     let mut dots = Dots::new(usize::from(area.width), usize::from(area.height));
     let Some(scale) = Scale::fit(section, dots.size()) else { return vec![] };
@@ -122,7 +122,7 @@ fn outlines(state: &State, section: &CrossSection, card: &FitCard, area: Rect) -
     dots.lines()
 }
 
-/// From millimetres to dots: trunk or limb and its cloth, in the middle.
+/// Scale from mm to dots, with trunk or limb and its cloth in the middle.
 struct Scale {
     middle_mm: [f64; 2],
     per_mm: f64,
@@ -134,7 +134,7 @@ impl Scale {
         let is_trunk = TRUNK.contains(&section.level.as_str());
         let cloth = section.cloth.iter().filter(|_| !is_trunk).flat_map(|cloth| &cloth.lines);
         let points = || cloth.clone().chain([&section.skin]).flat_map(|line| &line.points);
-        // Sleeves round the trunk are cut off: what counts there is the air between.
+        // Sleeves beside the trunk may be cut off: what counts is the air around the trunk.
         let gaps = section.cloth.iter().filter(|_| is_trunk).filter_map(|cloth| cloth.gap_mm());
         let air_mm = gaps.map(|[_, _, greatest]| greatest).fold(0.0, f64::max);
         let bounds = |k: usize| {
@@ -148,7 +148,7 @@ impl Scale {
         (per_mm > 0.0 && per_mm.is_finite()).then_some(Self { middle_mm, per_mm, size })
     }
 
-    /// The places of a line, the first again at the end of a closed one: the front is up.
+    /// Points of a line in dots, with the front up. A closed line ends at its first point.
     fn places(&self, line: &CutLine) -> Vec<[f64; 2]> {
         let first = line.points.first().filter(|_| line.closed);
         let place = |point: &[f64; 2]| {
@@ -159,12 +159,12 @@ impl Scale {
     }
 }
 
-/// Fills an outline with few dots.
+/// Fills an outline with sparse dots.
 fn fill(dots: &mut Dots, outline: &[[f64; 2]], style: Style) {
     let [width, height] = dots.size();
     for y in (0..height).step_by(FILL) {
         let y = y as f64 + 0.5;
-        // Where the row crosses the outline, from the left: inside is between the first and the second, and so on.
+        // Crossings of the row with the outline, from the left: inside is between the first and second, and so on.
         let mut crossed: Vec<f64> = outline
             .windows(2)
             .filter(|ends| (ends[0][1] > y) != (ends[1][1] > y))

@@ -1,4 +1,4 @@
-//! The sizes side by side: a row a quantity, a column a size.
+//! The sizes side by side: a row for each quantity, a column for each size.
 
 use ratatui::text::{Line, Span};
 
@@ -10,11 +10,11 @@ use crate::widgets::lists::{first_shown, listed};
 use crate::widgets::text::{self, left, shortened};
 use results::GarmentWorn;
 
-/// Meaning of the numbers.
+/// Legend of the numbers.
 pub const LEGEND: &str = " mm  → from flat to worn ";
-/// Columns of a size.
+/// Columns for a size.
 const SIZE: usize = 17;
-/// The fewest and the most columns of a quantity's name.
+/// Fewest and most columns for the name of a quantity.
 const NAME: [usize; 2] = [12, 24];
 
 /// Title of the pane: garment, subject, simulator.
@@ -25,7 +25,7 @@ pub fn title(state: &State) -> String {
 }
 
 impl FitScreen {
-    /// The comparison in so many columns and lines.
+    /// Lines of the comparison that fit.
     pub fn size_lines(&self, state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
         let Some(worn) = worn(state) else { return vec![Line::raw("reading…")] };
         let name = columns.saturating_sub(worn.sizes.len() * SIZE).clamp(NAME[0], NAME[1]);
@@ -45,7 +45,7 @@ impl FitScreen {
     }
 }
 
-/// The sizes that there is room for, the one to wear near their middle.
+/// Sizes that fit, with the size to wear near the middle.
 fn shown(worn: &GarmentWorn, room: usize) -> std::ops::Range<usize> {
     let room = room.max(1).min(worn.sizes.len());
     let to_wear = worn.card.to_wear();

@@ -1,4 +1,4 @@
-//! State of the screen of fit.
+//! State of the Fit screen.
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::answered::Answered;
@@ -6,7 +6,7 @@ use advice::Alteration;
 use results::CrossSection;
 use store::JobId;
 
-/// A part of the screen; with little room it alone is shown.
+/// A part of the screen; in a small terminal only one is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// The fit card.
@@ -19,53 +19,53 @@ pub enum View {
 }
 
 impl View {
-    /// All of them, in the order in which they are gone through.
+    /// All parts, in the order in which Tab goes through them.
     pub const ALL: [Self; 3] = [Self::Card, Self::Section, Self::Sizes];
 }
 
-/// Cross sections of results at all levels, or why there are none.
+/// Cross sections of results at all levels, or the reason why there are none.
 pub type Sections = Result<Vec<CrossSection>, String>;
 
-/// Progress of the drape of a changed pattern.
+/// State of draping an altered pattern.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Draping {
-    /// None goes on.
+    /// No drape is being made.
     #[default]
     No,
-    /// It goes on.
+    /// The drape is being made.
     GoesOn,
-    /// It failed, and why.
+    /// The drape failed, for this reason.
     Failed(String),
 }
 
-/// The change of a size so that it fits, as it is asked for and found.
+/// The alteration of a size: as requested, and as found.
 #[derive(Debug, Default)]
 pub struct Alter {
-    /// True where it is shown, over the part that has the focus.
+    /// True if the alteration is shown, on top of the part with the focus.
     pub is_open: bool,
-    /// The request, without a drape.
+    /// Request, without a drape.
     pub asked: Option<AlterRequest>,
-    /// The change that was found, or why none was; `None` while it is sought.
+    /// Alteration, or the reason why none was found; `None` while it is sought.
     pub answer: Option<Result<Box<Alteration>, String>>,
-    /// Progress of its drape.
+    /// State of its drape.
     pub draping: Draping,
-    /// Lines that it is scrolled down.
+    /// Number of lines scrolled down.
     pub down: usize,
 }
 
-/// The screen of fit.
+/// The Fit screen.
 #[derive(Default)]
 pub struct FitScreen {
     /// Part that has the focus.
     pub view: View,
-    /// Level chosen; before that it is the one that is worst.
+    /// Chosen level; `None` for the worst one.
     pub level: Option<String>,
-    /// Quantity selected, a row of the comparison shown.
+    /// Index of the selected row in the comparison of sizes.
     pub row: usize,
-    /// Results whose sections are asked for.
+    /// Results whose sections were requested.
     pub asked: Vec<JobId>,
-    /// The sections that came last, and the results that they are of.
+    /// Latest sections, with the results that were cut.
     pub cut: Option<Answered<Vec<JobId>, Vec<CrossSection>>>,
-    /// The change of a size.
+    /// Alteration of a size.
     pub alter: Alter,
 }

@@ -1,4 +1,4 @@
-//! Finding jobs and acting on the queue.
+//! Choosing jobs and changing the queue.
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
@@ -15,20 +15,20 @@ use store::{JobId, JobRow};
 const NO_JOB: &str = "no job is selected";
 
 impl JobsScreen {
-    /// Jobs that pass the filter, in order.
+    /// Jobs that pass the filter, in the order of the list.
     #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a JobRow> {
         let Some(data) = &state.data else { return vec![] };
         self.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
-    /// Finds which jobs are shown.
+    /// Filters and sorts the jobs.
     pub fn arrange(&mut self, state: &State) {
         let Some(data) = &state.data else { return };
         self.arrange_rows(&data.jobs, state.filter_of(Screen::Jobs));
     }
 
-    /// Selects the first job, where the one selected does not pass the filter.
+    /// Selects the first job if the selected one does not pass the filter.
     pub fn keep_visible(&self, state: &mut State) {
         let jobs = self.shown(state);
         let is_hidden = !jobs.iter().any(|job| Some(job.id) == state.focus.job);
@@ -37,7 +37,7 @@ impl JobsScreen {
         }
     }
 
-    /// Steps of the selected job: those stored, or those seen while it runs.
+    /// Steps of the selected job: stored ones, or those seen while it runs.
     #[must_use]
     pub fn steps<'a>(&'a self, state: &'a State) -> &'a [Step] {
         let stored = state.detail().map(|detail| detail.history.as_slice()).filter(|steps| !steps.is_empty());
@@ -45,7 +45,7 @@ impl JobsScreen {
         stored.or_else(seen).unwrap_or_default()
     }
 
-    /// Moves in the list of jobs.
+    /// Moves the selection in the list of jobs.
     pub fn go_in_list(&self, state: &mut State, movement: Movement) {
         let jobs: Vec<JobId> = self.shown(state).iter().map(|job| job.id).collect();
         let at = jobs.iter().position(|id| Some(*id) == state.focus.job);
@@ -63,14 +63,14 @@ impl JobsScreen {
     }
 }
 
-/// Pauses the study, or has it go on.
+/// Pauses the study, or ends its pause.
 pub fn pause(state: &State) -> Vec<Effect> {
     let Some(study) = state.study() else { return vec![] };
     let name = study.name.clone();
     vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
 }
 
-/// Asks whether the selected job is to be cancelled.
+/// Cancels the selected job, after a question.
 pub fn cancel(state: &mut State) -> Vec<Effect> {
     let Some(job) = state.job() else { return state.reply(NO_JOB) };
     if job.status.is_final() {
@@ -93,13 +93,13 @@ pub fn retry(state: &mut State) -> Vec<Effect> {
     vec![Effect::Do(Command::Retry(id))]
 }
 
-/// Runs the selected job so much earlier.
+/// Adds a step to the priority of the selected job.
 pub fn prioritise(state: &mut State, step: i64) -> Vec<Effect> {
     let Some(job) = state.job() else { return state.reply(NO_JOB) };
     vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
 }
 
-/// Runs the study, or the quickstart where there is none.
+/// Runs the study; without a study, the quickstart.
 pub fn start_run(state: &mut State) -> Vec<Effect> {
     if state.is_first_start() {
         return state.run(Target::Quickstart);
@@ -109,7 +109,7 @@ pub fn start_run(state: &mut State) -> Vec<Effect> {
     state.run(target)
 }
 
-/// Asks whether the run is to stop.
+/// Stops the run, after a question.
 pub fn stop_run(state: &mut State) -> Vec<Effect> {
     if state.running.target.is_none() {
         state.say("no run goes on here");
@@ -119,7 +119,7 @@ pub fn stop_run(state: &mut State) -> Vec<Effect> {
     vec![]
 }
 
-/// The selected job, tab-separated.
+/// Selected job as text, separated by tabs.
 #[must_use]
 pub fn job_line(state: &State) -> Option<String> {
     let job = state.job()?;

@@ -1,4 +1,4 @@
-//! Drawing the queue, the log and the course of the selected job.
+//! Drawing the queue, and log and curves of the selected job.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -113,7 +113,7 @@ impl JobsScreen {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
-    /// Residual, on a logarithmic scale, and E(chi) over the steps.
+    /// Curves over the steps: residual, on a logarithmic scale, and E(chi).
     fn curves(&self, state: &State, width: usize) -> Vec<Line<'static>> {
         let steps = self.steps(state);
         let Some(last) = steps.last() else { return vec![] };
@@ -130,7 +130,7 @@ impl JobsScreen {
         ]
     }
 
-    /// The part of the log that is scrolled to, the error of a failed job in full above it.
+    /// Lines of the log that are scrolled to, below the whole error of a failed job.
     fn log_lines(&self, state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
         let Some(detail) = state.detail() else { return vec![] };
         let error = state.job().and_then(|job| job.error.as_deref()).unwrap_or_default();
@@ -149,7 +149,7 @@ impl JobsScreen {
         lines
     }
 
-    /// The jobs in the fewest columns, where there is no room for the table.
+    /// List of the jobs in few columns, where the table does not fit.
     fn list(&self, state: &State, area: Rect) -> Vec<Line<'static>> {
         let jobs = self.shown(state);
         let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
@@ -174,14 +174,14 @@ fn panes(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area)
 }
 
-/// Names of what is shown, as the glossary has them.
+/// Names of the quantities on the screen, as in the glossary.
 const NAMES: [&str; 13] =
     ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
 
-/// Columns of phase and percent.
+/// Columns for phase and percentage.
 const PROGRESS: usize = 10;
 
-/// Widths of the columns that depend on what is in them and on the room.
+/// Widths of the columns that depend on contents and room.
 struct Columns {
     id: usize,
     garment: usize,
@@ -192,7 +192,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Columns of number, status, simulator, progress, two times, EI, and gaps.
+    /// Columns for number, status, simulator, progress, two times, EI, and gaps.
     const FIXED: usize = 1 + 2 + 4 + PROGRESS + 6 + 7 + 8 + 2 + 4;
 
     fn new(jobs: &[&JobRow], width: usize) -> Self {
@@ -210,7 +210,7 @@ impl Columns {
     }
 }
 
-/// Columns of the numbers of jobs.
+/// Columns for the numbers of jobs.
 fn longest_id(jobs: &[&JobRow]) -> usize {
     jobs.iter().map(|job| job.id.0).max().unwrap_or(0).to_string().len().max(4)
 }

@@ -1,4 +1,4 @@
-//! Screen 4: the queue as a table, and below it the log and the course of the selected job.
+//! Screen 4: the queue as a table, above the log and the curves of the selected job.
 
 pub mod actions;
 mod draw;

@@ -1,4 +1,4 @@
-//! State of the screen of jobs.
+//! State of the Jobs screen.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,25 @@ use crate::widgets::text;
 use sim::Step;
 use store::{JobId, JobRow, Status};
 
-/// Steps of a running job that are kept for its curves.
+/// Most steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;
 
-/// Order of jobs.
+/// Order of the list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum JobOrder {
     /// By number, as they were queued.
     #[default]
     Number,
-    /// By state: what runs, what went wrong, what waits, what is done.
+    /// By state: running, failed, waiting, done.
     Status,
     /// By EI, the worst first.
     Ei,
-    /// By time taken, the longest first.
+    /// By duration, the longest first.
     Time,
 }
 
 impl JobOrder {
-    /// The order that `sort` comes to next.
+    /// Order after this one, for the key that sorts.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -37,7 +37,7 @@ impl JobOrder {
     }
 }
 
-/// The jobs shown, and the number of the reading, the filter and the order that they were found for.
+/// Jobs that are shown, with the reading, filter and order that they were computed for.
 #[derive(Clone, Debug, Default)]
 struct Arranged {
     reads: u64,
@@ -46,23 +46,23 @@ struct Arranged {
     rows: Vec<usize>,
 }
 
-/// The screen of jobs.
+/// The Jobs screen.
 #[derive(Default)]
 pub struct JobsScreen {
-    /// The jobs shown, in order.
+    /// Jobs that are shown, in order.
     arranged: Arranged,
-    /// Order of jobs.
+    /// Order of the list.
     pub order: Order<JobOrder>,
-    /// Lines the log is scrolled up from its end.
+    /// Lines by which the log is scrolled up from its end.
     pub log_up: usize,
-    /// Steps of running jobs, as they came.
+    /// Steps of running jobs, in the order of arrival.
     pub traces: BTreeMap<JobId, Vec<Step>>,
-    /// Number of readings of the database.
+    /// Number of times that the database was read.
     reads: u64,
 }
 
 impl JobsScreen {
-    /// Takes in jobs that were read: those that run have come on by a step.
+    /// Adds the latest step of each running job.
     pub fn trace(&mut self, jobs: &[JobRow]) {
         self.reads += 1;
         for job in jobs.iter().filter(|job| job.status == Status::Running) {
@@ -77,8 +77,8 @@ impl JobsScreen {
         }
     }
 
-    /// Finds which jobs contain a filter and in which order, where data, filter or order have changed since: with ten
-    /// thousand jobs that takes too long for every frame.
+    /// Filters and sorts jobs, if data, filter or order have changed since: with ten thousand jobs this takes too long
+    /// for every frame.
     pub fn arrange_rows(&mut self, jobs: &[JobRow], filter: String) {
         let Arranged { reads, filter: arranged, order, .. } = &self.arranged;
         if (*reads, arranged, *order) == (self.reads, &filter, self.order) {
@@ -99,14 +99,14 @@ impl JobsScreen {
         self.arranged = Arranged { reads: self.reads, filter, order: self.order, rows };
     }
 
-    /// The jobs shown, as rows of the data.
+    /// Jobs that are shown, as indices into the data.
     #[must_use]
     pub fn rows(&self) -> &[usize] {
         &self.arranged.rows
     }
 }
 
-/// Rank of jobs in a state by how soon a user wants to see them; the least first.
+/// Rank of a state: the sooner a user wants to see its jobs, the lower.
 fn attention(status: Status) -> u8 {
     match status {
         Status::Running => 0,
@@ -118,7 +118,7 @@ fn attention(status: Status) -> u8 {
     }
 }
 
-/// Text of a job that a filter looks at.
+/// Text of a job to which the filter applies.
 fn words(job: &JobRow) -> String {
     let error = job.error.as_deref().unwrap_or_default();
     format!(

@@ -1,4 +1,4 @@
-//! Drawing the table of measurements and the numbers of a result.
+//! Drawing the table of measurements, and the metrics of a result.
 
 use ratatui::text::{Line, Span};
 
@@ -11,16 +11,16 @@ use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wr
 use crate::widgets::theme::glyph;
 use store::{ChiRow, FitCell, MetricsRow};
 
-/// Meaning of the marks after names.
+/// Legend of the marks after names.
 pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";
-/// Columns of number, two lengths, chi, and the gaps between them.
+/// Columns for number, two lengths, chi, and gaps.
 const FIXED: usize = 3 + 7 + 7 + 6 + 1;
 
-/// Widths of the columns that depend on the room and on what is in them.
+/// Widths of the columns that depend on contents and room.
 struct Columns {
     name: usize,
     marks: usize,
-    /// Columns of the bar on each side of its middle; 0 for a mark instead.
+    /// Columns for each half of the bar; 0 for a mark instead of a bar.
     side: usize,
 }
 
@@ -38,7 +38,7 @@ impl Columns {
     }
 }
 
-/// The table of measurements in so many columns and lines, with the selected row marked where there is one.
+/// Lines of the table, with the selected row in style where `selected` says so.
 pub fn table(state: &State, columns: usize, lines: usize, selected: Option<bool>) -> Vec<Line<'static>> {
     let rows = rows(state);
     let columns = Columns::new(&rows, columns);
@@ -72,7 +72,7 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
     Line::styled(text, state.theme.dim())
 }
 
-/// Marks of the kind of measurement; [`LEGEND`] says what they mean.
+/// Marks of a measurement, as in [`LEGEND`].
 fn marks(row: &ChiRow) -> String {
     let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
     marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
@@ -94,8 +94,7 @@ fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
     ])
 }
 
-/// The state of the selected job and the numbers of its result, the most important first, side by side where
-/// there is room.
+/// State of the selected job and metrics of its result, the most important first, side by side where they fit.
 pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let Some(job) = state.job() else { return vec![] };
     let wall = job.wall_ms.map_or(String::new(), |ms| format!(" in {}", text::duration(ms)));
@@ -125,7 +124,7 @@ pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// Names of what the table and the numbers show, as the glossary has them.
+/// Names of the quantities of table and metrics, as in the glossary.
 const NAMES: [&str; 19] = [
     "chi",
     "L2D",
@@ -148,7 +147,7 @@ const NAMES: [&str; 19] = [
     "cached",
 ];
 
-/// The selected measurement, and what the table and the numbers show.
+/// Selected measurement, with the quantities of table and metrics.
 pub fn explained(state: &State) -> Selected {
     let rows = rows(state);
     let Some(row) = rows.get(state.measurements.row) else { return Selected::new(String::new(), &NAMES, &[]) };
@@ -159,7 +158,7 @@ pub fn explained(state: &State) -> Selected {
     Selected::new(what, &[&NAMES[..3], kinds.as_slice()].concat(), &NAMES)
 }
 
-/// Reason why the cache did not have the selected job, and the stages of it that it had.
+/// Reason why the selected job ran, and its stages that came from the cache.
 pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
     let Some(detail) = state.detail() else { return vec![] };
     let stages = |is_cached: bool| {
@@ -170,11 +169,11 @@ pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
     facts.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// Columns of the name of a fact, and of the fact with its name.
+/// Columns for the name of a metric, and for name and value.
 const NAME_COLUMNS: usize = 9;
 const FACT_COLUMNS: usize = 21;
 
-/// The numbers of a result with their names.
+/// Metrics of a result, with names.
 fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     vec![
         ("EI", format!("{:.4}", m.ei)),
@@ -191,12 +190,12 @@ fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// A name and a value in a line.
+/// Line with a name and a value.
 pub fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
     Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
 }
 
-/// A fit in words; `!` and `~` as in the grid.
+/// Fit in words, with `!` and `~` as in the grid.
 fn fit_words(fit: &FitCell) -> String {
     let mark = match (fit.undersized, fit.borderline) {
         (true, _) => "!",

@@ -1,4 +1,4 @@
-//! The table of measurements and the numbers of a result, which Study and Results show.
+//! Table of measurements and metrics of a result, for the screens Study and Results.
 
 pub mod draw;
 pub mod state;
@@ -15,7 +15,7 @@ pub fn rows(state: &State) -> Vec<&ChiRow> {
     state.detail().map_or(vec![], |detail| state.measurements.rows(detail, &filter))
 }
 
-/// Moves in the table.
+/// Moves the selection in the table.
 pub fn go(state: &mut State, movement: Movement) {
     state.measurements.row = movement.from(state.measurements.row, rows(state).len());
 }

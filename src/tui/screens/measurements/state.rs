@@ -4,29 +4,29 @@ use crate::messages::snapshot::Detail;
 use crate::screens::order::Order;
 use store::ChiRow;
 
-/// Order of measurements.
+/// Order of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum ChiOrder {
     /// By number in the style.
     #[default]
     Number,
-    /// By distance from 1, the greatest first.
+    /// By |chi - 1|, the greatest first.
     Error,
 }
 
 /// Stage, order and selected row of the table of measurements.
 #[derive(Debug, Default)]
 pub struct Measurements {
-    /// Order of measurements.
+    /// Order of the table.
     pub order: Order<ChiOrder>,
-    /// Measurement selected, a row of the table shown.
+    /// Index of the selected row.
     pub row: usize,
-    /// Stage whose measurements are wanted.
+    /// Stage that was chosen.
     pub stage: Option<String>,
 }
 
 impl Measurements {
-    /// Sorts by the next column.
+    /// Changes to the next order.
     pub fn sort(&mut self) {
         self.order.by = match self.order.by {
             ChiOrder::Number => ChiOrder::Error,
@@ -34,14 +34,14 @@ impl Measurements {
         };
     }
 
-    /// The stage whose measurements are shown: the one wanted, or the last there is.
+    /// Stage that is shown: the chosen one, else the last.
     #[must_use]
     pub fn stage<'a>(&self, detail: &'a Detail) -> Option<&'a str> {
         let stages = stages(detail);
         stages.iter().copied().find(|stage| Some(*stage) == self.stage.as_deref()).or(stages.last().copied())
     }
 
-    /// Measurements of a result that contain a filter in lower case, in order.
+    /// Measurements of a result that contain `filter`, which is in lower case, in order.
     #[must_use]
     pub fn rows<'a>(&self, detail: &'a Detail, filter: &str) -> Vec<&'a ChiRow> {
         let Some(stage) = self.stage(detail) else { return vec![] };
@@ -58,7 +58,7 @@ impl Measurements {
     }
 }
 
-/// Stages of a result, in the order they are made.
+/// Stages of a result, in the order of the simulation.
 #[must_use]
 pub fn stages(detail: &Detail) -> Vec<&str> {
     ["sewn", "popup", "drape"].into_iter().filter(|stage| detail.chi.iter().any(|row| row.stage == *stage)).collect()

@@ -1,4 +1,4 @@
-//! Changing the view of drapes; asking for pictures.
+//! Changing the view on drapes; requesting pictures.
 
 use ratatui::layout::{Rect, Size};
 
@@ -15,7 +15,7 @@ use results::Map;
 use store::Status;
 
 impl Pictures {
-    /// Does an action on pictures; returns true if it is one.
+    /// Carries out an action on pictures. Returns false for any other action.
     pub fn act(&mut self, action: Action) -> bool {
         match action {
             Action::NextView => self.look = picture::next_view(self.look),
@@ -28,12 +28,12 @@ impl Pictures {
         true
     }
 
-    /// Turns drapes round.
+    /// Turns drapes about the vertical.
     pub fn turn(&mut self, step: isize) {
         self.look = picture::turned(self.look, step);
     }
 
-    /// Moves an enlarged picture up or down; returns true if there is one.
+    /// Moves an enlarged picture up or down. Returns false where none is enlarged.
     pub fn raise(&mut self, movement: Movement) -> bool {
         let is_near = self.look.zoom_pct > FRONT.zoom_pct;
         if let (true, Movement::By(step)) = (is_near, movement) {
@@ -42,7 +42,7 @@ impl Pictures {
         is_near
     }
 
-    /// A request for a picture of so many cells in the present view.
+    /// Request for a picture of this size, in cells, in the present view.
     #[must_use]
     pub fn request(&self, of: Pictured, Size { width: columns, height: rows }: Size) -> PictureRequest {
         match of {
@@ -53,7 +53,7 @@ impl Pictures {
         }
     }
 
-    /// Asks for pictures, where they are not those asked for already.
+    /// Requests pictures, if they differ from those requested before.
     pub fn ask_for(&mut self, wanted: Vec<PictureRequest>) -> Option<Effect> {
         if wanted == self.requests {
             return None;
@@ -62,7 +62,7 @@ impl Pictures {
         (!wanted.is_empty()).then_some(Effect::Draw(wanted))
     }
 
-    /// Takes in a picture that is still wanted, in the place of the one before of the same.
+    /// Stores a picture that is still wanted, replacing the one before.
     pub fn take(&mut self, request: PictureRequest, outcome: Result<Drawn, String>) {
         if self.requests.contains(&request) {
             let requests = &self.requests;
@@ -73,14 +73,14 @@ impl Pictures {
     }
 }
 
-/// The drape of the selected job in a pane, where there are both.
+/// Drape of the selected job with its pane, where there are both.
 #[must_use]
 pub fn drape_in(state: &State, pane: Option<Rect>) -> Vec<(Pictured, Rect)> {
     let job = state.job().filter(|job| job.status.has_result()).map(|job| Pictured::Drape(job.id));
     job.zip(pane).into_iter().collect()
 }
 
-/// Requests for the pictures of panes that have room for one; none where pictures are off.
+/// Requests for pictures of the panes that have room for one; empty where pictures are off.
 #[must_use]
 pub fn requests(state: &State, panes: Vec<(Pictured, Rect)>) -> Vec<PictureRequest> {
     let sized = panes.into_iter().map(|(of, pane)| (of, cells(pane)));
@@ -88,7 +88,7 @@ pub fn requests(state: &State, panes: Vec<(Pictured, Rect)>) -> Vec<PictureReque
     sized.map(|(of, size)| state.pictures.request(of, size)).collect()
 }
 
-/// Watches the selected job while it runs here and is looked at.
+/// Watches the selected job while it runs here and its picture is shown.
 pub fn watch(state: &mut State) -> Option<Effect> {
     let is_shown =
         matches!(state.nav.screen, Screen::Study | Screen::Jobs | Screen::Results) && state.running.target.is_some();

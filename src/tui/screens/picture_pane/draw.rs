@@ -14,8 +14,8 @@ use crate::widgets::picture::{Drawn, PictureRequest, Pictured, look_name};
 use crate::widgets::text;
 use store::Status;
 
-/// Picture and, where there is room, the line below it that says what its colours mean. The line is there for pictures
-/// without a legend too, so that they keep their size when the colours change.
+/// Areas of the picture and, where it fits, of the legend's line below. Pictures without a legend keep that line free,
+/// so that their size does not change with the map.
 pub fn parts(inner: Rect) -> (Rect, Option<Rect>) {
     if inner.height < 8 || inner.width < 24 {
         return (inner, None);
@@ -24,7 +24,7 @@ pub fn parts(inner: Rect) -> (Rect, Option<Rect>) {
     (picture, Some(legend))
 }
 
-/// Draws the pane; `keys` are those that change the picture there.
+/// Draws the pane. `keys` are the keys that change the picture.
 pub fn draw_drape(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool, keys: &'static str) {
     let title = format!("{} · {}", look_name(state.pictures.look), state.pictures.map.as_str());
     let block = pane(state.theme, title, focused).title_bottom(Line::styled(keys, state.theme.legend()));
@@ -37,11 +37,11 @@ pub fn draw_drape(frame: &mut Frame<'_>, area: Rect, state: &State, focused: boo
     if let Some(legend) = legend {
         draw_legend(frame, legend, state);
     }
-    // While a picture is drawn anew, the one before stays, so that turning does not flicker.
+    // The previous picture stays until the new one is drawn, so that turning does not flicker.
     draw_shot(frame, inner, state, state.focus.job.map(Pictured::Drape), "");
 }
 
-/// Draws the garment of the selected running job as it is now, below it how far it has come.
+/// Draws the garment of the selected running job in its present shape, and the job's progress below.
 pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(job) = state.job() else { return };
     let [picture, facts] = Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(2))]).areas(area);
@@ -68,7 +68,7 @@ pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
 }
 
-/// Draws a picture, or why there is none.
+/// Draws a picture, or the reason why there is none.
 pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pictured>, otherwise: &str) {
     let fits = |request: &PictureRequest| {
         Some(request.of) == of && request.columns == area.width && request.rows == area.height
@@ -84,7 +84,7 @@ pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pi
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
 }
 
-/// Draws the legend of the colours: name, least value, the run of colours, greatest value with its unit.
+/// Draws the legend of the colours: name, least value, colours, greatest value with unit.
 pub fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(scale) = state.pictures.map.scale() else { return };
     let before = format!("{} {} ", scale.label, text::whole(scale.low));
@@ -102,7 +102,7 @@ pub fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     state.theme.adapt(frame.buffer_mut(), area);
 }
 
-/// The picture in the middle of its pane.
+/// Draws the picture in the middle of its pane.
 fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
     match drawn {
         Drawn::Pixels(protocol) => frame.render_widget(Image::new(protocol), centred(area, protocol.size())),
@@ -125,7 +125,7 @@ fn centred(area: Rect, size: Size) -> Rect {
     Rect::new(x, y, size.width, size.height).intersection(area)
 }
 
-/// The cells of the picture in a pane.
+/// Size of the picture in a pane, cells.
 #[must_use]
 pub fn cells(pane: Rect) -> Size {
     parts(Block::bordered().inner(pane)).0.as_size()

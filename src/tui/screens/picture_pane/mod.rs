@@ -1,4 +1,4 @@
-//! The pane with the picture of a drape or a body, which several screens have.
+//! The pane with the picture of a drape or a body, shared by several screens.
 
 pub mod actions;
 pub mod draw;

@@ -1,20 +1,20 @@
-//! View and pictures of drapes.
+//! View on drapes, and their pictures.
 
 use crate::messages::answered::Answered;
 use crate::widgets::picture::{Drawn, FRONT, PictureRequest};
 use results::{Look, Map};
 
-/// View of drapes, and the pictures there are.
+/// View on drapes, and the pictures that were drawn.
 pub struct Pictures {
     /// Direction and distance from which drapes are seen.
     pub look: Look,
-    /// Quantity that the colours show.
+    /// Map that colours the cloth.
     pub map: Map,
-    /// True where the picture has all the room.
+    /// True if the picture is enlarged to all the room.
     pub enlarged: bool,
-    /// The pictures asked for.
+    /// Requests made last.
     pub requests: Vec<PictureRequest>,
-    /// The picture of each that came last.
+    /// Latest picture for each request.
     pub drawn: Vec<Answered<PictureRequest, Drawn>>,
 }
 

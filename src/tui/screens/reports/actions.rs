@@ -11,7 +11,7 @@ use crate::screens::state::State;
 use results::ReportRow;
 
 impl ReportsScreen {
-    /// Reports that pass the filter of their screen.
+    /// Reports that pass the filter of the screen.
     #[must_use]
     pub fn shown(&self, state: &State) -> Vec<&ReportRow> {
         let filter = state.filter_of(Screen::Reports);
@@ -30,7 +30,7 @@ impl ReportsScreen {
         rows.get(self.row).or(rows.last()).copied()
     }
 
-    /// Has the reports listed when the screen is first shown.
+    /// Requests the list of reports when the screen is first shown.
     pub fn ask_for_reports(&mut self) -> Option<Effect> {
         if self.rows.is_some() {
             return None;
@@ -57,7 +57,7 @@ impl ReportsScreen {
         vec![Effect::Files(FileTask::BuildReport(name))]
     }
 
-    /// Takes in that a report was built.
+    /// Handles the end of building a report.
     pub fn built(&mut self, state: &mut State, page: Result<PathBuf, String>, rows: Vec<ReportRow>) {
         let name = self.building.take();
         self.rows = Some(rows);
@@ -68,7 +68,7 @@ impl ReportsScreen {
         }
     }
 
-    /// Opens the selected report in a browser where there is a display; otherwise its address is copied.
+    /// Opens the selected report in a browser if there is a display; else copies its address.
     pub fn open(&self, state: &mut State) -> Vec<Effect> {
         let Some(row) = self.selected(state) else {
             return state.reply("no report is here yet: b builds that of the study");
@@ -82,7 +82,7 @@ impl ReportsScreen {
     }
 }
 
-/// Hands an address to the desktop's own program for it; returns true if there is a desktop.
+/// Opens an address by the desktop's own program. Returns false where there is no desktop.
 fn is_opened(address: &str) -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") {
@@ -92,7 +92,7 @@ fn is_opened(address: &str) -> bool {
     Command::new("xdg-open").arg(address).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn().is_ok()
 }
 
-/// A page as an address that a browser on this machine opens.
+/// Address of a page for a browser on this machine.
 #[must_use]
 pub fn address(page: &Path) -> String {
     let page: PathBuf = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());

@@ -1,4 +1,4 @@
-//! Screen 8: the reports that were built, and where they are.
+//! Screen 8: the reports of the project, with their paths.
 
 mod actions;
 mod draw;

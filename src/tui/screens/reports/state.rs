@@ -1,16 +1,16 @@
-//! State of the screen of reports.
+//! State of the Reports screen.
 
 use results::ReportRow;
 
-/// The screen of reports.
+/// The Reports screen.
 #[derive(Default)]
 pub struct ReportsScreen {
-    /// All reports; `None` until they were listed.
+    /// All reports; `None` until they are listed.
     pub rows: Option<Vec<ReportRow>>,
-    /// The one selected.
+    /// Index of the selected report.
     pub row: usize,
-    /// True where the latest comes first.
+    /// True to sort by time, the latest first.
     pub by_time: bool,
-    /// The study whose report is being built.
+    /// Name of the study whose report is being built.
     pub building: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Choosing a result and a stage.
+//! Choosing a result and one of its stages.
 
 use crate::screens::measurements;
 use crate::screens::measurements::state::stages;
@@ -7,7 +7,7 @@ use crate::screens::state::State;
 use crate::widgets::text;
 use store::{JobId, JobRow};
 
-/// Goes to the next or previous job that has a result.
+/// Selects the next or previous job that has a result.
 pub fn step_result(state: &mut State, step: isize) {
     let is_shown = |job: &&JobRow| job.status.has_result() || Some(job.id) == state.focus.job;
     let Some(data) = &state.data else { return };
@@ -18,7 +18,7 @@ pub fn step_result(state: &mut State, step: isize) {
     }
 }
 
-/// Goes to the same size and subject by the other simulator.
+/// Selects the job of the same size and subject by the other simulator.
 pub fn other_simulator(state: &mut State) {
     let (Some(data), Some(job)) = (&state.data, state.job()) else { return };
     match data.same_by_other(job).map(|other| other.id) {
@@ -41,7 +41,7 @@ pub fn next_stage(state: &mut State) {
     }
 }
 
-/// The table of measurements, tab-separated.
+/// Table of measurements as text, separated by tabs.
 #[must_use]
 pub fn chi_table(state: &State) -> Option<String> {
     let rows = measurements::rows(state);

@@ -60,7 +60,7 @@ impl Draw for ResultsScreen {
     }
 }
 
-/// The panes: measurements, numbers, picture; those without room are `None`.
+/// The panes: measurements, metrics, picture; `None` where one does not fit.
 struct Panes {
     table: Option<Rect>,
     numbers: Option<Rect>,
@@ -83,7 +83,7 @@ fn panes(area: Rect, state: &State) -> Panes {
     Panes { table: Some(table), numbers: Some(numbers), picture: Some(picture) }
 }
 
-/// The pane of the picture, where there is room for it.
+/// Pane of the picture; `None` where it does not fit.
 pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     panes(area, state).picture
 }

@@ -1,4 +1,4 @@
-//! Screen 5: one result: its measurements, its numbers, and the picture of its drape.
+//! Screen 5: one result, with its measurements, metrics and drape.
 
 mod actions;
 mod draw;
@@ -10,7 +10,7 @@ use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
-/// The screen of a result. All that it shows is shared with other screens.
+/// The Results screen. It has no state of its own.
 #[derive(Default)]
 pub struct ResultsScreen;
 

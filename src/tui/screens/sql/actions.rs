@@ -1,4 +1,4 @@
-//! Typing a query, running it, going on in its rows.
+//! Typing a query, running it, moving in its rows.
 
 use crossterm::event::{KeyCode, KeyEvent};
 
@@ -13,18 +13,18 @@ use crate::screens::state::State;
 use crate::widgets::editor::Mode;
 use crate::widgets::result_table::ResultTable;
 
-/// Queries that the history keeps.
+/// Most queries in the history.
 const MOST_KEPT: usize = 200;
 
-/// True if what is typed goes into the editor.
+/// True if typed letters go into the editor.
 #[must_use]
 pub fn is_editing(state: &State) -> bool {
     state.nav.screen == Screen::Sql && !state.in_second_pane()
 }
 
 impl SqlScreen {
-    /// Hands a key to the editor; returns true if it took it. In an empty editor, keys that no query begins with mean what
-    /// they mean elsewhere.
+    /// Hands a key to the editor. Returns false if the editor does not want it: in an empty editor, keys with which no
+    /// query begins keep their usual meaning.
     pub fn edit_query(&mut self, state: &mut State, event: &KeyEvent) -> bool {
         let mode = self.editor.mode();
         if event.code == KeyCode::Esc && mode != Some(Mode::Insert) {
@@ -38,7 +38,7 @@ impl SqlScreen {
         self.editor.key(event, self.relations.as_deref().unwrap_or_default())
     }
 
-    /// Has names and saved queries read when the screen is first shown.
+    /// Requests names and saved queries when the screen is first shown.
     pub fn ask_for_names(&mut self) -> Option<Effect> {
         if self.relations.is_some() {
             return None;
@@ -51,7 +51,7 @@ impl SqlScreen {
     pub fn run_query(&mut self, state: &mut State) -> Vec<Effect> {
         let text = self.editor.text().trim().to_owned();
         if text.is_empty() {
-            // What was refused is gone from the editor, and with it why.
+            // The refused query is no longer in the editor, so its error goes too.
             self.outcome = self.outcome.take().filter(Result::is_ok);
             return state.reply("no query is typed yet; o offers saved ones");
         }
@@ -69,7 +69,7 @@ impl SqlScreen {
         vec![Effect::Query(QueryRequest::Rows(text))]
     }
 
-    /// Takes in an answer.
+    /// Handles the answer to a query.
     pub fn answered(&mut self, state: &mut State, ms: u64, outcome: Result<Box<ResultTable>, String>) {
         let Some(text) = self.running.take() else { return };
         match outcome {
@@ -84,7 +84,7 @@ impl SqlScreen {
         }
     }
 
-    /// Puts an older or newer query of the history into the editor.
+    /// Puts the previous or next query of the history into the editor.
     pub fn recall(&mut self, state: &mut State, step: isize) {
         let last = self.history.len();
         let at = self.recalled.as_ref().map_or(last, |recalled| recalled.index);
@@ -102,7 +102,7 @@ impl SqlScreen {
         }
     }
 
-    /// Offers the saved queries.
+    /// Lists the saved queries.
     pub fn offer_queries(&self, state: &mut State) {
         let list = QueryList { queries: self.saved.clone(), text: String::new(), row: 0 };
         state.overlay = Some(Overlay::Queries(list));
@@ -115,7 +115,7 @@ impl SqlScreen {
         self.editor.set(text.trim_end());
     }
 
-    /// Asks for the name under which the query is saved: at first that of the saved one it was made from.
+    /// Asks for a name for the query, beginning with that of the saved query that it was made from.
     pub fn save_query(&self, state: &mut State) {
         let text = self.editor.text().trim().to_owned();
         if text.is_empty() {
@@ -126,7 +126,7 @@ impl SqlScreen {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::SaveQuery(text), name.unwrap_or_default())));
     }
 
-    /// Asks for the file that the rows go into.
+    /// Asks for the file for the rows.
     pub fn export_query(&self, state: &mut State) {
         if self.table.is_none() {
             state.say("nothing to export yet: F5 runs the query");
@@ -135,14 +135,14 @@ impl SqlScreen {
         state.overlay = Some(Overlay::Path(PathPrompt::new(Purpose::Export(self.answered.clone()), "query.csv")));
     }
 
-    /// Finds which rows of the answer pass the filter.
+    /// Filters the rows of the answer.
     pub fn arrange_rows(&mut self, state: &State) {
         if let Some(table) = &mut self.table {
             table.arrange(&state.nav.filters[Screen::Sql as usize]);
         }
     }
 
-    /// The selected row, tab-separated.
+    /// Selected row as text, separated by tabs.
     #[must_use]
     pub fn selected_row(&self) -> Option<String> {
         let table = self.table.as_ref().filter(|table| table.len() > 0)?;

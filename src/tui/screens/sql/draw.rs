@@ -1,4 +1,4 @@
-//! Drawing a query and its rows.
+//! Drawing a query and its answer.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -17,14 +17,14 @@ use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{Column, ResultTable, cell_text};
 use crate::widgets::text::{self, left, right, shortened, wrapped};
 
-/// Words that the editor sets off.
+/// Words that the editor highlights.
 const KEYWORDS: [&str; 34] = [
     "select", "from", "where", "join", "left", "using", "on", "group", "by", "order", "having", "limit", "as", "and",
     "or", "not", "in", "is", "null", "distinct", "case", "when", "then", "else", "end", "with", "union", "all", "desc",
     "asc", "like", "glob", "between", "over",
 ];
 
-/// Words offered at once.
+/// Most words offered at once.
 const OFFERED: usize = 6;
 
 impl Draw for SqlScreen {
@@ -52,7 +52,7 @@ impl Draw for SqlScreen {
 }
 
 impl SqlScreen {
-    /// Editor and answer.
+    /// Panes of editor and answer.
     fn panes(&self, area: Rect) -> [Rect; 2] {
         let lines = self.editor.text().matches('\n').count() as u16 + 1;
         let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
@@ -125,14 +125,14 @@ impl SqlScreen {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
-    /// Reason why the query was refused, if it was.
+    /// Reason why the query was refused; empty if it was not.
     fn refusal(&self, state: &State, width: u16) -> Vec<Line<'static>> {
         let Some(Err(error)) = &self.outcome else { return vec![] };
         let wrapped = wrapped(error, usize::from(width).saturating_sub(2));
         wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())).collect()
     }
 
-    /// The views there are, before anything was asked.
+    /// Names of the views, shown before the first query.
     fn names(&self, state: &State, width: usize) -> Vec<Line<'static>> {
         let relations = self.relations.as_deref().unwrap_or_default();
         let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
@@ -146,7 +146,7 @@ impl SqlScreen {
     }
 }
 
-/// A line of the query from a column on, words of SQL set off, the cursor where it is.
+/// Line of the query from a column on, with SQL words and the cursor highlighted.
 fn query_line(state: &State, text: &str, from: usize, cursor: Option<usize>) -> Line<'static> {
     let letters: Vec<char> = text.chars().chain(cursor.map(|_| ' ')).collect();
     let is_comment = text.trim_start().starts_with("--");
@@ -174,7 +174,7 @@ fn query_line(state: &State, text: &str, from: usize, cursor: Option<usize>) -> 
     Line::from(spans)
 }
 
-/// The words offered, the one taken set off.
+/// Offered words, with the taken one highlighted.
 fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
     let taken = offer.taken.unwrap_or(0);
     let first = first_shown(taken, offer.words.len(), OFFERED);
@@ -191,7 +191,7 @@ fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
     frame.render_widget(Paragraph::new(shown.iter().enumerate().map(line).collect::<Vec<_>>()), place);
 }
 
-/// The head and the rows around the selected one.
+/// Header, and the rows around the selected one.
 pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> Vec<Line<'static>> {
     let shown = table.columns_shown(width);
     let head = |k: usize| {
@@ -230,7 +230,7 @@ pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> 
     lines
 }
 
-/// Gap before the column shown at a place: the first column is frozen, and set apart where columns lie between.
+/// Gap before a column. The first column stays in place; a line follows it while others are scrolled away.
 fn gap(place: usize, column: usize) -> &'static str {
     match place {
         0 => "",

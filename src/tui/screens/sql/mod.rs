@@ -1,4 +1,4 @@
-//! Screen 7: a query and its answer.
+//! Screen 7: a query in SQL and its answer.
 
 mod actions;
 pub mod draw;
@@ -15,7 +15,7 @@ use crate::screens::sql::actions::is_editing;
 use crate::screens::sql::state::SqlScreen;
 use crate::screens::state::State;
 
-/// The keys that matter while a query is typed.
+/// Keys for the status line while a query is typed.
 const EDITOR_HINTS: [(&str, &str); 5] =
     [("F5", "run"), ("Tab", "complete, or rows"), ("C-p", "history"), ("Esc", "rows and commands"), ("C-c", "cancel")];
 

@@ -1,4 +1,4 @@
-//! State of the screen of queries.
+//! State of the SQL screen.
 
 use crate::widgets::editor::Editor;
 use crate::widgets::result_table::ResultTable;
@@ -6,31 +6,31 @@ use store::{Relation, SavedQuery};
 
 /// A query of the history that is shown in the editor.
 pub struct Recalled {
-    /// Its index in the history.
+    /// Index in the history.
     pub index: usize,
-    /// The text that was typed before it was shown.
+    /// Text of the editor before the query was shown.
     pub typed: String,
 }
 
-/// The screen of queries.
+/// The SQL screen.
 #[derive(Default)]
 pub struct SqlScreen {
-    /// The query as it is typed.
+    /// Editor with the query.
     pub editor: Editor,
     /// Queries that were run, the oldest first.
     pub history: Vec<String>,
-    /// The query of the history that is shown.
+    /// Query of the history that is shown; `None` while the text is another.
     pub recalled: Option<Recalled>,
-    /// Tables and views that a query may name; `None` until they were read.
+    /// Tables and views that a query may name; `None` until they are read.
     pub relations: Option<Vec<Relation>>,
-    /// Queries kept in files.
+    /// Saved queries.
     pub saved: Vec<SavedQuery>,
-    /// The query that is being answered.
+    /// Query that is being answered.
     pub running: Option<String>,
-    /// The query that was answered last: that of the table.
+    /// Query whose answer is in `table`.
     pub answered: String,
-    /// Rows of the last answer, as they are looked at.
+    /// Rows of the last answer, with their order and selection.
     pub table: Option<ResultTable>,
-    /// Number of rows and time of the last answer, or the error.
+    /// Number of rows and duration of the last answer, or the error.
     pub outcome: Option<Result<String, String>>,
 }

@@ -1,4 +1,4 @@
-//! The first screen of a new user: a database without studies.
+//! The start screen of a database without studies.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -7,7 +7,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::state::State;
 
-/// Draws what may be done first.
+/// Draws what a new user may do first.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let bold = state.theme.bold();
     let mut lines = vec![

@@ -1,4 +1,4 @@
-//! Moving about in the grid; other garments, other studies, new ones.
+//! Moving in the grid; changing garment or study; making a study.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ use engine::wearables;
 use sim::fabric::USUAL as USUAL_FABRIC;
 use store::FitCell;
 
-/// True if a place of the grid contains the filter.
+/// True if a place of the grid matches the filter.
 #[must_use]
 pub fn is_match(state: &State, place: Place) -> bool {
     let filter = state.filter_of(Screen::Study);
@@ -39,7 +39,7 @@ pub fn places(state: &State) -> Vec<Place> {
     rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject })).collect()
 }
 
-/// Moves up or down in the grid.
+/// Moves the selection up or down in the grid.
 pub fn go_in_grid(state: &mut State, movement: Movement) {
     let Some(grid) = state.grid() else { return };
     let simulators = grid.simulators.len().max(1);
@@ -48,7 +48,7 @@ pub fn go_in_grid(state: &mut State, movement: Movement) {
     state.select_cell(Place { size: row / simulators, simulator: row % simulators, ..state.place });
 }
 
-/// Goes to a cell by its place among all, row by row.
+/// Selects a cell by its index among all, counted row by row.
 pub fn go_to_cell(state: &mut State, cell: usize) {
     if let Some(place) = places(state).get(cell) {
         state.nav.second_pane[Screen::Study as usize] = false;
@@ -56,7 +56,7 @@ pub fn go_to_cell(state: &mut State, cell: usize) {
     }
 }
 
-/// Goes to the next cell that matches the filter, or back.
+/// Selects the next or previous cell that matches the filter.
 pub fn go_to_matching_cell(state: &mut State, step: isize) {
     let places = places(state);
     let at = places.iter().position(|place| *place == state.place).unwrap_or(0);
@@ -70,7 +70,7 @@ pub fn go_to_matching_cell(state: &mut State, step: isize) {
     }
 }
 
-/// Opens the result of the selected job; the quickstart where there is no study.
+/// Shows the result of the selected job. Without a study runs the quickstart.
 pub fn open(state: &mut State) -> Vec<Effect> {
     if state.is_first_start() {
         return state.run(Target::Quickstart);
@@ -83,7 +83,7 @@ pub fn open(state: &mut State) -> Vec<Effect> {
     vec![]
 }
 
-/// Shows the next garment of the study, or the one before.
+/// Shows the next or previous garment of the study.
 pub fn step_garment(state: &mut State, step: isize) {
     let Some(garments) = state.study().map(|study| &study.garments) else { return };
     let at = garments.iter().position(|name| Some(name) == state.focus.garment.as_ref()).unwrap_or(0);
@@ -106,7 +106,7 @@ pub fn next_study(state: &mut State) {
     state.open_study(name);
 }
 
-/// Asks what a new study is made of.
+/// Opens the form of a new study.
 pub fn new_study(state: &mut State) {
     let Some(data) = &state.data else { return };
     if !state.setup.abilities.run {
@@ -131,7 +131,7 @@ pub fn new_study(state: &mut State) {
     state.overlay = Some(Overlay::StudyForm(Box::new(form)));
 }
 
-/// Opens a study that was made, or says in the form why it was not.
+/// Shows a new study; its form shows an error instead.
 pub fn study_created(state: &mut State, name: &str, outcome: Result<PathBuf, String>) {
     let awaited = state.told.awaited.take();
     state.told.commands.extend(awaited.filter(|_| outcome.is_ok()));
@@ -149,7 +149,7 @@ pub fn study_created(state: &mut State, name: &str, outcome: Result<PathBuf, Str
     }
 }
 
-/// The selected cell, and what the grid and the numbers below it show.
+/// Selected cell, with the quantities of the grid and of the numbers below it.
 pub fn explained(state: &State) -> Selected {
     let shown = measured::explained(state);
     let place = state.place;

@@ -25,9 +25,9 @@ use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
 use store::{Cell, Grid, Status};
 
-/// Lines that make a picture below the grid worth while.
+/// Least lines for a picture below the grid.
 const LEAST_PICTURE: u16 = 14;
-/// Meaning of the marks of fits.
+/// Legend of the marks of fits.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
 impl Draw for StudyScreen {
@@ -85,7 +85,7 @@ impl Draw for StudyScreen {
     }
 }
 
-/// The panes; the picture only where the grid leaves room for it.
+/// The panes. The picture is there only if the grid leaves room.
 struct Panes {
     grid: Rect,
     detail: Rect,
@@ -111,7 +111,7 @@ impl Panes {
     }
 }
 
-/// The pane of the picture, where there is room for it.
+/// Pane of the picture; `None` where it does not fit.
 pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     state.grid().filter(|_| !is_narrow(area)).and_then(|grid| Panes::new(area, grid).picture)
 }
@@ -129,7 +129,7 @@ fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     frame.render_widget(Paragraph::new(told).block(block), area);
 }
 
-/// The part of the grid that there is room for: each size has a line a simulator and one of its ease.
+/// Part of the grid that fits. Each size has a line for each simulator and one for the ease.
 struct Shown {
     subjects: Range<usize>,
     lines: Range<usize>,
@@ -148,7 +148,7 @@ impl Shown {
     }
 }
 
-/// Title of the pane: study, garment and its number.
+/// Title of the pane: study, and garment with its number.
 fn title(state: &State, grid: &Grid) -> String {
     let garments = state.study().map_or(&[][..], |study| &study.garments);
     let at = garments.iter().position(|name| *name == grid.garment).unwrap_or(0);
@@ -162,7 +162,7 @@ fn size_width(grid: &Grid) -> usize {
     grid.sizes.iter().map(|size| text::width(size)).max().unwrap_or(0).clamp(4, 12)
 }
 
-/// Columns of size and simulator.
+/// Columns for size and simulator.
 fn label_width(grid: &Grid) -> usize {
     size_width(grid) + 5
 }
@@ -208,7 +208,7 @@ fn row(state: &State, grid: &Grid, subjects: Range<usize>, size: usize, simulato
     Line::from(spans)
 }
 
-/// Status glyph with EI or share done.
+/// Text of a cell: status glyph, with EI or share done.
 fn cell_text(cell: &Cell) -> String {
     let Some(status) = cell.status else { return "·".into() };
     match (status, cell.ei, cell.fraction) {
@@ -267,7 +267,7 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     frame.render_widget(Paragraph::new(measured::table(state, columns, lines, selected)), table_area);
 }
 
-/// The cells one below the other, where there is no room for the grid.
+/// Draws the cells as a list, where the grid does not fit.
 fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let places = places(state);
     let selected = places.iter().position(|place| *place == state.place).unwrap_or(0);

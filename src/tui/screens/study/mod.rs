@@ -1,4 +1,4 @@
-//! Screen 1: the study as a grid, sizes and simulators down, subjects across, and the numbers of the selected cell.
+//! Screen 1: the study as a grid of sizes and simulators by subjects, with the numbers of the selected cell.
 
 pub mod actions;
 mod draw;
@@ -11,7 +11,7 @@ use crate::screens::movement::Movement;
 use crate::screens::page::{Copied, Page};
 use crate::screens::state::State;
 
-/// The screen of the study. All that it shows is shared with other screens.
+/// The Study screen. It has no state of its own.
 #[derive(Default)]
 pub struct StudyScreen;
 

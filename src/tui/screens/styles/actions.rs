@@ -1,4 +1,4 @@
-//! Choosing a size, an edge, a line of its table; importing and removing.
+//! Choosing a size, an edge, a line of the table; importing and removing.
 
 use crate::keys::screen::Screen;
 use crate::messages::answered::Answered;
@@ -21,7 +21,7 @@ impl StylesScreen {
         data.sizes.iter().filter(|row| words(row).contains(&filter)).collect()
     }
 
-    /// The selected size: another of its style, or the first, where the one wanted is not shown.
+    /// Selected size. Where it is not shown: another size of its style, or the first of the list.
     #[must_use]
     pub fn size_row<'a>(&self, state: &'a State) -> Option<&'a SizeRow> {
         let sizes = self.sizes(state);
@@ -30,7 +30,7 @@ impl StylesScreen {
         found.or_else(|| sizes.iter().find(|row| row.style == style)).or(sizes.first()).copied()
     }
 
-    /// The layout of the selected size, or why there is none; `None` while it is read.
+    /// Layout of the selected size, or the reason why there is none; `None` while it is being made.
     #[must_use]
     pub fn layout(&self, state: &State) -> Option<Result<&SizeLayout, &str>> {
         let row = self.size_row(state)?;
@@ -39,13 +39,13 @@ impl StylesScreen {
         is_shown.then(|| outcome.as_deref().map_err(String::as_str))
     }
 
-    /// The layout of the selected size, where there is one.
+    /// Layout of the selected size; `None` where there is none.
     #[must_use]
     pub fn laid_out(&self, state: &State) -> Option<&SizeLayout> {
         self.layout(state)?.ok()
     }
 
-    /// True if the present layout is the one that was asked for last.
+    /// True if the latest layout is that of the latest request.
     #[must_use]
     pub fn is_current(&self) -> bool {
         self.layout
@@ -53,14 +53,14 @@ impl StylesScreen {
             .is_some_and(|layout| layout.outcome.is_ok() && Some(&layout.request) == self.requested.as_ref())
     }
 
-    /// The line of the table that is selected.
+    /// Selected line of the table.
     #[must_use]
     pub fn table_line(&self, state: &State) -> Option<TableLine> {
         let lines = self.laid_out(state)?.lines();
         lines.get(self.line).or(lines.last()).copied()
     }
 
-    /// Has the selected size laid out, where that was not asked for already.
+    /// Requests the layout of the selected size, unless it was requested before.
     pub fn ask_for_layout(&mut self, state: &State) -> Option<Effect> {
         let wanted = self.layout_request(state);
         if wanted == self.requested {
@@ -70,7 +70,7 @@ impl StylesScreen {
         wanted.map(|request| Effect::Seams(SeamTask::LayOut(request)))
     }
 
-    /// The request for the layout of the selected size as it is edited.
+    /// Request for the layout of the selected size with its edits.
     pub fn layout_request(&self, state: &State) -> Option<LayoutRequest> {
         let row = self.size_row(state)?;
         let study = state.study().filter(|study| study.garments.contains(&row.style)).map(|study| study.path.clone());
@@ -79,7 +79,7 @@ impl StylesScreen {
         Some(LayoutRequest { style: row.style.clone(), key: row.key, seams, study })
     }
 
-    /// Takes in what was laid out.
+    /// Stores a layout that is still wanted.
     pub fn take_layout(&mut self, state: &mut State, request: LayoutRequest, outcome: Result<Box<SizeLayout>, String>) {
         if self.requested.as_ref() != Some(&request) {
             return;
@@ -114,7 +114,7 @@ impl StylesScreen {
         self.edge = edge.unwrap_or(self.edge);
     }
 
-    /// Selects the next edge, and the seam that holds it.
+    /// Selects the next edge, and the seam that it is in.
     pub fn step_edge(&mut self, state: &mut State, step: isize) {
         let Some(layout) = self.laid_out(state) else { return };
         let edges = layout.edges();
@@ -124,7 +124,7 @@ impl StylesScreen {
         }
     }
 
-    /// Selects an edge by its place among all, and the seam that holds it.
+    /// Selects an edge by its index among all, and the seam that it is in.
     pub fn go_to_edge(&mut self, state: &mut State, edge: usize) {
         let Some(layout) = self.laid_out(state) else { return };
         let Some(edge) = layout.edges().get(edge).copied() else { return };
@@ -133,13 +133,13 @@ impl StylesScreen {
         state.nav.second_pane[Screen::Styles as usize] = true;
     }
 
-    /// Gives the pieces all the room, or less again.
+    /// Enlarges the pieces to all the room, or makes them small again.
     pub fn enlarge_pieces(&mut self, state: &mut State) {
         state.show(Screen::Styles);
         self.enlarged = !self.enlarged;
     }
 
-    /// Removes the selected size, with its style where it is the last, once that is confirmed.
+    /// Removes the selected size, after a question. The last size of a style is removed with the style.
     pub fn remove_size(&self, state: &mut State) {
         if !may_change(state, Part::Style) {
             return;
@@ -154,7 +154,7 @@ impl StylesScreen {
         catalogue::remove(state, part, Some(name));
     }
 
-    /// Moves in the list of sizes.
+    /// Moves the selection in the list of sizes.
     pub fn go_in_sizes(&mut self, state: &State, movement: Movement) {
         let selected = self.size_row(state).map(|row| row.key);
         let sizes = self.sizes(state);
@@ -163,21 +163,21 @@ impl StylesScreen {
         self.selected = next.map(|row| (row.style.clone(), row.size.clone()));
     }
 
-    /// Moves in the table of seams.
+    /// Moves the selection in the table of seams.
     pub fn go_in_seams(&mut self, state: &State, movement: Movement) {
         let lines = self.laid_out(state).map_or(0, |layout| layout.lines().len());
         self.select_line(state, movement.from(self.line, lines));
     }
 }
 
-/// Asks for the files of a style.
+/// Opens the form for the files of a style.
 pub fn import_style(state: &mut State) {
     if may_change(state, Part::Style) {
         state.overlay = Some(Overlay::StyleForm(Box::default()));
     }
 }
 
-/// The table of seams of a size, tab-separated.
+/// Table of seams as text, separated by tabs.
 #[must_use]
 pub fn seam_table(layout: &SizeLayout) -> String {
     let desk = &layout.out.desk;

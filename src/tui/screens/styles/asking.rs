@@ -1,4 +1,6 @@
-//! Deciding about seams: one question at a time, each answer a key.
+//! Questions about the seams of a size. The Styles screen asks one at a time, and a key answers it. Questions come from
+//! a list ([`Undecided`]: open questions of the proposal and of checks), or the user asks about an edge or a piece
+//! ([`Own`]).
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -9,7 +11,7 @@ use crate::screens::state::State;
 use crate::screens::styles::state::{Asking, EdgeAt, Own, StylesScreen, TableLine};
 use wardrobe::seams::{LEFT_OUT, SeamStep, Undecided};
 
-/// Keys while something is asked, for the status line.
+/// Keys for the status line while a question is asked.
 pub const HINTS: &[(&str, &str)] = &[
     ("y", "take ●"),
     ("1-9", "choose"),
@@ -23,7 +25,7 @@ pub const HINTS: &[(&str, &str)] = &[
 ];
 
 impl StylesScreen {
-    /// The question that is asked now.
+    /// The present question; `None` where nothing is asked, or where its edge or piece is gone.
     #[must_use]
     pub fn asked(&self, state: &State) -> Option<Undecided> {
         let asking = self.asking?;
@@ -41,7 +43,8 @@ impl StylesScreen {
         }
     }
 
-    /// Asks what is to be decided, beginning with what is selected; says so where there is nothing.
+    /// Starts asking: with the question of the selected line or, without one, with the first of the list. Where the
+    /// list is empty, asks about the selected edge if that is in no seam; else says that nothing is left.
     pub fn begin_asking(&mut self, state: &mut State) {
         if !self.may_sew(state) {
             return;
@@ -65,7 +68,7 @@ impl StylesScreen {
         }
     }
 
-    /// Asks a question of the user's own.
+    /// Asks a question of the user's own, instead of the next of the list.
     pub fn ask_own(&mut self, state: &mut State, own: Own) {
         if self.may_sew(state) {
             let at = self.asking.map_or(0, |asking| asking.at);
@@ -74,7 +77,8 @@ impl StylesScreen {
         }
     }
 
-    /// The question about pieces that is asked next: about the selected one, then about those that are left out, some at a time.
+    /// The user's next question about pieces, as the same key is pressed again: first the selected piece, then the
+    /// pieces that are left out, [`LEFT_OUT`] at a time.
     #[must_use]
     pub fn next_of_piece(&self, state: &State) -> Own {
         let left_out = self.laid_out(state).map_or(0, |layout| layout.out.desk.left_out.len());
@@ -97,7 +101,7 @@ impl StylesScreen {
         }
     }
 
-    /// Goes on once something was answered and the pieces are laid out anew.
+    /// Moves on after an answer, once the pieces are laid out again: to the next question of the list, or to the end.
     pub fn go_on_asking(&mut self, state: &mut State) {
         let Some(asking) = self.asking else { return };
         let left = self.laid_out(state).map_or(0, |layout| layout.out.undecided.len());
@@ -111,7 +115,7 @@ impl StylesScreen {
         }
     }
 
-    /// Takes a key while something is asked; `None` where it means what it always does.
+    /// Handles a key while a question is asked; `None` for a key that keeps its usual meaning.
     pub fn answer(&mut self, state: &mut State, event: &KeyEvent) -> Option<Vec<Effect>> {
         let asking = self.asking?;
         let asked = self.asked(state)?;
@@ -150,7 +154,7 @@ impl StylesScreen {
         vec![]
     }
 
-    /// True if the seams are asked about on the screen that is shown.
+    /// True if a question is asked on the shown screen.
     #[must_use]
     pub fn is_asking(&self, state: &State) -> bool {
         state.nav.screen == Screen::Styles && self.asking.is_some()

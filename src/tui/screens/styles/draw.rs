@@ -21,19 +21,19 @@ use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use wardrobe::SizeRow;
 use wardrobe::seams::{Desk, DeskSeam};
 
-/// Columns of a small terminal that has room for the pieces beside the table.
+/// Least columns of a small terminal for the pieces to stand beside the table.
 const BESIDE: u16 = 56;
 
-/// Names of what is shown, as the glossary has them.
+/// Names of the quantities on the screen, as in the glossary.
 pub const HEADINGS: [&str; 8] = ["seam", "a mm", "ease", "ratio", "sure", "rev", "pattern", "measurement"];
 
-/// Columns of the table from which it has names of seams and both lengths.
+/// Least columns of a table with names of seams and both lengths.
 const FULL: usize = 66;
-/// Columns of the name of a seam there, and of all but its edges.
+/// Columns for the name of a seam in such a table, and for all but the seam's edges.
 const NAME: usize = 14;
 const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
 
-/// The panes: list, table of the selected size or what is asked, pieces; those without room are `None`.
+/// The panes: list; table of the selected size, or question; pieces. `None` where one does not fit.
 #[derive(Default)]
 struct Panes {
     list: Option<Rect>,
@@ -92,7 +92,7 @@ impl Draw for StylesScreen {
 
 impl StylesScreen {
     fn panes(&self, area: Rect, state: &State) -> Panes {
-        // While something is asked it has to be seen.
+        // The question must be seen while one is asked.
         if self.enlarged && self.asking.is_none() {
             return Panes { pieces: Some(area), ..Panes::default() };
         }
@@ -113,7 +113,7 @@ impl StylesScreen {
         Panes { list: Some(list), table: Some(table), pieces: Some(pieces) }
     }
 
-    /// The lines of the table that can be gone to: a selected question takes several.
+    /// Places of the table's lines, for a jump. A selected question takes several lines.
     fn line_targets(&self, state: &State, layout: &SizeLayout, area: Rect) -> Vec<Target> {
         let items = layout.lines();
         let at = self.line.min(items.len().saturating_sub(1));
@@ -131,17 +131,17 @@ impl StylesScreen {
         targets
     }
 
-    /// Place of the pieces and of the garment sewn of them; `None` where there is only room for lists.
+    /// Area for the pieces and the preview of the garment; `None` where only lists fit.
     pub fn pieces_area(&self, state: &State, area: Rect) -> Option<Rect> {
         self.panes(area, state).pieces
     }
 
-    /// The room that the garment leaves for the pieces.
+    /// Area that the preview leaves for the pieces.
     fn beside_preview(&self, state: &State, area: Rect) -> Rect {
         self.preview_place(state, area).map_or(area, |garment| Rect { width: area.width - garment.width, ..area })
     }
 
-    /// The list of sizes, in a border where there is room for one.
+    /// Draws the list of sizes, with a border where one fits.
     fn draw_list(&self, frame: &mut Frame<'_>, area: Rect, state: &State, is_bare: bool) {
         if is_bare {
             frame.render_widget(Paragraph::new(self.list(state, area.width, area.height)), area);
@@ -159,7 +159,7 @@ impl StylesScreen {
         frame.render_widget(Paragraph::new(self.list(state, inner.width, inner.height)).block(block), area);
     }
 
-    /// Draws the pieces, and beside them or instead of them the garment.
+    /// Draws the pieces, with the preview beside or instead of them.
     fn draw_pieces(&self, frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
         let garment = self.preview_place(state, area);
         let left = self.beside_preview(state, area);
@@ -220,7 +220,7 @@ impl StylesScreen {
             Some(Ok(layout)) => {
                 let title = {
                     let counts = format!(" · {} seams, {} to decide", layout.out.desk.seams.len(), to_decide(layout));
-                    // Four columns are the border's and the mark of the focus.
+                    // Border and mark of the focus take four columns.
                     let room = columns.saturating_sub(width(&counts) + 4);
                     shortened(&name, room) + &counts
                 };
@@ -235,7 +235,7 @@ impl StylesScreen {
         }
     }
 
-    /// The selected edge, and its seam with everything about it.
+    /// Description of the selected edge, with its seam.
     fn selection(&self, layout: &SizeLayout) -> String {
         let (piece, edge) = self.edge;
         let Some(piece) = layout.out.desk.pieces.get(piece) else { return String::new() };
@@ -251,7 +251,7 @@ impl StylesScreen {
         }
     }
 
-    /// Seams, questions and measurements, the selected line among them.
+    /// Lines of the table: seams, questions, measurements, with the selected line.
     fn table(&self, state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
         let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
         let items = layout.lines();
@@ -259,7 +259,7 @@ impl StylesScreen {
         let first = first_shown(at, items.len(), height);
         let mut lines = vec![Line::styled(head(width), state.theme.dim())];
         for (k, item) in items.iter().enumerate().skip(first) {
-            // An edge in no seam is selected beside the line of another one.
+            // If the selected edge is in no seam, the selected line is that of another edge.
             let is_selected = k == at
                 && match item {
                     TableLine::Seam(seam) => layout.seam_at(self.edge) == Some(*seam),
@@ -280,12 +280,12 @@ impl StylesScreen {
     }
 }
 
-/// Number of things a person must decide.
+/// Number of open questions.
 fn to_decide(layout: &SizeLayout) -> usize {
     layout.out.undecided.len()
 }
 
-/// A line of the table; a selected question at its full length.
+/// Lines of an item of the table; a selected question in full.
 fn item_lines(
     state: &State,
     layout: &SizeLayout,
@@ -326,14 +326,14 @@ fn head(width: usize) -> String {
     shortened(&text, width)
 }
 
-/// A seam: letter, edges by number, lengths, and how sure it is where it was proposed.
+/// Line of a seam: letter, edges by number, lengths, and confidence if it is only proposed.
 fn seam_line(desk: &Desk, k: usize, seam: &DeskSeam, width: usize) -> String {
     let (mark, sure) = match seam.confidence {
         Some(confidence) => ("?", format!("{:.0}%", confidence * 100.0)),
         None => (" ", "✓".to_owned()),
     };
     let turned = if seam.same_direction { "↻" } else { "" };
-    // Names of pieces give way before numbers of edges do.
+    // Names of pieces are shortened before numbers of edges.
     let fitted = |columns: usize| {
         let edges = |letters| format!("{}={}{turned}", chain(desk, &seam.a, letters), chain(desk, &seam.b, letters));
         let fits = |edges: &String| text::width(edges) <= columns;
@@ -354,13 +354,13 @@ fn seam_line(desk: &Desk, k: usize, seam: &DeskSeam, width: usize) -> String {
     shortened(&text, width)
 }
 
-/// An ease with its sign: tenths of a millimetre where it is small.
+/// Ease with its sign, in whole mm; small ones in tenths.
 fn whole_or_tenth(ease: f64) -> String {
     let sign = if ease > 0.0 { "+" } else { "" };
     if ease.abs() < 10.0 { format!("{sign}{ease:.1}").replace('-', "−") } else { format!("{sign}{}", whole(ease)) }
 }
 
-/// The edges of one side of a seam by their numbers: `front.3`, `sleeve.2+3`; so many letters of each word of a piece.
+/// Edges on one side of a seam, by number: `front.3`, `sleeve.2+3`. `letters` is the number of letters of each word.
 fn chain(desk: &Desk, edges: &[EdgeAt], letters: usize) -> String {
     let short = |id: &str| {
         let words = id.split('_').map(|word| word.chars().take(letters).collect::<String>());

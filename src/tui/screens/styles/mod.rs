@@ -1,4 +1,4 @@
-//! Screen 3: the styles and sizes of the catalogue, and of the selected one its seams, measurements and pieces.
+//! Screen 3: the styles and sizes of the catalogue; for the selected size its seams, measurements and pieces.
 
 mod actions;
 mod asking;

@@ -1,5 +1,5 @@
-//! The pieces of a size as they lie about the head, their edges numbered, the seams lettered: braille dots and text, so
-//! that every terminal can show them.
+//! Drawing the pieces of a size, laid out around the head: edges with numbers, seams with letters. Braille dots and
+//! text can be shown by every terminal.
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -16,19 +16,19 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
 use wardrobe::seams::{DeskEdge, DeskPiece, DeskSeam};
 
-/// Digits of answers.
+/// Digits that name the answers of a question.
 const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
-/// Distances of labels from their edge, in dots of braille: inside the piece first.
+/// Distances at which a label is tried beside its edge, in braille dots; above 0 inside the piece.
 const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
 
-/// The letter of a seam, in the table and in the picture.
+/// Letter of a seam, in table and drawing.
 pub fn letter(seam: usize) -> char {
     let small = || ('a'..='z').nth(seam.saturating_sub(26));
     ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
 }
 
 impl StylesScreen {
-    /// Draws the pane of the pieces.
+    /// Draws the pane with the pieces.
     pub fn draw_piece_pane(&self, frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         let title = self.size_row(state).map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
         let room = usize::from(area.width).saturating_sub(26);
@@ -47,7 +47,7 @@ impl StylesScreen {
     }
 }
 
-/// The edges that can be gone to, at their middles.
+/// Places of the edges, for a jump: their midpoints.
 pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
     let Some(view) = View::of(jump::inside(area), layout) else { return vec![] };
     let place = |(k, (piece, edge)): (usize, EdgeAt)| {
@@ -57,17 +57,17 @@ pub fn targets(layout: &SizeLayout, area: Rect) -> Vec<Target> {
     layout.edges().into_iter().enumerate().filter_map(place).collect()
 }
 
-/// Scale from millimetres to dots of braille, two by four a cell.
+/// Scale from mm to braille dots, of which a cell has two by four.
 struct View {
     area: Rect,
     /// Left and upper end of the pane, mm.
     corner: [f64; 2],
-    /// Millimetres a dot.
+    /// Scale, mm per dot.
     scale: f64,
 }
 
 impl View {
-    /// All pieces in a pane; `None` where there is nothing to see or no room.
+    /// View of all pieces in a pane; `None` without pieces or room.
     fn of(area: Rect, layout: &SizeLayout) -> Option<Self> {
         let edges = layout.out.desk.pieces.iter().flat_map(|piece| &piece.edges);
         let points = edges.flat_map(|edge| &edge.line_mm);
@@ -80,13 +80,13 @@ impl View {
             return None;
         }
         let dots = [f64::from(area.width) * 2.0, f64::from(area.height) * 4.0];
-        // A dot stays free on each side.
+        // One dot stays free on each side.
         let scale = ((right - left) / (dots[0] - 2.0)).max((high - low) / (dots[1] - 2.0)).max(1e-6);
         let corner = [(left + right - scale * dots[0]) / 2.0, (low + high + scale * dots[1]) / 2.0];
         Some(Self { area, corner, scale })
     }
 
-    /// The cell of a place; `None` outside the pane.
+    /// Cell of a point; `None` outside the pane.
     fn cell(&self, [x, y]: [f64; 2]) -> Option<Position> {
         let column = ((x - self.corner[0]) / self.scale / 2.0).floor();
         let row = ((self.corner[1] - y) / self.scale / 4.0).floor();
@@ -104,12 +104,12 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// The colour of an edge: that of its seam.
+    /// Colour of an edge, which is that of its seam.
     fn colour(&self, edge: EdgeAt) -> Color {
         self.layout.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.lettered(seam))
     }
 
-    /// All edges with their places.
+    /// All edges with their indices.
     fn edges(&self) -> impl Iterator<Item = (EdgeAt, &DeskPiece, &DeskEdge)> {
         let pieces = self.layout.out.desk.pieces.iter().enumerate();
         pieces.flat_map(|(k, piece)| piece.edges.iter().enumerate().map(move |(n, edge)| ((k, n), piece, edge)))
@@ -117,7 +117,7 @@ impl Drawing<'_> {
 
     fn outlines(&self, frame: &mut Frame<'_>) {
         let View { area, corner, scale } = &self.view;
-        // The canvas puts its bounds on the middles of its outermost dots.
+        // The canvas puts its bounds on the middles of the outermost dots.
         let (dx, dy) = (f64::from(area.width) * 2.0 - 1.0, f64::from(area.height) * 4.0 - 1.0);
         let (x, y) = (corner[0] + scale / 2.0, corner[1] - scale / 2.0);
         let canvas = Canvas::default()
@@ -136,7 +136,8 @@ impl Drawing<'_> {
         frame.render_widget(canvas, *area);
     }
 
-    /// The selected edge and what is sewn to it, in glyphs that need no colour; what may be sewn to it, by the digit of the answer.
+    /// Draws the selected edge and its partner with glyphs that need no colour, and possible partners by the digits of
+    /// their answers.
     fn selection(&self, frame: &mut Frame<'_>) {
         let chosen = self.screen.edge;
         let asked = self.screen.asked(self.state);
@@ -164,7 +165,7 @@ impl Drawing<'_> {
         for (at, is_forwards) in seam.map_or(vec![], sides) {
             let edge = &self.layout.out.desk.pieces[at.0].edges[at.1];
             let [place, inwards] = edge.middle();
-            // Along the edge, a quarter turn back from inwards.
+            // Direction along the edge: a quarter turn back from the inward normal.
             let along = [inwards[1], -inwards[0]].map(|x| if is_forwards { x } else { -x });
             if let Some(cell) = self.view.cell(place) {
                 let style = Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD | Modifier::REVERSED);
@@ -173,8 +174,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// Numbers of edges with the letters of their seams, and names of pieces, as far as there is room: what is selected
-    /// first, then long edges before short ones.
+    /// Draws numbers of edges with letters of seams, and names of pieces, where they fit: first those of the selection,
+    /// then long edges before short ones.
     fn labels(&self, frame: &mut Frame<'_>) {
         let screen = self.screen;
         let mut edges: Vec<_> = self.edges().collect();
@@ -207,7 +208,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Writes a label at the first place where it touches no other.
+    /// Writes a label at the first of `places` where it touches no other label.
     fn put(&self, frame: &mut Frame<'_>, taken: &mut Vec<Rect>, label: &str, style: Style, places: &[[f64; 2]]) {
         let columns = width(label) as u16;
         for cell in places.iter().filter_map(|place| self.view.cell(*place)) {
@@ -224,13 +225,13 @@ impl Drawing<'_> {
     }
 }
 
-/// The edges of a seam, each with true if the seam runs along it as it is drawn: both sides then run together.
+/// Edges of a seam, each with true if the seam runs along it in its drawn direction: both sides then run together.
 fn sides(seam: &DeskSeam) -> Vec<(EdgeAt, bool)> {
     let forwards = seam.a.iter().map(|edge| (*edge, true));
     forwards.chain(seam.b.iter().map(|edge| (*edge, seam.same_direction))).collect()
 }
 
-/// The arrow nearest to a direction, `y` up.
+/// Arrow nearest to a direction; `y` points up.
 fn arrow([x, y]: [f64; 2]) -> &'static str {
     match (x.abs() > y.abs(), x > 0.0, y > 0.0) {
         (true, true, _) => "→",
@@ -240,7 +241,7 @@ fn arrow([x, y]: [f64; 2]) -> &'static str {
     }
 }
 
-/// Places along an edge, at most so many mm apart.
+/// Points along an edge, at most `apart_mm` apart.
 fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
     let mut places = vec![];
     for pair in edge.line_mm.windows(2) {
@@ -252,7 +253,7 @@ fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
     places
 }
 
-/// The middle of a piece's extent.
+/// Centre of a piece's bounding box.
 fn centre(piece: &DeskPiece) -> [f64; 2] {
     let points = || piece.edges.iter().flat_map(|edge| &edge.line_mm);
     [0, 1].map(|k| {

@@ -1,4 +1,4 @@
-//! The garment sewn coarsely on the subject in hand, beside its pieces.
+//! Preview of the selected size: sewn coarsely on the chosen subject, and shown beside the pieces.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -19,19 +19,19 @@ use crate::widgets::text::{shortened, wrapped};
 use results::preview::{Care, Hung};
 use store::SubjectId;
 
-/// Lines below the picture, besides that of a legend: in a high pane, and in others.
+/// Lines below the picture, without that of a legend: in a high pane, and in a low one.
 const TOLD: [u16; 2] = [5, 2];
-/// Lines of a high pane.
+/// Least lines of a high pane.
 const HIGH: u16 = 30;
 
 impl StylesScreen {
-    /// True if the pane is there: beside the pieces where there is room, else instead of them.
+    /// True if the preview is shown: beside the pieces or, where only one fits, instead of them.
     fn shows_preview(&self, state: &State) -> bool {
         let is_wide = state.body().width >= WIDE;
         state.setup.abilities.pictures && !is_narrow(state.body()) && (is_wide || self.preview.is_chosen)
     }
 
-    /// Has the selected size sewn coarsely as it is edited, where that was not asked for already and is to be seen.
+    /// Requests a preview of the selected size with its edits, if it is shown and was not requested before.
     pub fn ask_for_preview(&mut self, state: &State) -> Option<Effect> {
         if !self.shows_preview(state) || !self.is_current() {
             return None;
@@ -44,7 +44,7 @@ impl StylesScreen {
         Some(self.dress(state, size, subject, Care::Glance))
     }
 
-    /// The selected size with its seam file, whether that is edited or stored.
+    /// Request for the selected size with its seam file, edited or stored.
     fn dressed_size(&self, state: &State) -> Option<LayoutRequest> {
         let size = self.layout_request(state)?;
         let stored = self.laid_out(state).and_then(|layout| layout.stored.clone());
@@ -58,7 +58,7 @@ impl StylesScreen {
         Effect::Preview(request)
     }
 
-    /// Drapes the selected size on the subject in hand as a study does.
+    /// Drapes the selected size on the chosen subject, as finely as a study.
     pub fn try_on(&mut self, state: &mut State) -> Vec<Effect> {
         state.show(Screen::Styles);
         let subject = state.subject_in_hand().map(|subject| (subject.id, subject.name.clone()));
@@ -73,7 +73,7 @@ impl StylesScreen {
         vec![self.dress(state, size, subject, Care::Trial)]
     }
 
-    /// Takes in a garment that was sewn coarsely.
+    /// Stores a preview that is still wanted.
     pub fn take_preview(&mut self, state: &mut State, request: PreviewRequest, outcome: Result<Previewed, String>) {
         if request.care == Care::Trial {
             match &outcome {
@@ -88,7 +88,7 @@ impl StylesScreen {
         self.preview.seen = Some(Answered { request, outcome });
     }
 
-    /// Shows the garment from the next side; where there is no room for both, the pieces come after the last.
+    /// Shows the preview from the next side. Where only one fits, the pieces follow after the last side.
     pub fn turn_preview(&mut self, state: &mut State) {
         if !state.setup.abilities.pictures {
             return state.say("pictures are off (--images off)");
@@ -103,7 +103,7 @@ impl StylesScreen {
         preview.is_chosen = is_wide || *look != FRONT;
     }
 
-    /// The picture of the pane.
+    /// Picture of the preview, with its area.
     #[must_use]
     pub fn previewed(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         let number = self.preview.seen.as_ref().filter(|seen| seen.outcome.is_ok()).map(|seen| seen.request.number);
@@ -113,7 +113,7 @@ impl StylesScreen {
         number.map(Pictured::Preview).zip(pane).into_iter().collect()
     }
 
-    /// Place of the pane in the room of the pieces; `None` where it is not shown.
+    /// Area of the preview within that of the pieces; `None` where it is not shown.
     pub fn preview_place(&self, state: &State, area: Rect) -> Option<Rect> {
         if !self.shows_preview(state) {
             return None;
@@ -124,7 +124,7 @@ impl StylesScreen {
         Some(Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas::<2>(area)[1])
     }
 
-    /// Draws the garment, and below it how far it was sewn.
+    /// Draws the preview, with its state below.
     pub fn draw_preview(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
         let view = look_name(state.pictures.look);
         let seen = self.preview.seen.as_ref().map(|Answered { request, outcome }| (request, outcome));
@@ -178,7 +178,7 @@ fn told_lines(pane: Rect) -> u16 {
     TOLD[usize::from(pane.height < HIGH)]
 }
 
-/// The picture, as large as it is asked for, and the text below it.
+/// Areas of the picture, in its requested size, and of the text below.
 fn split(pane: Rect, inner: Rect) -> [Rect; 2] {
     let (picture, _) = parts(Rect { height: inner.height.saturating_sub(told_lines(pane)), ..inner });
     let told = Rect { y: picture.bottom(), height: inner.bottom().saturating_sub(picture.bottom()), ..inner };

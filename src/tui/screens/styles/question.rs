@@ -1,4 +1,4 @@
-//! Drawing a question: its text in full, its answers by digit.
+//! Drawing a question: its whole text, and its answers with digits.
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -13,7 +13,7 @@ use crate::widgets::text::wrapped;
 use wardrobe::seams::Undecided;
 
 impl StylesScreen {
-    /// Draws it in place of the table.
+    /// Draws the question instead of the table.
     pub fn draw_question(&self, frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {
         let count = self.laid_out(state).map_or(0, |layout| layout.out.undecided.len());
         let title = match self.asking {
@@ -30,7 +30,7 @@ impl StylesScreen {
     }
 }
 
-/// The question and its answers; where there is no room for all lines, the first of them and `…`.
+/// Lines of the question and its answers; where they do not fit, the first ones and `…`.
 fn lines(state: &State, asked: &Undecided, width: usize, height: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'_>> =
         wrapped(&asked.text, width).into_iter().map(|text| Line::styled(text, state.theme.bold())).collect();

@@ -1,4 +1,4 @@
-//! Work on the seams of a style.
+//! Editing, proposing and saving the seams of a style.
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::{Effect, Writing};
@@ -13,7 +13,7 @@ use wardrobe::Part;
 use wardrobe::seams::{DeskSeam, SeamEdit, SeamStep};
 
 impl StylesScreen {
-    /// Gives the seams the focus; returns true if they can be worked on now.
+    /// Moves the focus to the seams. Returns true if they can be edited now; else says why not.
     pub fn may_sew(&self, state: &mut State) -> bool {
         if !may_change(state, Part::Style) {
             return false;
@@ -28,7 +28,7 @@ impl StylesScreen {
         is_ready
     }
 
-    /// Marks the selected edge, or takes its mark away.
+    /// Marks the selected edge, or takes the mark away.
     pub fn mark_edge(&mut self, state: &mut State) {
         if !self.may_sew(state) {
             return;
@@ -40,7 +40,7 @@ impl StylesScreen {
         }
     }
 
-    /// Sews the edge marked first to the others marked, or to the selected one.
+    /// Sews the edge that was marked first to the other marked edges; without others, to the selected edge.
     pub fn add_seam(&mut self, state: &mut State) -> Vec<Effect> {
         if !self.may_sew(state) {
             return vec![];
@@ -73,7 +73,7 @@ impl StylesScreen {
         effects
     }
 
-    /// The seam that holds the selected edge.
+    /// Seam that the selected edge is in; `None`, with a message, where it is in none.
     fn selected_seam(&self, state: &mut State) -> Option<DeskSeam> {
         if !self.may_sew(state) {
             return None;
@@ -86,25 +86,25 @@ impl StylesScreen {
         found
     }
 
-    /// Two edges that name a seam: one of each side.
+    /// Two edges that identify a seam, one of each side.
     fn between(&self, state: &State, seam: &DeskSeam) -> Option<(String, String)> {
         let layout = self.laid_out(state)?;
         Some((layout.out.desk.edge_name(*seam.a.first()?), layout.out.desk.edge_name(*seam.b.first()?)))
     }
 
-    /// Opens the selected seam.
+    /// Removes the selected seam.
     pub fn remove_seam(&mut self, state: &mut State) -> Vec<Effect> {
         let edges = self.selected_seam(state).and_then(|seam| self.between(state, &seam));
         edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Remove { a, b })))
     }
 
-    /// Turns one side of the selected seam round.
+    /// Reverses one side of the selected seam.
     pub fn flip_seam(&mut self, state: &mut State) -> Vec<Effect> {
         let edges = self.selected_seam(state).and_then(|seam| self.between(state, &seam));
         edges.map_or(vec![], |(a, b)| self.step_of_work(state, SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Gives the seams the focus, and asks the questions about them.
+    /// Moves the focus to the seams, and asks the open questions about them.
     pub fn decide(&mut self, state: &mut State) {
         let had_focus = state.in_second_pane();
         state.show(Screen::Styles);
@@ -114,7 +114,7 @@ impl StylesScreen {
         if had_focus {
             self.begin_asking(state);
         } else if !is_decided {
-            // What is not laid out yet is asked once it is.
+            // If the size is not laid out yet, asking starts once it is.
             self.asking = Some(Asking { at: 0, own: None, goes_on: true });
             if self.layout(state).is_some() {
                 self.go_on_asking(state);
@@ -122,9 +122,10 @@ impl StylesScreen {
         }
     }
 
-    /// Proposes the seams of the selected style; asks where that replaces seams that somebody has made or confirmed.
+    /// Proposes the seams of the selected style, after a question if that replaces seams that somebody made or
+    /// confirmed.
     pub fn propose_seams(&mut self, state: &mut State) -> Vec<Effect> {
-        // What cannot be laid out with the seams it has may get others.
+        // A size that its present seams do not fit may get others.
         if !may_change(state, Part::Style) || self.is_busy {
             return vec![];
         }
@@ -142,14 +143,14 @@ impl StylesScreen {
         effects
     }
 
-    /// Does a step of work on the seams of the selected size.
+    /// Requests a step of work on the seams of the selected size.
     pub fn step_of_work(&mut self, state: &State, step: SeamStep) -> Vec<Effect> {
         let Some(request) = self.layout_request(state) else { return vec![] };
         self.is_busy = true;
         vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step }))]
     }
 
-    /// Takes in a seam file after a step of work.
+    /// Stores the seam file after a step of work.
     pub fn sewn(&mut self, state: &mut State, work: SeamWork, outcome: Result<SourceFile, String>) {
         let SeamWork { size: request, step } = work;
         self.is_busy = false;
@@ -166,7 +167,7 @@ impl StylesScreen {
         }
     }
 
-    /// Takes the last edit of the selected style back.
+    /// Undoes the last edit of the selected style.
     pub fn undo_edit(&mut self, state: &mut State) {
         state.show(Screen::Styles);
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
@@ -186,7 +187,7 @@ impl StylesScreen {
         state.say(format!("the last edit of {style} is taken back, {left}; U does it again"));
     }
 
-    /// Does the edit of the selected style again that was taken back last.
+    /// Redoes the edit of the selected style that was undone last.
     pub fn redo_edit(&mut self, state: &mut State) {
         state.show(Screen::Styles);
         let Some(style) = self.size_row(state).map(|row| row.style.clone()) else { return };
@@ -212,7 +213,7 @@ impl StylesScreen {
         vec![Effect::Do(Command::SaveSeams(style, seams))]
     }
 
-    /// Forgets edits that are saved, and asks whether the file of the study is to say the same.
+    /// Forgets edits that were saved, and asks if the study's own seam file should be replaced too.
     pub fn seams_saved(&mut self, state: &mut State, style: &str, seams: &SourceFile, outcome: Result<String, String>) {
         let text = match outcome {
             Ok(text) => text,
@@ -233,7 +234,7 @@ impl StylesScreen {
         }
     }
 
-    /// The seam file of the selected size as it is edited.
+    /// Seam file of the selected size with its edits, for the user's editor.
     #[must_use]
     pub fn seam_file(&self, state: &State) -> Option<Writing> {
         let request = self.layout_request(state)?;
@@ -242,7 +243,7 @@ impl StylesScreen {
         Some(Writing::Seams(request, file))
     }
 
-    /// Takes in the text of a seam file that was written in an editor.
+    /// Handles a seam file that was written in the user's editor.
     pub fn written(
         &mut self,
         state: &mut State,
@@ -258,7 +259,7 @@ impl StylesScreen {
         vec![Effect::Seams(SeamTask::Sew(SeamWork { size: request, step: SeamStep::Written(file) }))]
     }
 
-    /// Styles with edits that are not saved.
+    /// Names of the styles with unsaved edits.
     #[must_use]
     pub fn unsaved(&self) -> String {
         self.edits.keys().cloned().collect::<Vec<_>>().join(", ")

@@ -1,4 +1,4 @@
-//! State of the screen of styles.
+//! State of the Styles screen.
 
 use std::collections::BTreeMap;
 
@@ -7,95 +7,95 @@ use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayou
 use store::files::SourceFile;
 use wardrobe::seams::SeamStep;
 
-/// An edge by its piece and its place on it.
+/// An edge: index of the piece, and index of the edge on it.
 pub type EdgeAt = (usize, usize);
 
-/// The screen of styles.
+/// The Styles screen.
 #[derive(Default)]
 pub struct StylesScreen {
-    /// Style and size selected.
+    /// Selected style and size.
     pub selected: Option<(String, String)>,
-    /// Edits of styles that are not saved, the latest last.
+    /// Unsaved edits by style, the latest last.
     pub edits: BTreeMap<String, Vec<Edited>>,
-    /// Edits that were taken back, the latest last.
+    /// Undone edits by style, the latest last.
     pub undone: BTreeMap<String, Vec<Edited>>,
-    /// Place among the questions, while they are answered.
+    /// The present question; `None` while nothing is asked.
     pub asking: Option<Asking>,
-    /// The garment sewn coarsely.
+    /// Preview of the garment.
     pub preview: Preview,
-    /// The size whose layout was asked for.
+    /// Size of the latest request for a layout.
     pub requested: Option<LayoutRequest>,
-    /// The layout that came last, or why there is none.
+    /// Latest layout, or the reason why there is none.
     pub layout: Option<Answered<LayoutRequest, Box<SizeLayout>>>,
-    /// Edge selected: its piece and its index there.
+    /// Selected edge.
     pub edge: EdgeAt,
-    /// Line of the table selected.
+    /// Index of the selected line of the table.
     pub line: usize,
-    /// Edges marked, in order.
+    /// Marked edges, in the order of marking.
     pub marks: Vec<EdgeAt>,
-    /// True while a step of work goes on.
+    /// True while a step of work is in progress.
     pub is_busy: bool,
-    /// True where the pieces have all the room.
+    /// True if the pieces are enlarged to all the room.
     pub enlarged: bool,
 }
 
 /// A seam file after a step of work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edited {
-    /// The size that was worked on, `STYLE/SIZE`.
+    /// Size that was edited, `STYLE/SIZE`.
     pub size: String,
-    /// Step of work that made it.
+    /// Step of work that was done.
     pub step: SeamStep,
-    /// The seam file then.
+    /// Seam file after the step.
     pub seams: SourceFile,
 }
 
-/// Place among the questions to be decided.
+/// The present question about seams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asking {
-    /// Place in the list.
+    /// Index in the list of open questions.
     pub at: usize,
-    /// The question that is asked instead of that.
+    /// Question of the user's own that is asked instead; `None` for the one of the list.
     pub own: Option<Own>,
-    /// True where the list is gone on with once that is answered.
+    /// True if the next question of the list follows the answer.
     pub goes_on: bool,
 }
 
 /// A question of the user's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Own {
-    /// The edges that an edge is sewn to.
+    /// Asks what an edge is sewn to.
     Edge(EdgeAt),
-    /// The role of a piece.
+    /// Asks for the role of the piece with this index.
     Piece(usize),
-    /// The pieces that are worn too of those left out, from the first of some on.
+    /// Asks which of the pieces that are left out, from this index on, are worn too.
     LeftOut(usize),
 }
 
-/// The garment sewn coarsely while its seams are edited.
+/// Preview of a garment while its seams are edited.
 #[derive(Debug, Default)]
 pub struct Preview {
-    /// The request made last.
+    /// Latest request.
     pub asked: Option<PreviewRequest>,
-    /// The garment that came last.
+    /// Latest preview.
     pub seen: Option<Answered<PreviewRequest, Previewed>>,
-    /// True where it is shown instead of the pieces where there is no room for both.
+    /// True to show the preview instead of the pieces, where only one fits.
     pub is_chosen: bool,
 }
 
 /// A line of the table beside the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableLine {
-    /// A seam, by its index on the desk.
+    /// A seam, by its index in [`wardrobe::seams::Desk`].
     Seam(usize),
-    /// A question that a person must decide.
+    /// An open question, by its index.
     Question(usize),
-    /// A measurement, by its index among the lengths.
+    /// A measurement, by its index.
     Length(usize),
 }
 
 impl SizeLayout {
-    /// The lines of the table: seams, questions, measurements.
+    /// Lines of the table: seams, questions about none of them, measurements.
     #[must_use]
     pub fn lines(&self) -> Vec<TableLine> {
         let seams = (0..self.out.desk.seams.len()).map(TableLine::Seam);
@@ -104,7 +104,7 @@ impl SizeLayout {
         seams.chain(questions).chain((0..self.out.lengths.len()).map(TableLine::Length)).collect()
     }
 
-    /// The seam that holds an edge.
+    /// Index of the seam that an edge is in; `None` for an edge in no seam.
     #[must_use]
     pub fn seam_at(&self, edge: EdgeAt) -> Option<usize> {
         self.out.desk.seams.iter().position(|seam| seam.a.contains(&edge) || seam.b.contains(&edge))

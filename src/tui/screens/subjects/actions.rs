@@ -12,7 +12,7 @@ use spec::{Field, MEASUREMENTS};
 use wardrobe::{Part, SubjectRow};
 
 impl SubjectsScreen {
-    /// Subjects that pass the filter, in order.
+    /// Subjects that pass the filter, in the order of the list.
     #[must_use]
     pub fn shown<'a>(&self, state: &'a State) -> Vec<&'a SubjectRow> {
         let Some(data) = &state.data else { return vec![] };
@@ -33,7 +33,7 @@ impl SubjectsScreen {
         subjects
     }
 
-    /// Index of the selected subject among those shown: the first, where the one chosen is not shown.
+    /// Index of the selected subject in the list; 0 where the chosen subject is not shown.
     #[must_use]
     pub fn index_in(&self, shown: &[&SubjectRow]) -> usize {
         shown.iter().position(|row| Some(&row.name) == self.chosen.as_ref()).unwrap_or(0)
@@ -46,14 +46,14 @@ impl SubjectsScreen {
         shown.get(self.index_in(&shown)).copied()
     }
 
-    /// Moves in the list.
+    /// Moves the selection in the list.
     pub fn go_in_list(&mut self, state: &State, movement: Movement) {
         let shown = self.shown(state);
         let next = shown.get(movement.from(self.index_in(&shown), shown.len()));
         self.chosen = next.map(|row| row.name.clone());
     }
 
-    /// Asks for other values of the selected subject.
+    /// Opens the form of the selected subject.
     pub fn edit(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Subject) {
             let form = self.selected(state).map(Form::of_subject);
@@ -61,7 +61,7 @@ impl SubjectsScreen {
         }
     }
 
-    /// Removes the selected subject, once that is confirmed.
+    /// Removes the selected subject, after a question.
     pub fn remove(&self, state: &mut State) {
         if catalogue::may_change(state, Part::Subject) {
             let name = self.selected(state).map(|row| row.name.clone());
@@ -69,7 +69,7 @@ impl SubjectsScreen {
         }
     }
 
-    /// The selected subject, tab-separated.
+    /// Selected subject as text, separated by tabs.
     #[must_use]
     pub fn line(&self, state: &State) -> Option<String> {
         let subject = self.selected(state)?;
@@ -81,7 +81,7 @@ impl SubjectsScreen {
     }
 }
 
-/// Asks for the values of a new subject.
+/// Opens the form of a new subject.
 pub fn add(state: &mut State) {
     if catalogue::may_change(state, Part::Subject) {
         catalogue::fill_in(state, Some(Form::new_subject()), "");

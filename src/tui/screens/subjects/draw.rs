@@ -20,10 +20,10 @@ use results::Figure;
 use spec::MEASUREMENTS;
 use wardrobe::{SubjectRow, is_doubtful, percentile, percentile_text};
 
-/// Headings of the first measurements in the list, and their columns.
+/// Columns of the first measurements in the list: heading and width.
 const HEADINGS: [(&str, usize); SHOWN] = [("stature", 8), ("kg", 6), ("chest", 6), ("waist", 6), ("hip", 6)];
 
-/// Columns of the sex with the gaps beside it, and the fewest of a name.
+/// Columns for the sex with its gaps, and fewest for a name.
 const SEX: usize = 3;
 
 const LEAST_NAME: usize = 10;
@@ -38,12 +38,12 @@ fn panes(area: Rect) -> [Rect; 3] {
     [list, table, picture]
 }
 
-/// The pane of the picture, where there is room for it.
+/// Pane of the picture; `None` where it does not fit.
 pub fn picture_pane(area: Rect) -> Option<Rect> {
     (!is_narrow(area)).then(|| panes(area)[2])
 }
 
-/// Lines of the table that are shown at a time.
+/// Number of table lines that fit.
 pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
@@ -103,13 +103,13 @@ impl Draw for SubjectsScreen {
     fn pictures(&self, state: &State, area: Rect) -> Vec<PictureRequest> {
         let Some(body) = self.selected(state).map(|row| Pictured::Body(row.id)) else { return vec![] };
         let wanted = requests(state, picture_pane(area).map(|pane| (body, pane)).into_iter().collect());
-        // A body is measured where there is no room for its picture, too.
+        // The body is measured even if its picture does not fit.
         if wanted.is_empty() { vec![state.pictures.request(body, Size::ZERO)] } else { wanted }
     }
 }
 
 impl SubjectsScreen {
-    /// The list with its header; the name takes what the numbers leave.
+    /// List with its header; the name takes what the numbers leave.
     fn list(&self, state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
         let subjects = self.shown(state);
         let width = usize::from(width);
@@ -146,7 +146,7 @@ impl SubjectsScreen {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
 
-    /// Asked and measured values with the percentile of the sex; the body's own measurements after them.
+    /// Given and measured values, with percentiles for the sex; then other measurements of the body.
     fn table(&self, state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'static>> {
         let measured = self.measured.get(&subject.id);
         let girths = measured.and_then(|measured| measured.as_ref().ok());
@@ -177,7 +177,7 @@ impl SubjectsScreen {
     }
 }
 
-/// Columns of the name, and the number of measurements that there is room for beside it.
+/// Columns for the name, and number of measurements that fit beside it.
 pub fn columns(width: usize) -> (usize, usize) {
     let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns)| columns).sum::<usize>();
     let fits = |shown: &usize| LEAST_NAME + SEX + numbers(*shown) <= width;
@@ -193,7 +193,7 @@ fn list_line(row: &SubjectRow, name: usize, shown: usize) -> String {
     text
 }
 
-/// A measurement: lengths in whole millimetres, weights with a decimal.
+/// Text of a measurement: lengths in whole mm, weights with one decimal.
 fn number(value: Option<f64>, key: &str) -> String {
     match value {
         None => "—".to_owned(),

@@ -1,4 +1,4 @@
-//! Screen 2: the subjects of the catalogue, and of the selected one its measurements and its body.
+//! Screen 2: the subjects of the catalogue; for the selected one its measurements and body.
 
 mod actions;
 pub mod draw;

@@ -1,4 +1,4 @@
-//! State of the screen of subjects.
+//! State of the Subjects screen.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use crate::screens::order::Order;
 use spec::bodies::Girths;
 use store::SubjectId;
 
-/// Measurements in the list of subjects: stature, weight, chest, waist, hip.
+/// Number of measurements in the list: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;
 
-/// Order of subjects: by name, or by the measurement of a number in [`spec::MEASUREMENTS`].
+/// Order of the list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
     /// By name, alphabetically.
@@ -17,12 +17,12 @@ pub enum SubjectOrder {
     Name,
     /// By sex, then by name.
     Sex,
-    /// By a measurement, the smallest first.
+    /// By the measurement at an index of [`spec::MEASUREMENTS`], the smallest first.
     Measurement(usize),
 }
 
 impl SubjectOrder {
-    /// The next one, of so many measurements.
+    /// Order after this one, for the key that sorts; `measurements` is their number.
     #[must_use]
     pub fn next(self, measurements: usize) -> Self {
         match self {
@@ -34,13 +34,13 @@ impl SubjectOrder {
     }
 }
 
-/// The screen of subjects.
+/// The Subjects screen.
 #[derive(Default)]
 pub struct SubjectsScreen {
-    /// Name of the subject chosen.
+    /// Name of the chosen subject.
     pub chosen: Option<String>,
-    /// Order of subjects.
+    /// Order of the list.
     pub order: Order<SubjectOrder>,
-    /// Measurements read on bodies that were built.
+    /// Tape measurements of bodies, or the reason why a body could not be built.
     pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
 }
