@@ -107,7 +107,7 @@ pub enum RenderError {
 /// [`RenderError::Encode`] for an empty picture.
 pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
-    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive);
     if picture.pixels().all(|pixel| pixel[3] == u8::MAX) {
         let opaque = DynamicImage::ImageRgba8(picture.clone()).to_rgb8();
         opaque.write_with_encoder(encoder)?;
