@@ -18,7 +18,8 @@ pub struct Rest {
     /// Residual: rms force over mean vertex weight.
     pub residual: f64,
     /// Root mean square displacement, m, that the linear solve finds for a step at the greatest step size: an estimate of
-    /// the distance from equilibrium. 0 where forces alone tell.
+    /// the distance from equilibrium. Steps that move the cloth by less on average, whatever cuts them, are as near.
+    /// 0 where forces alone tell.
     pub still_m: f64,
 }
 
@@ -34,7 +35,7 @@ impl Rest {
 pub enum Ending {
     /// The cloth is at rest.
     AtRest,
-    /// No step lowered the energy any more.
+    /// No step lowered the energy any more, or all moved the cloth by next to nothing.
     Stuck,
     /// All steps were used.
     OutOfSteps,
@@ -62,6 +63,11 @@ geom::constants! {
     /// Displacement of a full step at which cloth on a coarse mesh is still ([`Rest::still_m`]), m: the next mesh moves it
     /// by millimetres.
     const COARSE_STILL_M: f64 = 2e-4;
+    /// Number of steps over which the cloth's motion is averaged.
+    const CRAWLING_STEPS: usize = 20;
+    /// Mean of the root mean square displacements of so many steps below which a drape gets nowhere, m. A hundred more
+    /// would move it by less than its distance from that of another mesh.
+    const CRAWLING_M: f64 = 2e-5;
     /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
     const EASING_STEPS: u32 = 50;
     /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
@@ -243,7 +249,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the cloth is at rest, the steps are used up, or no step lowers the energy; returns the residual.
+    /// Steps until the cloth is at rest, gets no nearer, or the steps are used up; returns the residual.
     ///
     /// # Errors
     /// When the cloth diverges or slides off the body, or the monitor cancels.
@@ -258,6 +264,7 @@ impl<'a> Simulation<'a> {
         let mut stepper = Stepper::new(StepParams { h_start_s: phase.h_start_s, ..self.params.step });
         let mut first = 0.0;
         let mut residual = f64::MAX;
+        let mut moved_m = [f64::MAX; CRAWLING_STEPS];
         self.ending = Ending::OutOfSteps;
         for step in 0..=phase.max_steps {
             let is_unhindered = stepper.is_unhindered();
@@ -271,9 +278,12 @@ impl<'a> Simulation<'a> {
             let positions = system.cloth.unweld(x);
             let recorded = Recorded { name: phase.name, level: phase.level, fraction, seam_gap_m: 0.0 };
             self.record(garment, x, &positions, info, recorded)?;
-            if residual <= tolerance || (is_unhindered && info.reach_m < still_m) {
+            moved_m.rotate_left(1);
+            moved_m[CRAWLING_STEPS - 1] = info.moved_m;
+            let mean_m = moved_m.iter().sum::<f64>() / CRAWLING_STEPS as f64;
+            if residual <= tolerance || (is_unhindered && info.reach_m < still_m) || mean_m < still_m {
                 self.ending = Ending::AtRest;
-            } else if stepper.is_stuck() {
+            } else if stepper.is_stuck() || mean_m < CRAWLING_M {
                 self.ending = Ending::Stuck;
             } else {
                 continue;

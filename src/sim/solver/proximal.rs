@@ -79,6 +79,8 @@ pub struct StepInfo {
     pub alpha: f64,
     /// Root mean square displacement of the full step that the linear solve found, m; 0 where none was needed.
     pub reach_m: f64,
+    /// Root mean square displacement of the step, m.
+    pub moved_m: f64,
 }
 
 /// State of the method between steps.
@@ -155,7 +157,7 @@ impl Stepper {
             residual = rms(&start.forces) / system.mean_weight();
         }
         if residual <= tolerance {
-            return StepInfo { residual, alpha: 1.0, reach_m: 0.0 };
+            return StepInfo { residual, alpha: 1.0, reach_m: 0.0, moved_m: 0.0 };
         }
         let without_inertia = start.operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
@@ -175,7 +177,9 @@ impl Stepper {
         let line = Line { system, x, start: &start, direction: &direction, correction: &correction, inertia: &inertia };
         let Reached { alpha, positions: next } = line.search(enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
-        self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
+        let moved: Vec<V3> = next.iter().zip(x.iter()).map(|(p, q)| p - q).collect();
+        let moved_m = rms(&moved);
+        self.last = Some(moved);
         *x = next;
         system.drag_anchors(x);
         self.idle = if alpha == 0.0 && self.h_s <= self.params.h_min_s { self.idle + 1 } else { 0 };
@@ -186,7 +190,7 @@ impl Stepper {
         } else {
             self.h_s
         };
-        StepInfo { residual, alpha, reach_m }
+        StepInfo { residual, alpha, reach_m, moved_m }
     }
 
     /// Right-hand side of the linear solve where `forces` act: these, plus a share of the compressive force along the
