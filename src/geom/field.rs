@@ -1,11 +1,10 @@
 //! Signed distance field of the body on a regular grid, for the contact solver.
 //!
-//! Values are exact at every node in a thin shell on both sides of the surface, and constant beyond it outside. Deeper
-//! inside every second node along each axis is exact, and those between have the mean of their neighbours. Between
-//! nodes the field is a quadratic B-spline with continuous value and gradient, so a vertex that rests in a crease (an
-//! armpit) does not jump between two contact planes. The spline adds `spacing^2 / 8` times the Laplacian of the
-//! distance, which is `2 H` at a surface of mean curvature `H`. It thus moves the surface inwards where it bulges and
-//! outwards where it is hollow, by `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
+//! Values are exact at every node inside the surface and in a thin shell outside it, and constant beyond. Between nodes
+//! the field is a quadratic B-spline with continuous value and gradient, so a vertex that rests in a crease (an armpit)
+//! does not jump between two contact planes. The spline adds `spacing^2 / 8` times the Laplacian of the distance, which
+//! is `2 H` at a surface of mean curvature `H`. It thus moves the surface inwards where it bulges and outwards where it
+//! is hollow, by `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
 //!
 //! The grid has a node at the middle of the surface's bounding box, equally many nodes on either side, and sums along x
 //! run from both ends inwards. A body mirrored left to right therefore has the mirrored field, to the bit.
@@ -136,63 +135,24 @@ impl DistanceField {
         }
     }
 
-    /// Fills in the distance at the nodes deeper inside than the shell. Such a node follows along x on a node inside.
-    /// Every second node along each axis is exact, and those between have the mean of the exact ones about them: no
-    /// cloth rests so deep, and whatever is pushed out from there passes through the exact shell.
+    /// Computes the distance at the nodes deeper inside than the shell. Along x, such a node follows another node
+    /// inside.
     fn fill_inside(&mut self, surface: &Surface, nearest: &mut [u32]) {
-        let deep = self.deep_inside();
-        for &node in &deep {
-            if self.parities(node) != [0; 3] {
-                continue;
-            }
-            // The triangle nearest to the exact node before bounds the distance here from above.
-            let p = self.position_of(node);
-            let most_m = surface.distance_to(nearest[node - 2], &p).map_or(f64::MAX, f64::from);
-            let (distance_m, triangle) = surface.nearest_within(&p, most_m);
-            self.values[node] = -distance_m as f32;
-            nearest[node] = triangle.unwrap_or(nearest[node - 2]);
-        }
-        for &node in &deep {
-            self.values[node] = self.mean_about(node);
-        }
-    }
-
-    /// Nodes deeper inside than the shell, in ascending order.
-    fn deep_inside(&self) -> Vec<usize> {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
-        let mut deep: Vec<usize> = Vec::new();
-        for node in 1..self.values.len() {
-            let follows = self.values[node - 1] < 0.0 || deep.last() == Some(&(node - 1));
-            if self.values[node] == far && follows {
-                deep.push(node);
+        for k in 0..self.size[2] {
+            for j in 0..self.size[1] {
+                for i in 1..self.size[0] {
+                    let node = self.node(i, j, k);
+                    if self.values[node] == far && self.values[node - 1] < 0.0 {
+                        // The distance to the triangle nearest to the preceding node is an upper bound.
+                        let p = self.position(i, j, k);
+                        let most_m = surface.distance_to(nearest[node - 1], &p).map_or(f64::MAX, f64::from);
+                        let (distance_m, triangle) = surface.nearest_within(&p, most_m);
+                        self.values[node] = -distance_m as f32;
+                        nearest[node] = triangle.unwrap_or(nearest[node - 1]);
+                    }
+                }
             }
-        }
-        deep
-    }
-
-    /// Distance of a node from the middle one along each axis, modulo 2.
-    fn parities(&self, node: usize) -> [usize; 3] {
-        let [x, y, z] = self.size;
-        let along = |n: usize, size: usize| n.abs_diff(size / 2) % 2;
-        [along(node % x, x), along(node / x % y, y), along(node / (x * y), z)]
-    }
-
-    /// Mean of the values at the nodes about this one that are an even number of nodes from the middle along each axis.
-    /// Two at a time along x, then y and z: a mirrored field has the same sums.
-    fn mean_about(&self, node: usize) -> f32 {
-        let strides = [1, self.size[0], self.size[0] * self.size[1]];
-        let [x, y, z] = self.parities(node);
-        let along_x = |node: usize| match x {
-            0 => self.values[node],
-            _ => 0.5 * (self.values[node - strides[0]] + self.values[node + strides[0]]),
-        };
-        let along_y = |node: usize| match y {
-            0 => along_x(node),
-            _ => 0.5 * (along_x(node - strides[1]) + along_x(node + strides[1])),
-        };
-        match z {
-            0 => along_y(node),
-            _ => 0.5 * (along_y(node - strides[2]) + along_y(node + strides[2])),
         }
     }
 
@@ -435,23 +395,17 @@ mod tests {
     }
 
     #[test]
-    fn nodes_have_the_exact_distance_near_the_surface_and_nearly_so_deep_inside() {
+    fn nodes_have_the_exact_distance_inside_and_near_the_surface() {
         let mesh = bumpy_sphere();
         let (spacing_m, surface) = (0.006, Surface::new(&mesh).expect("closed"));
         let field = DistanceField::build(&mesh, spacing_m).expect("closed");
         let (low, high) = mesh.bounds().expect("not empty");
         let margin = V3::repeat(3.0 * spacing_m);
-        let mut count = [0; 4];
+        let mut count = [0; 3];
         for (_, p, value) in field.nodes_within(low - margin, high + margin) {
-            let (exact, far) = (surface.signed_distance(&p), SHELL_CELLS * spacing_m);
-            if exact < -far {
-                // A distance changes by no more than the way to the farthest of the eight nodes about.
-                assert!((value - exact).abs() < 1.75 * spacing_m, "{value} for {exact} at {p}");
-            } else {
-                assert_eq!(value as f32, exact.min(far) as f32, "{p}");
-            }
-            let parts = [-far, 0.0, far];
-            count[parts.iter().filter(|bound| exact > **bound).count()] += 1;
+            let exact = surface.signed_distance(&p);
+            assert_eq!(value as f32, exact.min(SHELL_CELLS * spacing_m) as f32, "{p}");
+            count[if exact < 0.0 { 0 } else { 1 + usize::from(exact > SHELL_CELLS * spacing_m) }] += 1;
         }
         assert!(count.iter().all(|n| *n > 1000), "{count:?}");
     }
