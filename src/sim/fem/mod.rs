@@ -39,8 +39,8 @@ geom::constants! {
     /// A changed force gives another start that is as symmetric as the first.
     const RESEWN: [f64; 2] = [1.5, 0.67];
     /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long
-    /// enough. A T-shirt at 15 mm takes 0.7 million.
-    const MOST_TRIED: u64 = 4_000_000;
+    /// enough. A T-shirt takes 0.7 million.
+    const MOST_TRIED: u64 = 12_000_000;
 }
 
 /// Dresses a body in a garment.

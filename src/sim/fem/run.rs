@@ -9,45 +9,13 @@ use pattern::{Garment, Measurement};
 
 use super::params::Params;
 
-/// State at which cloth counts as at rest: either bound suffices.
-///
-/// The residual says little of how far cloth has to go: it rises and falls with the strains that the last step left,
-/// and soft modes cause hardly any force. Where another mesh or stiffness follows, cloth that is still is near enough.
-#[derive(Clone, Copy, Debug)]
-pub struct Rest {
-    /// Residual: rms force over mean vertex weight.
-    pub residual: f64,
-    /// Root mean square displacement, m, that the linear solve finds for a step at the greatest step size: an estimate of
-    /// the distance from equilibrium. Steps that move the cloth by less on average, whatever cuts them, are as near.
-    /// 0 where forces alone tell.
-    pub still_m: f64,
-}
-
-impl Rest {
-    /// Rest by its residual alone.
-    pub fn of_forces(residual: f64) -> Self {
-        Self { residual, still_m: 0.0 }
-    }
-}
-
-/// Reason why a stretch of steps ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The cloth is at rest.
-    AtRest,
-    /// No step lowered the energy any more, or all moved the cloth by next to nothing.
-    Stuck,
-    /// All steps were used.
-    OutOfSteps,
-}
-
 /// A stretch of steps: its name, and when it ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
     name: &'static str,
     level: usize,
-    /// State at which it ends.
-    rest: Rest,
+    /// Residual at which it ends.
+    tolerance: f64,
     /// Greatest number of its steps.
     max_steps: u32,
     /// Share of the whole work that is done before and after it, for the progress.
@@ -60,14 +28,6 @@ geom::constants! {
     "fem.run",
     /// Size of the first step at the end of a drape, s: the cloth has settled already.
     const LAIN_DOWN_S: f64 = 0.5;
-    /// Displacement of a full step at which cloth on a coarse mesh is still ([`Rest::still_m`]), m: the next mesh moves it
-    /// by millimetres.
-    const COARSE_STILL_M: f64 = 2e-4;
-    /// Number of steps over which the cloth's motion is averaged.
-    const CRAWLING_STEPS: usize = 20;
-    /// Mean of the root mean square displacements of so many steps below which a drape gets nowhere, m. A hundred more
-    /// would move it by less than its distance from that of another mesh.
-    const CRAWLING_M: f64 = 2e-5;
     /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
     const EASING_STEPS: u32 = 50;
     /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
@@ -87,16 +47,16 @@ impl Phase {
         Self {
             name: "settle",
             level,
-            rest: Rest { residual: params.coarse_tolerance, still_m: if level < last { COARSE_STILL_M } else { 0.0 } },
+            tolerance: params.coarse_tolerance,
             max_steps: if has_settled { params.finest_frictionless_steps } else { params.coarse_steps },
             share: [done_before(level), done_before(level + 1)],
             h_start_s: params.step.h_start_s,
         }
     }
 
-    /// Coming nearly to rest on a level, without friction.
-    pub fn easing(params: &Params, level: usize, last: usize, rest: Rest) -> Self {
-        Self { rest, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
+    /// Coming nearly to rest on a level with reduced stiffness.
+    pub fn easing(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
+        Self { tolerance, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
     }
 
     /// A few steps while the surface that the cloth lies on moves.
@@ -109,7 +69,7 @@ impl Phase {
         Self {
             name: "drape",
             level,
-            rest: Rest::of_forces(tolerance),
+            tolerance,
             max_steps: params.max_iterations,
             share: [0.8, 1.0],
             h_start_s: LAIN_DOWN_S.min(params.step.h_max_s),
@@ -138,8 +98,8 @@ pub struct Simulation<'a> {
     vertex_steps: u64,
     fraction: f64,
     history: Vec<Step>,
-    /// Reason why the last stretch of steps ended.
-    ending: Ending,
+    /// True if the last stretch of steps ended because no step lowered the energy.
+    is_stuck: bool,
 }
 
 impl<'a> Simulation<'a> {
@@ -155,7 +115,7 @@ impl<'a> Simulation<'a> {
             vertex_steps: 0,
             fraction: 0.0,
             history,
-            ending: Ending::OutOfSteps,
+            is_stuck: false,
         }
     }
 
@@ -179,9 +139,9 @@ impl<'a> Simulation<'a> {
         self.monitor.tries_again()
     }
 
-    /// Reason why the last stretch of steps ended.
-    pub fn ending(&self) -> Ending {
-        self.ending
+    /// True if the last stretch of steps ended because no step lowered the energy any more.
+    pub fn is_stuck(&self) -> bool {
+        self.is_stuck
     }
 
     /// Number of iterations so far.
@@ -249,7 +209,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the cloth is at rest, gets no nearer, or the steps are used up; returns the residual.
+    /// Steps until the residual is reached, the steps are used up, or no step lowers the energy; returns the residual.
     ///
     /// # Errors
     /// When the cloth diverges or slides off the body, or the monitor cancels.
@@ -260,36 +220,25 @@ impl<'a> Simulation<'a> {
         x: &mut Vec<V3>,
         phase: Phase,
     ) -> Result<f64, SimError> {
-        let Rest { residual: tolerance, still_m } = phase.rest;
         let mut stepper = Stepper::new(StepParams { h_start_s: phase.h_start_s, ..self.params.step });
         let mut first = 0.0;
         let mut residual = f64::MAX;
-        let mut moved_m = [f64::MAX; CRAWLING_STEPS];
-        self.ending = Ending::OutOfSteps;
         for step in 0..=phase.max_steps {
-            let is_unhindered = stepper.is_unhindered();
-            let info = stepper.step(system, x, tolerance);
+            let info = stepper.step(system, x, phase.tolerance);
             residual = info.residual;
             if step == 0 {
-                first = residual.max(tolerance * 1.01);
+                first = residual.max(phase.tolerance * 1.01);
             }
-            let done = ((first / residual).ln() / (first / tolerance).ln()).clamp(0.0, 1.0);
+            let done = ((first / residual).ln() / (first / phase.tolerance).ln()).clamp(0.0, 1.0);
             let fraction = phase.share[0] + (phase.share[1] - phase.share[0]) * done;
             let positions = system.cloth.unweld(x);
             let recorded = Recorded { name: phase.name, level: phase.level, fraction, seam_gap_m: 0.0 };
             self.record(garment, x, &positions, info, recorded)?;
-            moved_m.rotate_left(1);
-            moved_m[CRAWLING_STEPS - 1] = info.moved_m;
-            let mean_m = moved_m.iter().sum::<f64>() / CRAWLING_STEPS as f64;
-            if residual <= tolerance || (is_unhindered && info.reach_m < still_m) || mean_m < still_m {
-                self.ending = Ending::AtRest;
-            } else if stepper.is_stuck() || mean_m < CRAWLING_M {
-                self.ending = Ending::Stuck;
-            } else {
-                continue;
+            if residual <= phase.tolerance || stepper.is_stuck() {
+                break;
             }
-            break;
         }
+        self.is_stuck = stepper.is_stuck();
         Ok(residual)
     }
 

@@ -77,10 +77,6 @@ pub struct StepInfo {
     pub residual: f64,
     /// Step length `alpha`: 1 for the full step, more where it was lengthened, 0 where no length reduced the energy.
     pub alpha: f64,
-    /// Root mean square displacement of the full step that the linear solve found, m; 0 where none was needed.
-    pub reach_m: f64,
-    /// Root mean square displacement of the step, m.
-    pub moved_m: f64,
 }
 
 /// State of the method between steps.
@@ -135,12 +131,6 @@ impl Stepper {
         self.idle >= IDLE_STEPS
     }
 
-    /// True if the step size has grown to its greatest value: the proximal term no longer shortens steps.
-    #[must_use]
-    pub fn is_unhindered(&self) -> bool {
-        self.h_s >= self.params.h_max_s
-    }
-
     /// Membrane stresses that the last step predicted, N/m; empty before the first.
     #[must_use]
     pub fn predicted(&self) -> &[Tensor] {
@@ -157,7 +147,7 @@ impl Stepper {
             residual = rms(&start.forces) / system.mean_weight();
         }
         if residual <= tolerance {
-            return StepInfo { residual, alpha: 1.0, reach_m: 0.0, moved_m: 0.0 };
+            return StepInfo { residual, alpha: 1.0 };
         }
         let without_inertia = start.operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
@@ -167,7 +157,6 @@ impl Stepper {
         let rhs = self.rhs(system, &start.forces);
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
         system.linear.solve(&start.operator, x, &rhs, &mut direction, &linear);
-        let reach_m = rms(&direction);
         shorten(&mut direction, self.params.clamp_m);
         let free_share = system.free_share(&direction).min(1.0);
         direction.iter_mut().for_each(|d| *d *= free_share);
@@ -177,9 +166,7 @@ impl Stepper {
         let line = Line { system, x, start: &start, direction: &direction, correction: &correction, inertia: &inertia };
         let Reached { alpha, positions: next } = line.search(enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
-        let moved: Vec<V3> = next.iter().zip(x.iter()).map(|(p, q)| p - q).collect();
-        let moved_m = rms(&moved);
-        self.last = Some(moved);
+        self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.drag_anchors(x);
         self.idle = if alpha == 0.0 && self.h_s <= self.params.h_min_s { self.idle + 1 } else { 0 };
@@ -190,7 +177,7 @@ impl Stepper {
         } else {
             self.h_s
         };
-        StepInfo { residual, alpha, reach_m, moved_m }
+        StepInfo { residual, alpha }
     }
 
     /// Right-hand side of the linear solve where `forces` act: these, plus a share of the compressive force along the
