@@ -2,7 +2,8 @@
 //!
 //! Each coupling is stored once, in the row of its smaller vertex, and serves both vertices: that moves fewer bytes
 //! than a copy in each row, and memory limits the speed for a large cloth. Blocks are applied to differences of
-//! displacements, because in single precision membrane and bending would otherwise cancel each other.
+//! displacements, because the large parts of membrane and bending that a common displacement causes
+//! cancel only nearly in single precision.
 
 use std::borrow::Cow;
 

@@ -49,7 +49,7 @@ impl Fold {
 
 impl Piece {
     /// Returns the whole piece of a half piece, which has the mirror line (layer 6) as a side. `None` for a piece that
-    /// is whole already.
+    /// is whole already, or whose sew line has no side on its mirror line.
     ///
     /// Points, notches and lines are mirrored too. An end of the mirror line stays a turn point only if the unfolded
     /// outline turns there.

@@ -53,7 +53,7 @@ const OF_PICTURES: [Known; 9] = [
 /// Errors of one measurement over all bodies, millimetres.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Accuracy {
-    /// Number of bodies.
+    /// Number of measurements.
     pub n: usize,
     /// Mean absolute error.
     pub mae_mm: f64,

@@ -11,10 +11,11 @@ use geom::{V2, V3};
 /// Angle of the arms from the vertical, radians. Judgement.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 
-/// Distance of the wrist from the shoulder joint / arm length, distance of the elbow / that of the wrist, and length of
-/// the hand / stature. Judgement.
+/// Distance of the wrist from the shoulder joint, as a share of the arm length. Judgement.
 const WRIST: f64 = 0.94;
+/// Distance of the elbow from the shoulder joint, as a share of that of the wrist. Judgement.
 const ELBOW: f64 = 0.534;
+/// Length of the hand, as a share of the stature. Judgement.
 const HAND: f64 = 0.107;
 
 /// Position of the upper arm girth as a share of the distance from shoulder joint to elbow. Judgement.
@@ -29,8 +30,8 @@ impl Figure<'_> {
         self.arm_lengths()[1]
     }
 
-    /// Centre of the right shoulder joint: below the shoulder point, as far out as the breadth across the upper arms,
-    /// and far enough that the armpit lies above the chest.
+    /// Centre of the right shoulder joint: below the shoulder point. The outside of the arm is half the breadth across
+    /// the upper arms from the middle, or so far that the armpit lies above the chest.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();

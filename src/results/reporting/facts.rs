@@ -38,7 +38,7 @@ pub(super) struct BodyFacts {
     measured: Option<Vec<Option<f64>>>,
 }
 
-/// Scan that is a body: its file, and the guesses and repairs made when it was read.
+/// Scan of a subject's body: its file, and the guesses and repairs made when it was read.
 struct ScanFacts {
     file: String,
     notes: Vec<String>,
@@ -220,7 +220,7 @@ fn scan_facts(person: &Person) -> Option<ScanFacts> {
     Some(ScanFacts { file: file.name.clone(), notes })
 }
 
-/// Subjects of the thesis, as printed.
+/// Subjects of the thesis that Toile reproduces, as it prints them.
 pub(super) fn published_bodies(store: &Store) -> Result<Vec<BodyFacts>> {
     let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
     let table = sql::query(

@@ -20,7 +20,7 @@ const DIFFERENCES: [(&str, &str); 4] = [
     ("waist_right_over_left", "waist, right over left"),
 ];
 
-/// Quantities that any size has: balance, pressure, folds, displaced openings, gaps, points of measure.
+/// Quantities that at least one size has: balance, pressure, folds, displaced openings, gaps, points of measure.
 #[must_use]
 pub fn quantities(sizes: &[SizeWorn]) -> Vec<Quantity> {
     let mut rows = Rows { sizes, found: vec![] };

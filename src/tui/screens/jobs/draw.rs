@@ -178,7 +178,7 @@ fn panes(area: Rect) -> [Rect; 2] {
 const NAMES: [&str; 13] =
     ["status", "EI", "progress", "ETA", "took", "why", "ID", "style", "size", "subj", "sim", "log residual", "E(chi)"];
 
-/// Columns for phase and percentage.
+/// Width of phase and percentage, in characters.
 const PROGRESS: usize = 10;
 
 /// Widths of the columns that depend on contents and room.
@@ -210,7 +210,7 @@ impl Columns {
     }
 }
 
-/// Columns for the numbers of jobs.
+/// Width of the longest number of a job, in characters.
 fn longest_id(jobs: &[&JobRow]) -> usize {
     jobs.iter().map(|job| job.id.0).max().unwrap_or(0).to_string().len().max(4)
 }
