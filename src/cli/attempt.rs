@@ -1,6 +1,7 @@
 //! `toile try`: a garment, or an outfit, on one body.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use super::args::Try;
 use super::context::Context;
@@ -13,6 +14,11 @@ use store::{Table, Value, files};
 
 /// Argument that means no value.
 const NONE: &str = "-";
+
+/// Time without a line of progress after which there is another.
+const SILENT: Duration = Duration::from_secs(5);
+/// Least share done from which the time left is told. A smaller one takes too little time to tell.
+const LEAST_SHARE: f64 = 0.1;
 
 /// Runs `toile try`: writes pictures and meshes, and prints measurements.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
@@ -32,11 +38,10 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     };
     output::folder(&arguments.output, &["png", "glb", "obj"])?;
     files::make_folder(&arguments.output)?;
-    let mut phase_before = String::new();
+    let mut told = Progress::default();
     let all = engine::attempt(&asked, &mut |phase, share| {
-        if phase != phase_before {
-            context.say(format_args!("{phase}, {:.0} %", 100.0 * share));
-            phase.clone_into(&mut phase_before);
+        if let Some(line) = told.line(phase, share, Instant::now()) {
+            context.say(line);
         }
     })?;
     for tried in &all {
@@ -52,6 +57,28 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     }
     let is_good = all.iter().all(|tried| tried.problems.is_empty());
     Ok(if is_good { End::Done } else { End::CheckFailed })
+}
+
+/// Progress of a simulation as lines of text: one for each phase, and one after each [`SILENT`].
+#[derive(Default)]
+struct Progress {
+    began: Option<Instant>,
+    said: Option<(String, Instant)>,
+}
+
+impl Progress {
+    /// Line about the phase, the share of the whole that is done and the time left; `None` where there is no news.
+    fn line(&mut self, phase: &str, share: f64, now: Instant) -> Option<String> {
+        let began = *self.began.get_or_insert(now);
+        let is_news = |(before, when): &(String, Instant)| before != phase || now - *when >= SILENT;
+        if !self.said.as_ref().is_none_or(is_news) {
+            return None;
+        }
+        self.said = Some((phase.to_owned(), now));
+        let left_s = (now - began).as_secs_f64() * (1.0 - share) / share;
+        let left = (LEAST_SHARE..1.0).contains(&share).then(|| format!(", about {:.0} s left", left_s.ceil()));
+        Some(format!("{phase}, {:.0} %{}", 100.0 * share, left.unwrap_or_default()))
+    }
 }
 
 /// Garments of the arguments, the inmost first. A flag that is given once applies to all.
@@ -146,4 +173,25 @@ fn show_reach(context: &Context, reach: &Reached) -> Result<(), CliError> {
 /// Number rounded to a hundredth.
 fn hundredths(number: f64) -> Value {
     Value::Real((number * 100.0).round() / 100.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_phase_and_long_silence_are_told_with_the_time_left() {
+        let (mut told, start) = (Progress::default(), Instant::now());
+        let mut check = |after_s: u64, phase: &str, share: f64, expect: Option<&str>| {
+            let line = told.line(phase, share, start + Duration::from_secs(after_s));
+            assert_eq!(line.as_deref(), expect, "{phase} after {after_s} s");
+        };
+        check(0, "sew", 0.0, Some("sew, 0 %"));
+        check(1, "sew", 0.04, None);
+        check(2, "settle", 0.05, Some("settle, 5 %"));
+        check(6, "settle", 0.2, None);
+        check(7, "settle", 0.25, Some("settle, 25 %, about 21 s left"));
+        check(19, "drape", 0.95, Some("drape, 95 %, about 1 s left"));
+        check(25, "drape", 1.0, Some("drape, 100 %"));
+    }
 }

@@ -8,12 +8,22 @@ const WORN_M: std::ops::RangeInclusive<f64> = 0.08..=6.0;
 /// Length of the longest piece of most garments, m.
 const USUAL_M: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 
-/// Greatest side of the bounding box of an outline, m.
-#[must_use]
-pub fn extent_m(outline: &[V2]) -> f64 {
-    let low = outline.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
-    let high = outline.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
-    if outline.is_empty() { 0.0 } else { (high - low).max() }
+/// Length over width from which a piece is a strip. A ruffle of 10 m or a binding says nothing about the unit, since it
+/// is gathered or goes round; legs of trousers have less.
+const STRIP: f64 = 4.0;
+
+/// Length, m, of the longest piece that says something about the unit: the greatest side of its bounding box. Strips
+/// count only where there is nothing else. 0 without an outline.
+pub fn longest_m<'a>(outlines: impl Iterator<Item = &'a [V2]>) -> f64 {
+    let (mut longest, mut longest_strip) = (0.0_f64, 0.0_f64);
+    for outline in outlines.filter(|outline| !outline.is_empty()) {
+        let low = outline.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
+        let high = outline.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
+        let (length, width) = ((high - low).max(), (high - low).min());
+        let kind = if length < STRIP * width { &mut longest } else { &mut longest_strip };
+        *kind = kind.max(length);
+    }
+    if longest > 0.0 { longest } else { longest_strip }
 }
 
 /// Objection to a unit in which the longest piece is `longest_m` long, with the units that would fit. `None` if a
@@ -43,6 +53,20 @@ pub const ACCEPTED: &str = "0.08 to 6 m for a person; say the unit with --unit m
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn strips_say_nothing_of_the_unit_beside_other_pieces() {
+        let piece = |length: f64, width: f64| {
+            [V2::new(0.0, 0.0), V2::new(length, 0.0), V2::new(length, width), V2::new(0.0, width)]
+        };
+        let check = |pieces: &[[V2; 4]], expect: f64| {
+            assert_eq!(longest_m(pieces.iter().map(|outline| &outline[..])), expect);
+        };
+        check(&[piece(0.7, 0.5), piece(0.2, 9.85)], 0.7);
+        check(&[piece(0.2, 9.85)], 9.85);
+        check(&[piece(7.0, 5.0), piece(9.0, 0.5)], 7.0);
+        check(&[], 0.0);
+    }
 
     #[test]
     fn a_wrong_unit_is_told_with_those_that_would_do() {

@@ -193,7 +193,8 @@ fn check_scale(style: &Style, file: &str) -> Result<()> {
     if style.pieces.is_empty() {
         return Err(SpecError::NoPiece { pattern: file.to_owned() }.into());
     }
-    let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
+    let outlines: Vec<_> = style.pieces.iter().map(|piece| piece.outline()).collect();
+    let longest_m = scale::longest_m(outlines.iter().map(|outline| &outline[..]));
     match scale::doubt(longest_m, Unit::M) {
         Some(_) => Err(SpecError::Scale { pattern: file.to_owned(), longest_m }.into()),
         None => Ok(()),

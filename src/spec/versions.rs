@@ -11,7 +11,7 @@ pub(crate) const SCAN_VERSION: u32 = 3;
 const MEASURE_VERSION: u32 = 1;
 /// Version of the simulators. Their default parameters are inputs of their own
 /// ([`default_hash`](parameters::default_hash)).
-const SIM_VERSION: u32 = 47;
+const SIM_VERSION: u32 = 48;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 pub const FIELD_SPACING_M: f64 = 0.005;

@@ -121,7 +121,7 @@ impl PatternFile {
 
     /// Doubt about the unit from the length of the longest piece. `None` without a doubt.
     fn doubt(&self) -> Option<String> {
-        let longest_m = self.pieces.iter().map(|piece| scale::extent_m(&piece.outline)).fold(0.0, f64::max);
+        let longest_m = scale::longest_m(self.pieces.iter().map(|piece| &piece.outline[..]));
         if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 

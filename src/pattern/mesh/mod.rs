@@ -126,7 +126,7 @@ impl Style {
             edge_length_mm: mm(edge_length_m),
             thousands: (1e-3 * triangles) as u64,
             area_m2,
-            longest_m: outlines.iter().map(|outline| scale::extent_m(outline)).fold(0.0, f64::max),
+            longest_m: scale::longest_m(outlines.iter().map(|outline| &outline[..])),
         })
     }
 

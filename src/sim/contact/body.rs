@@ -1,11 +1,10 @@
 //! Contact of cloth with the body and the floor: a penalty in a distance field, and Coulomb friction with anchors.
 //!
 //! A sample of the cloth is repelled where its distance `phi` in the field is less than the offset `d0`. The pressure
-//! grows with the depth `d = d0 - phi` as `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with the slope
-//! `k` from there on. The force is the pressure times the rest area. So light contacts are soft: a hard contact of a
-//! few pascals would be lost by a motion of a micrometre, and found again by the next. Loaded contacts are stiff. The
-//! force is along the raw gradient of the field, so that it is exactly the derivative of the energy. Friction ties a
-//! touching sample to an anchor by a spring of stiffness `k_t`. Beyond the Coulomb limit the anchor is dragged along.
+//! grows with the depth `d = d0 - phi`, softly at first ([`push`](super::penalty::push)). The force is the pressure
+//! times the rest area. It is along the raw gradient of the field, so that it is exactly the derivative of the energy.
+//! Friction ties a touching sample to an anchor by a spring of stiffness `k_t`. Beyond the Coulomb limit the anchor is
+//! dragged along.
 //!
 //! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside. Where
 //! the body is more curved than the mesh resolves, chords would cut into it. The force on such a point is distributed

@@ -472,7 +472,7 @@ impl<'a> ClothContact<'a> {
         let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
         let grown_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
         let thickness_m = grown_m * self.untangling.thickness_share(primitives);
-        let push = push(nearest.gap.norm(), thickness_m)?;
+        let push = push(nearest.gap.norm(), thickness_m, self.params.stiffness_n_m3)?;
         let stiffness_n_m = self.params.stiffness_n_m3 * area;
         let mut press = Press {
             primitives,

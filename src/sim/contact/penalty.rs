@@ -1,4 +1,4 @@
-//! Penalty law of body contact: pressure as a function of depth.
+//! Penalty law of contact: pressure as a function of depth.
 
 /// Parameters of body contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -45,20 +45,28 @@ pub struct Push {
 }
 
 impl ContactParams {
-    /// Contact potential at the depth `d`, m. The pressure is `p0 (exp(d / l) - 1)` until its slope is `k`, and then
-    /// rises with the slope `k`.
+    /// Contact potential at the depth `d`, m, by [`push`].
     #[must_use]
     pub fn push(&self, depth: f64) -> Push {
-        let (l, p0, k) = (self.softness_m, self.light_n_m2, self.stiffness_n_m3);
-        let knee = l * (k * l / p0).max(1.0).ln();
-        let soft = depth.min(knee);
-        let hard = depth - soft;
-        let growth = (soft / l).exp();
-        let pressure = p0 * (growth - 1.0);
-        Push {
-            energy_n_m: p0 * (l * (growth - 1.0) - soft) + hard * (pressure + 0.5 * k * hard),
-            pressure_n_m2: pressure + k * hard,
-            stiffness_n_m3: if hard > 0.0 { k } else { p0 / l * growth },
-        }
+        push(depth, self.softness_m, self.light_n_m2, self.stiffness_n_m3)
+    }
+}
+
+/// Contact potential at the depth `d`, m. The pressure is `p0 (exp(d / l) - 1)` until its slope is `k`, and then rises
+/// with the slope `k`.
+///
+/// Light contacts are soft thereby: a hard contact of a few pascals would be lost by a motion of a micrometre, and found
+/// again by the next.
+#[must_use]
+pub fn push(depth: f64, l: f64, p0: f64, k: f64) -> Push {
+    let knee = l * (k * l / p0).max(1.0).ln();
+    let soft = depth.min(knee);
+    let hard = depth - soft;
+    let growth = (soft / l).exp();
+    let pressure = p0 * (growth - 1.0);
+    Push {
+        energy_n_m: p0 * (l * (growth - 1.0) - soft) + hard * (pressure + 0.5 * k * hard),
+        pressure_n_m2: pressure + k * hard,
+        stiffness_n_m3: if hard > 0.0 { k } else { p0 / l * growth },
     }
 }

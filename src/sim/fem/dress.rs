@@ -1,7 +1,7 @@
 //! A garment put on once: sewn from where it was placed, then settled mesh by mesh.
 
 use super::params::Params;
-use super::run::Simulation;
+use super::run::{Rest, Simulation};
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::cloth::{Cloth, slack};
 use crate::contact::{BodyContact, ClothContact};
@@ -34,8 +34,12 @@ geom::constants! {
     pub const TIGHT_M: f64 = 8e-4;
     /// Residual at which the next share of the stiffness begins.
     const EASED: f64 = 0.1;
+    /// Displacement of a full step at which it begins as well ([`Rest::still_m`]), m: it moves the cloth by millimetres.
+    const EASED_STILL_M: f64 = 1e-4;
     /// Residual with the whole stiffness and without friction from which on friction holds.
     const RESTED: f64 = 0.02;
+    /// Displacement of a full step from which on it holds as well, m.
+    const RESTED_STILL_M: f64 = 5e-5;
     /// Room between sole and floor, m: the offsets of both contacts, and as much again. Without it the sole pushes the
     /// cloth under a heel down and the floor pushes it up, and it never comes to rest.
     const SOLE_M: f64 = 3e-3;
@@ -195,10 +199,12 @@ impl Placed<'_> {
             };
             let settling = Settling { around, garment, cloth: &cloth, level, grip };
             let is_finest = level + 1 == garments.len();
-            for share in shares.iter().filter(|_| is_finest) {
+            let rounds = shares.len() + 1;
+            for (round, share) in shares.iter().enumerate().filter(|_| is_finest) {
                 let slack = cloth.clone().slackened(*share);
+                let rest = Rest { residual: EASED, still_m: EASED_STILL_M };
                 // Cloth that does not come to rest so, as ruffles do not, has too many equilibria for that.
-                if !(Settling { cloth: &slack, ..settling }.ease(&mut x, EASED, run)?) {
+                if !(Settling { cloth: &slack, ..settling }.ease(&mut x, rest, [round, rounds], run)?) {
                     break;
                 }
             }
@@ -208,7 +214,8 @@ impl Placed<'_> {
                     Settling { cloth: &slack, ..settling }.settle(x, run)?
                 }
                 Some(_) => {
-                    settling.ease(&mut x, RESTED, run)?;
+                    let rest = Rest { residual: RESTED, still_m: RESTED_STILL_M };
+                    settling.ease(&mut x, rest, [shares.len(), rounds], run)?;
                     settling.settle(x, run)?
                 }
                 None => settling.settle(x, run)?,

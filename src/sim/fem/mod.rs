@@ -39,8 +39,8 @@ geom::constants! {
     /// A changed force gives another start that is as symmetric as the first.
     const RESEWN: [f64; 2] = [1.5, 0.67];
     /// Steps times vertices (5 to 20 microseconds each) after which no other way is tried: the user has waited long
-    /// enough. A T-shirt takes 0.7 million.
-    const MOST_TRIED: u64 = 12_000_000;
+    /// enough. A T-shirt at 15 mm takes 0.7 million.
+    const MOST_TRIED: u64 = 2_000_000;
 }
 
 /// Dresses a body in a garment.
@@ -90,7 +90,7 @@ pub fn simulate(
 ) -> Result<Drape, SimError> {
     let layer = Layer { garments, fabric };
     let (coarsest, garment) = (layer.coarsest()?, layer.finest()?);
-    let mut run = Simulation::new(params, monitor, garments.len() - 1);
+    let mut run = Simulation::new(params, monitor, garments.len() - 1).within_patience(garment);
     let Start { positions: start, force } = perturbed_start(body, coarsest, &params.bend, params.seed)?;
     let hands = Hands::near(body, field, &start);
     let skin = Skin::new(&body.mesh).ok();

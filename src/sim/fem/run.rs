@@ -9,17 +9,49 @@ use pattern::{Garment, Measurement};
 
 use super::params::Params;
 
+/// State at which cloth counts as at rest: either bound suffices.
+///
+/// The residual says little of how far cloth has to go: it rises and falls with the strains that the last step left,
+/// and soft modes cause hardly any force. Where another mesh or stiffness follows, cloth that is still is near enough.
+#[derive(Clone, Copy, Debug)]
+pub struct Rest {
+    /// Residual: rms force over mean vertex weight.
+    pub residual: f64,
+    /// Root mean square displacement, m, that the linear solve finds for a step at the greatest step size: an estimate of
+    /// the distance from equilibrium. Steps that move the cloth by less on average, whatever cuts them, are as near.
+    /// 0 where forces alone tell.
+    pub still_m: f64,
+}
+
+impl Rest {
+    /// Rest by its residual alone.
+    pub fn of_forces(residual: f64) -> Self {
+        Self { residual, still_m: 0.0 }
+    }
+}
+
+/// Reason why a stretch of steps ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The cloth is at rest.
+    AtRest,
+    /// No step lowered the energy any more, or all moved the cloth by next to nothing.
+    Stuck,
+    /// All steps were used, or the run has taken too long.
+    OutOfSteps,
+}
+
 /// A stretch of steps: its name, and when it ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
     name: &'static str,
     level: usize,
-    /// Residual at which it ends.
-    tolerance: f64,
+    /// State at which it ends.
+    rest: Rest,
     /// Greatest number of its steps.
     max_steps: u32,
-    /// Share of the whole work that is done before and after it, for the progress.
-    share: [f64; 2],
+    /// Share of the whole work that is done after it.
+    until: f64,
     /// Size of its first step, s.
     h_start_s: f64,
 }
@@ -28,8 +60,25 @@ geom::constants! {
     "fem.run",
     /// Size of the first step at the end of a drape, s: the cloth has settled already.
     const LAIN_DOWN_S: f64 = 0.5;
+    /// Displacement of a full step at which cloth on a coarse mesh is still ([`Rest::still_m`]), m: the next mesh moves it
+    /// by millimetres.
+    const COARSE_STILL_M: f64 = 2e-4;
+    /// Number of steps over which the cloth's motion is averaged.
+    const CRAWLING_STEPS: usize = 20;
+    /// Mean of the root mean square displacements of so many steps below which a drape gets nowhere, m. A hundred more
+    /// would move it by less than its distance from that of another mesh. It has as many more without lengthened steps.
+    const CRAWLING_M: f64 = 2e-5;
     /// Greatest number of steps of easing: T-shirts and dresses take 10 to 33.
     const EASING_STEPS: u32 = 50;
+    /// Steps times vertices that a drape may take on a mesh with edges of [`USUAL_EDGE_M`], about a minute on one core.
+    /// Garments that come to rest mostly take 0.5 to 2 million.
+    const MOST_WORK: f64 = 3e6;
+    /// Edge length up to which that holds, m. Finer meshes may take more by the third power: they have more vertices and
+    /// take more steps.
+    const USUAL_EDGE_M: f64 = 0.015;
+    /// Shares of the whole work of a T-shirt that are done once it is sewn, when the finest mesh begins, when friction
+    /// begins to hold it, and when no point is inside the body any more.
+    const DONE: [f64; 4] = [0.05, 0.2, 0.9, 0.95];
     /// Greatest number of steps of sewing over that for seams that are nearly closed. A seam that nearly closed has met
     /// an obstacle; more steps would draw it through.
     const PATIENCE: u32 = 3;
@@ -41,22 +90,25 @@ geom::constants! {
 impl Phase {
     /// Coming to rest without friction on level `level` of `last`.
     pub fn frictionless(params: &Params, level: usize, last: usize) -> Self {
-        let done_before = |l: usize| 0.2 + 0.6 * (l as f64 / (last + 1) as f64).powi(2);
+        let [sewn, coarse, eased, _] = DONE;
+        let part = (level + 1) as f64 / last.max(1) as f64;
         // A finer mesh starts from a drape that has settled; only its short waves are left.
         let has_settled = level > 0 && level == last;
         Self {
             name: "settle",
             level,
-            tolerance: params.coarse_tolerance,
+            rest: Rest { residual: params.coarse_tolerance, still_m: if level < last { COARSE_STILL_M } else { 0.0 } },
             max_steps: if has_settled { params.finest_frictionless_steps } else { params.coarse_steps },
-            share: [done_before(level), done_before(level + 1)],
+            until: if level < last { sewn + (coarse - sewn) * part * part } else { eased },
             h_start_s: params.step.h_start_s,
         }
     }
 
-    /// Coming nearly to rest on a level with reduced stiffness.
-    pub fn easing(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
-        Self { tolerance, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
+    /// Coming nearly to rest on a level, without friction: the round `round` of `rounds`.
+    pub fn easing(params: &Params, level: usize, last: usize, rest: Rest, [round, rounds]: [usize; 2]) -> Self {
+        let [_, coarse, eased, _] = DONE;
+        let until = coarse + (eased - coarse) * (round + 1) as f64 / rounds as f64;
+        Self { rest, max_steps: EASING_STEPS, until, ..Self::frictionless(params, level, last) }
     }
 
     /// A few steps while the surface that the cloth lies on moves.
@@ -69,9 +121,9 @@ impl Phase {
         Self {
             name: "drape",
             level,
-            tolerance,
+            rest: Rest::of_forces(tolerance),
             max_steps: params.max_iterations,
-            share: [0.8, 1.0],
+            until: if tolerance > params.tolerance { DONE[3] } else { 1.0 },
             h_start_s: LAIN_DOWN_S.min(params.step.h_max_s),
         }
     }
@@ -96,10 +148,13 @@ pub struct Simulation<'a> {
     worn_at_m: Option<f64>,
     iteration: u32,
     vertex_steps: u64,
+    /// Number of those after which it ends.
+    most_vertex_steps: u64,
+    /// Share of the whole work that is done.
     fraction: f64,
     history: Vec<Step>,
-    /// True if the last stretch of steps ended because no step lowered the energy.
-    is_stuck: bool,
+    /// Reason why the last stretch of steps ended.
+    ending: Ending,
 }
 
 impl<'a> Simulation<'a> {
@@ -113,10 +168,29 @@ impl<'a> Simulation<'a> {
             worn_at_m: None,
             iteration: 0,
             vertex_steps: 0,
+            most_vertex_steps: u64::MAX,
             fraction: 0.0,
             history,
-            is_stuck: false,
+            ending: Ending::OutOfSteps,
         }
+    }
+
+    /// The same, which ends with what it has once it has taken long, by the finest mesh.
+    pub fn within_patience(mut self, finest: &Garment) -> Self {
+        let area = |t: &[usize; 3]| {
+            let [a, b, c] = t.map(|v| finest.rest[v]);
+            0.5 * (b - a).perp(&(c - a)).abs()
+        };
+        let mean = finest.triangles.iter().map(area).sum::<f64>() / finest.triangles.len().max(1) as f64;
+        // Edge of the equilateral triangle of that area.
+        let edge_m = (mean * 4.0 / 3.0_f64.sqrt()).sqrt();
+        self.most_vertex_steps = (MOST_WORK * (USUAL_EDGE_M / edge_m).max(1.0).powi(3)) as u64;
+        self
+    }
+
+    /// True if it has taken so long that it ends with what it has.
+    pub fn is_spent(&self) -> bool {
+        self.vertex_steps > self.most_vertex_steps
     }
 
     /// Parameters of the simulation.
@@ -139,9 +213,9 @@ impl<'a> Simulation<'a> {
         self.monitor.tries_again()
     }
 
-    /// True if the last stretch of steps ended because no step lowered the energy any more.
-    pub fn is_stuck(&self) -> bool {
-        self.is_stuck
+    /// Reason why the last stretch of steps ended.
+    pub fn ending(&self) -> Ending {
+        self.ending
     }
 
     /// Number of iterations so far.
@@ -187,7 +261,7 @@ impl<'a> Simulation<'a> {
             let info = stepper.step(system, x, 0.0);
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
-            let recorded = Recorded { name: "sew", level: 0, fraction: 0.2 * done, seam_gap_m: widest };
+            let recorded = Recorded { name: "sew", level: 0, fraction: DONE[0] * done, seam_gap_m: widest };
             self.record(garment, x, &whole(x), info, recorded)?;
             let is_closed =
                 widest <= params.sewing.weld_gap_m || (step >= params.sewing.sewing_steps && widest <= OPEN_M);
@@ -209,7 +283,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Steps until the residual is reached, the steps are used up, or no step lowers the energy; returns the residual.
+    /// Steps until the cloth is at rest, gets no nearer, or the steps or the patience are used up; returns the residual.
     ///
     /// # Errors
     /// When the cloth diverges or slides off the body, or the monitor cancels.
@@ -220,25 +294,41 @@ impl<'a> Simulation<'a> {
         x: &mut Vec<V3>,
         phase: Phase,
     ) -> Result<f64, SimError> {
+        let Rest { residual: tolerance, still_m } = phase.rest;
         let mut stepper = Stepper::new(StepParams { h_start_s: phase.h_start_s, ..self.params.step });
         let mut first = 0.0;
         let mut residual = f64::MAX;
+        let mut moved_m = [f64::MAX; CRAWLING_STEPS];
+        let begins_at = self.fraction;
+        self.ending = Ending::OutOfSteps;
         for step in 0..=phase.max_steps {
-            let info = stepper.step(system, x, phase.tolerance);
+            let is_unhindered = stepper.is_unhindered();
+            let info = stepper.step(system, x, tolerance);
             residual = info.residual;
             if step == 0 {
-                first = residual.max(phase.tolerance * 1.01);
+                first = residual.max(tolerance * 1.01);
             }
-            let done = ((first / residual).ln() / (first / phase.tolerance).ln()).clamp(0.0, 1.0);
-            let fraction = phase.share[0] + (phase.share[1] - phase.share[0]) * done;
+            let done = ((first / residual).ln() / (first / tolerance).ln()).clamp(0.0, 1.0);
+            let fraction = begins_at + (phase.until - begins_at) * done;
             let positions = system.cloth.unweld(x);
             let recorded = Recorded { name: phase.name, level: phase.level, fraction, seam_gap_m: 0.0 };
             self.record(garment, x, &positions, info, recorded)?;
-            if residual <= phase.tolerance || stepper.is_stuck() {
-                break;
+            moved_m.rotate_left(1);
+            moved_m[CRAWLING_STEPS - 1] = info.moved_m;
+            let mean_m = moved_m.iter().sum::<f64>() / CRAWLING_STEPS as f64;
+            if residual <= tolerance || (is_unhindered && info.reach_m < still_m) || mean_m < still_m {
+                self.ending = Ending::AtRest;
+            } else if mean_m < CRAWLING_M && stepper.lengthens() {
+                stepper.stop_lengthening();
+                moved_m.fill(f64::MAX);
+                continue;
+            } else if stepper.is_stuck() || mean_m < CRAWLING_M {
+                self.ending = Ending::Stuck;
+            } else if !self.is_spent() {
+                continue;
             }
+            break;
         }
-        self.is_stuck = stepper.is_stuck();
         Ok(residual)
     }
 

@@ -1,7 +1,7 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the
 //! body.
 
-use super::run::{Phase, Simulation};
+use super::run::{Ending, Phase, Rest, Simulation};
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::hands::{Hands, Shape};
@@ -166,21 +166,36 @@ impl<'a> Settling<'a> {
         }
         let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
         let (positions, triangles) = (cloth.unweld(&x), cloth.triangles.clone());
-        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
+        Ok(Settled {
+            positions,
+            residual,
+            is_stuck: run.ending() == Ending::Stuck,
+            yields_m,
+            braced_n,
+            sewn: x,
+            triangles,
+        })
     }
 
     /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true
-    /// where they reach the residual `tolerance`.
+    /// where they do. It is the round `rounds[0]` of `rounds[1]`.
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
-    pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<bool, SimError> {
+    pub fn ease(
+        &self,
+        x: &mut Vec<V3>,
+        rest: Rest,
+        rounds: [usize; 2],
+        run: &mut Simulation,
+    ) -> Result<bool, SimError> {
         let Self { around, level, .. } = *self;
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
         let mut system = self.system(self.contact(field, x, run), x);
-        let phase = Phase::easing(run.params(), level, run.levels(), tolerance);
-        Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
+        let phase = Phase::easing(run.params(), level, run.levels(), rest, rounds);
+        run.drape(self.garment, &mut system, x, phase)?;
+        Ok(run.ending() == Ending::AtRest)
     }
 
     /// True if the cloth reaches below the floor. The floor comes last: it would catch a garment that slides off the
@@ -234,7 +249,7 @@ impl<'a> Settling<'a> {
         if is_held {
             self.hold(&mut system, x, run)?;
         } else {
-            let free = Phase::easing(run.params(), self.level, run.levels(), FREE);
+            let free = Phase::easing(run.params(), self.level, run.levels(), Rest::of_forces(FREE), [0, 1]);
             for _ in 0..FREE_ROUNDS {
                 run.drape(self.garment, &mut system, x, free)?;
                 if self.hold_out(&mut system.contact, x, true) <= DEEPEST_M {
@@ -267,7 +282,15 @@ impl<'a> Settling<'a> {
         let residual = self.hold(&mut system, &mut x, run)?;
         let (yields_m, braced_n) = (system.contact.yields_m(&x), None);
         let (positions, triangles) = (self.cloth.unweld(&x), self.cloth.triangles.clone());
-        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
+        Ok(Settled {
+            positions,
+            residual,
+            is_stuck: run.ending() == Ending::Stuck,
+            yields_m,
+            braced_n,
+            sewn: x,
+            triangles,
+        })
     }
 
     /// Steps without friction until it is at rest, or only a few where `is_passing`; returns the residual.
@@ -318,6 +341,9 @@ impl<'a> Settling<'a> {
         let (mut residual, mut tolerance) = (f64::MAX, params.tolerance.max(HELD));
         for round in 0..HOLDING_ROUNDS {
             residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level, tolerance))?;
+            if run.is_spent() {
+                return Ok(residual);
+            }
             let is_at_rest = residual <= tolerance;
             let deepest_m = self.hold_out(&mut system.contact, x, is_at_rest);
             if deepest_m <= DEEPEST_M && is_at_rest {

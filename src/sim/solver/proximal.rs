@@ -77,6 +77,10 @@ pub struct StepInfo {
     pub residual: f64,
     /// Step length `alpha`: 1 for the full step, more where it was lengthened, 0 where no length reduced the energy.
     pub alpha: f64,
+    /// Root mean square displacement of the full step that the linear solve found, m; 0 where none was needed.
+    pub reach_m: f64,
+    /// Root mean square displacement of the step, m.
+    pub moved_m: f64,
 }
 
 /// State of the method between steps.
@@ -91,6 +95,8 @@ pub struct Stepper {
     pub(super) predicted: Option<Vec<Tensor>>,
     /// Number of successive steps that moved nothing at the least step size.
     idle: u32,
+    /// True if full steps may be lengthened.
+    lengthens: bool,
 }
 
 geom::constants! {
@@ -116,19 +122,37 @@ impl Stepper {
     /// Starts at the first step size.
     #[must_use]
     pub fn new(params: StepParams) -> Self {
-        Self { params, h_s: params.h_start_s, last: None, predicted: None, idle: 0 }
+        Self { params, h_s: params.h_start_s, last: None, predicted: None, idle: 0, lengthens: true }
     }
 
     /// Continues another run at the greatest step size, with the membrane stresses that it predicted.
     #[must_use]
     pub fn going_on(params: StepParams, predicted: Vec<Tensor>) -> Self {
-        Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted), idle: 0 }
+        Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted), idle: 0, lengthens: true }
     }
 
     /// True if no step length reduces the energy any more at the least step size: further steps would do the same.
     #[must_use]
     pub fn is_stuck(&self) -> bool {
         self.idle >= IDLE_STEPS
+    }
+
+    /// Lengthens no step any more. Near rest a lengthened step follows soft modes for a micrometre, and calls back the
+    /// stiff forces that the full one has balanced.
+    pub fn stop_lengthening(&mut self) {
+        self.lengthens = false;
+    }
+
+    /// True if full steps may be lengthened.
+    #[must_use]
+    pub fn lengthens(&self) -> bool {
+        self.lengthens
+    }
+
+    /// True if the step size has grown to its greatest value: the proximal term no longer shortens steps.
+    #[must_use]
+    pub fn is_unhindered(&self) -> bool {
+        self.h_s >= self.params.h_max_s
     }
 
     /// Membrane stresses that the last step predicted, N/m; empty before the first.
@@ -147,7 +171,7 @@ impl Stepper {
             residual = rms(&start.forces) / system.mean_weight();
         }
         if residual <= tolerance {
-            return StepInfo { residual, alpha: 1.0 };
+            return StepInfo { residual, alpha: 1.0, reach_m: 0.0, moved_m: 0.0 };
         }
         let without_inertia = start.operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
@@ -157,16 +181,20 @@ impl Stepper {
         let rhs = self.rhs(system, &start.forces);
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
         system.linear.solve(&start.operator, x, &rhs, &mut direction, &linear);
+        let reach_m = rms(&direction);
         shorten(&mut direction, self.params.clamp_m);
         let free_share = system.free_share(&direction).min(1.0);
         direction.iter_mut().for_each(|d| *d *= free_share);
         start.operator.diagonal = without_inertia;
         let (correction, foreseen) = self.correction(system, &start, x, &direction);
-        let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
+        let enough_n =
+            (self.lengthens && self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
         let line = Line { system, x, start: &start, direction: &direction, correction: &correction, inertia: &inertia };
         let Reached { alpha, positions: next } = line.search(enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
-        self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
+        let moved: Vec<V3> = next.iter().zip(x.iter()).map(|(p, q)| p - q).collect();
+        let moved_m = rms(&moved);
+        self.last = Some(moved);
         *x = next;
         system.drag_anchors(x);
         self.idle = if alpha == 0.0 && self.h_s <= self.params.h_min_s { self.idle + 1 } else { 0 };
@@ -177,7 +205,7 @@ impl Stepper {
         } else {
             self.h_s
         };
-        StepInfo { residual, alpha }
+        StepInfo { residual, alpha, reach_m, moved_m }
     }
 
     /// Right-hand side of the linear solve where `forces` act: these, plus a share of the compressive force along the
