@@ -45,7 +45,7 @@ pub struct Push {
 }
 
 impl ContactParams {
-    /// Contact potential at the depth `d`, m, by [`push`].
+    /// Contact potential at the depth `d`, m, by `push`.
     #[must_use]
     pub fn push(&self, depth: f64) -> Push {
         push(depth, self.softness_m, self.light_n_m2, self.stiffness_n_m3)
