@@ -1,10 +1,9 @@
 //! Contact of cloth with the body and the floor: a penalty in a distance field, and Coulomb friction with anchors.
 //!
 //! A sample of the cloth is repelled where its distance `phi` in the field is less than the offset `d0`. The pressure
-//! grows with the depth `d = d0 - phi`, softly at first (`penalty::push`). The force is the pressure
-//! times the rest area. It is along the raw gradient of the field, so that it is exactly the derivative of the energy.
-//! Friction ties a touching sample to an anchor by a spring of stiffness `k_t`. Beyond the Coulomb limit the anchor is
-//! dragged along.
+//! grows with the depth `d = d0 - phi`, softly at first (`penalty::push`). The force is the pressure times the rest area.
+//! It is along the raw gradient of the field, so that it is exactly the derivative of the energy. Friction ties a
+//! touching sample to an anchor by a spring of stiffness `k_t`. Beyond the Coulomb limit the anchor is dragged along.
 //!
 //! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside. Where
 //! the body is more curved than the mesh resolves, chords would cut into it. The force on such a point is distributed

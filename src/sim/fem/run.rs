@@ -218,6 +218,11 @@ impl<'a> Simulation<'a> {
         self.ending
     }
 
+    /// True if the last stretch of steps got no nearer to rest.
+    pub fn is_stuck(&self) -> bool {
+        self.ending == Ending::Stuck
+    }
+
     /// Number of iterations so far.
     pub fn iterations(&self) -> u32 {
         self.iteration

@@ -166,15 +166,7 @@ impl<'a> Settling<'a> {
         }
         let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
         let (positions, triangles) = (cloth.unweld(&x), cloth.triangles.clone());
-        Ok(Settled {
-            positions,
-            residual,
-            is_stuck: run.ending() == Ending::Stuck,
-            yields_m,
-            braced_n,
-            sewn: x,
-            triangles,
-        })
+        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Lets the sewn vertices come nearly to rest from `x`, without friction unless it holds throughout; returns true
@@ -282,15 +274,7 @@ impl<'a> Settling<'a> {
         let residual = self.hold(&mut system, &mut x, run)?;
         let (yields_m, braced_n) = (system.contact.yields_m(&x), None);
         let (positions, triangles) = (self.cloth.unweld(&x), self.cloth.triangles.clone());
-        Ok(Settled {
-            positions,
-            residual,
-            is_stuck: run.ending() == Ending::Stuck,
-            yields_m,
-            braced_n,
-            sewn: x,
-            triangles,
-        })
+        Ok(Settled { positions, residual, is_stuck: run.is_stuck(), yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Steps without friction until it is at rest, or only a few where `is_passing`; returns the residual.
