@@ -43,7 +43,7 @@ pub struct Panel {
     pub vertices: Vec<[f64; 2]>,
     /// Edges in the order of the loop.
     pub edges: Vec<PanelEdge>,
-    /// Part of the body that the panel covers, if the file gives it. Ignored.
+    /// Part of the body that the panel covers, if the file gives it: `body`, `arm` or `leg`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub label: String,
 }

@@ -5,24 +5,28 @@
 //! Edges keep the order of the file, and edge `k` is named `e<k>`.
 //!
 //! The format has no sizes, notches and grain lines. The grain is the `y` axis of the panel. The [`Role`]s come from
-//! the panel names, by the words that seam proposals know. Several panels may have the same role.
+//! the panel names, by the words that seam proposals know, else from the places of the panels (`worn`). Several panels
+//! may have the same role.
 
 mod export;
 pub mod format;
+pub mod worn;
 
 use std::collections::BTreeSet;
 
 pub use self::export::document;
 use self::format::{Curvature, Curve, Document, Panel, StitchItem};
+use self::worn::{Part, Place};
 use super::curve::{arc, bezier};
 use super::garment::Role;
 use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
-use super::propose::roles_by_name;
+use super::propose::{roles, said};
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
-use geom::V2;
 use geom::polyline::{Polyline, self_crossing, signed_area};
 use geom::units::mm;
+use geom::{V2, V3};
+use nalgebra::{Rotation3, Unit};
 
 /// Greatest coordinate and radius accepted, m.
 const GREATEST_M: f64 = 100.0;
@@ -53,6 +57,8 @@ pub struct Specification {
     /// Panels as pieces seen from outside, in the order of their names. [`Piece::is_clockwise_in_file`] is true for
     /// mirrored ones.
     pub pieces: Vec<Piece>,
+    /// Places of the pieces round the body.
+    pub places: Vec<Place>,
     /// Edges of each piece, in the order of the file.
     pub edges: Vec<Vec<Polyline>>,
     /// Stitches, in the order of the file.
@@ -110,11 +116,13 @@ impl Reader<'_> {
             file: self.file.to_owned(),
             mm_per_unit: mm(unit_m),
             pieces: Vec::new(),
+            places: Vec::new(),
             edges: Vec::new(),
             stitches: Vec::new(),
         };
         for (name, panel) in panels {
             let (piece, edges) = self.panel(name, panel, unit_m)?;
+            all.places.push(place(panel, unit_m, &piece));
             all.pieces.push(piece);
             all.edges.push(edges);
         }
@@ -242,6 +250,24 @@ impl Reader<'_> {
     }
 }
 
+/// Place of a panel, drawn as this piece, round the body.
+fn place(panel: &Panel, unit_m: f64, piece: &Piece) -> Place {
+    let low = piece.outline.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
+    let high = piece.outline.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
+    let centre = (low + high) * 0.5;
+    let in_file = if piece.is_clockwise_in_file { V2::new(-centre.x, centre.y) } else { centre };
+    let about = |axis: Unit<V3>, angle: f64| Rotation3::from_axis_angle(&axis, angle.to_radians());
+    let [x, y, z] = panel.rotation;
+    let turn = about(V3::x_axis(), x) * about(V3::y_axis(), y) * about(V3::z_axis(), z);
+    Place {
+        middle: turn * V3::new(in_file.x, in_file.y, 0.0) + V3::from(panel.translation) * unit_m,
+        normal: turn * V3::z(),
+        centre,
+        size: high - low,
+        part: Part::of_label(&panel.label),
+    }
+}
+
 /// Circular arc from `start` to `end` with the turning angle `turn`, radians, positive to the left.
 fn circle(start: V2, end: V2, radius: f64, turn: f64) -> Vec<V2> {
     let chord = end - start;
@@ -285,8 +311,8 @@ impl Specification {
             line: line.clone(),
             corners: Vec::new(),
         };
-        let names: Vec<&str> = self.pieces.iter().map(|piece| piece.block.as_str()).collect();
-        let roles = roles_by_name(&names);
+        let named: Vec<_> = self.pieces.iter().map(|piece| said(&piece.block)).collect();
+        let roles = roles(&worn::told(self, &named));
         let style_piece = |((piece, edges), role): ((&Piece, &Vec<Polyline>), Role)| StylePiece {
             id: piece.block.clone(),
             role,

@@ -41,7 +41,7 @@ use std::fmt;
 
 use self::ask::Asker;
 pub use self::ask::{Answers, Question, UnknownAnswer};
-use self::names::Named;
+pub(super) use self::names::Named;
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
@@ -226,7 +226,7 @@ impl Label {
 
 /// Part of a kind of piece that names tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum PartName {
+pub enum PartName {
     /// Under sleeve: the piece below the arm of a sleeve in two.
     Under,
     /// Gore of a skirt: one of several equal parts.
@@ -267,9 +267,13 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
     }
 }
 
-/// Roles of pieces by their names alone, for files that have their seams.
-pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
-    let named: Vec<Named> = names.iter().map(|name| names::read(name)).collect();
+/// Statement of the name of a piece.
+pub(super) fn said(name: &str) -> Named {
+    names::read(name)
+}
+
+/// Roles of pieces of which this is known, for files that have their seams.
+pub(super) fn roles(named: &[Named]) -> Vec<Role> {
     let is_below = |named: &Named| matches!(named.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
     let is_bodice = named.iter().any(is_below);
     named.iter().map(|named| role_of(named.class, named.face, named.hand, is_bodice)).collect()
