@@ -76,7 +76,8 @@ impl Progress {
         }
         self.said = Some((phase.to_owned(), now));
         let left_s = (now - began).as_secs_f64() * (1.0 - share) / share;
-        let left = (LEAST_SHARE..1.0).contains(&share).then(|| format!(", about {:.0} s left", left_s.round().max(1.0)));
+        let left =
+            (LEAST_SHARE..1.0).contains(&share).then(|| format!(", about {:.0} s left", left_s.round().max(1.0)));
         Some(format!("{phase}, {:.0} %{}", 100.0 * share, left.unwrap_or_default()))
     }
 }

@@ -29,6 +29,7 @@ pub mod size_order;
 pub mod source;
 pub mod style;
 pub mod table;
+pub(crate) mod trade;
 mod unfold;
 
 pub use garment::{

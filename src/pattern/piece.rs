@@ -44,8 +44,8 @@ pub struct Piece {
     pub texts: Vec<(String, String)>,
     /// Closed outline, counter-clockwise, first vertex not repeated. The cut line, if there is a sew line too.
     pub outline: Vec<V2>,
-    /// Length of the outline as drawn, m, before loops and spikes were cut away. `None` if the outline was not
-    /// repaired.
+    /// Length of the outline as drawn, m, before loops and spikes were cut away, and before it followed its quality
+    /// curve. `None` if the outline is as drawn.
     pub drawn_perimeter_m: Option<f64>,
     /// True if the file draws the outline clockwise.
     pub is_clockwise_in_file: bool,

@@ -19,6 +19,16 @@ pub enum SpecError {
         /// Number of files in the folder.
         others: usize,
     },
+    /// A size that a pattern does not hold.
+    #[error("{pattern}: no size `{size}`; accepted: one of {sizes}")]
+    NoSize {
+        /// Name of the file.
+        pattern: String,
+        /// Size that was asked for.
+        size: String,
+        /// Sizes of the file.
+        sizes: String,
+    },
     /// A pattern without seams, and no seam file.
     #[error("{pattern}: holds no seams; give its seam file (`seams`, or --seams FILE)")]
     NoSeams {

@@ -59,7 +59,10 @@ fn is_drawing(path: &Path) -> Result<bool> {
 /// When a file cannot be read or names no unit and none is given, or pattern and seams do not fit each other.
 pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
     let seams = seams.map(SourceFile::read).transpose()?;
-    read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
+    let pattern = SourceFile::read_pattern(pattern)?;
+    let size = size.filter(|_| !pattern.holds_seams());
+    let size = size.map(|size| Nest::read(&pattern, unit)?.size_named(size).map(str::to_owned)).transpose()?;
+    read_style(&pattern, seams.as_ref(), size.as_deref(), unit)
 }
 
 /// Pieces of one size of a pattern; of the sample size where `size` is `None`.
@@ -119,6 +122,22 @@ impl Nest {
     /// Names of the sizes, the smallest first; one empty name where none is named.
     pub fn sizes(&self) -> Vec<&str> {
         self.graded().map_or(vec![], PatternFile::sizes)
+    }
+
+    /// Name of a size as the files write it. Files that name no size are of any size.
+    ///
+    /// # Errors
+    /// When the files name sizes, and not this one.
+    pub fn size_named<'n>(&'n self, size: &'n str) -> Result<&'n str> {
+        let sizes = self.sizes();
+        match sizes.iter().find(|name| name.eq_ignore_ascii_case(size)) {
+            Some(name) => Ok(name),
+            None if sizes.iter().all(|name| name.is_empty()) => Ok(size),
+            None => {
+                let pattern = self.graded().map_or("", |file| &file.file).to_owned();
+                Err(SpecError::NoSize { pattern, size: size.to_owned(), sizes: sizes.join(", ") }.into())
+            }
+        }
     }
 
     /// Name of the sample size.

@@ -7,10 +7,13 @@ use dxf::entities::{Entity, EntityType};
 
 use super::figures::{Curves, Figure, Placement, figure};
 use super::guard::Foreign;
+use super::mtext;
 use super::outline::{
     LOOPS_SHARE, Line, MOST_LINES, TRIFLE_M2, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, text_mm,
     without_copies,
 };
+use super::plain;
+use super::quality;
 use super::sew_line::sew_line;
 use crate::piece::{Beside, GradePoint, Notch, Piece};
 use geom::V2;
@@ -76,6 +79,8 @@ pub struct Drawn {
     turn_points: Vec<V2>,
     curve_points: Vec<V2>,
     notches: Vec<Notch>,
+    /// Quality validation curves of boundary (layer 84) and sew line (layer 87).
+    quality: [Vec<Line>; 2],
     /// Texts with their positions.
     pub texts: Vec<Text>,
     /// Names of inserted blocks that the file does not hold.
@@ -166,8 +171,9 @@ impl Drawn {
 
     fn add(&mut self, entity: &Entity, layer: &str, placement: &Placement) {
         let figure = match figure(entity, placement) {
-            Ok(Figure::Text { at, value }) => {
-                return self.texts.push(Text { at, value, is_inner: matches!(layer, "8" | "11" | "13") });
+            Ok(Figure::Text { at, lines }) => {
+                let is_inner = matches!(layer, "8" | "11" | "13");
+                return self.texts.extend(lines.into_iter().map(|value| Text { at, value, is_inner }));
             }
             Ok(Figure::Label) => return,
             Ok(_) if !is_used(layer) => return self.leave_out(layer),
@@ -247,6 +253,8 @@ impl Drawn {
             "7" => &mut self.grain,
             "6" => &mut self.mirror,
             "5" => &mut self.grade_reference,
+            "84" => &mut self.quality[0],
+            "87" => &mut self.quality[1],
             _ => &mut self.internal,
         }
     }
@@ -287,6 +295,10 @@ impl Drawn {
         let mut outline = self.outline(block, remarks)?;
         let places = |points: &[V2]| points.iter().map(text_mm).collect::<Vec<_>>().join(", ");
         let drawn = outline.clone();
+        let [of_boundary, of_sew_line] = std::mem::take(&mut self.quality);
+        if let Some(away_m) = quality::follow(&mut outline, &of_boundary) {
+            remarks.push(quality::remark(block, "boundary", "84", drawn.len(), away_m));
+        }
         let spikes = cut_spikes(&mut outline);
         if !spikes.is_empty() {
             let places = places(&spikes);
@@ -314,12 +326,18 @@ impl Drawn {
         }
         let drawn_perimeter_m = (outline != drawn).then(|| perimeter(&drawn));
         let is_clockwise_in_file = counter_clockwise(&mut outline);
-        let sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
+        let mut sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
+        if let Some(line) = &mut sew_line {
+            let drawn = line.len();
+            if let Some(away_m) = quality::follow(line, &of_sew_line) {
+                remarks.push(quality::remark(block, "sew line", "87", drawn, away_m));
+            }
+        }
         let grade_points = self.texts.iter().filter_map(grade_point).collect();
         let others = self.texts.iter().filter(|text| grade_point(text).is_none());
         let mut texts: Vec<(String, String)> = others.map(|text| key_and_value(&text.value)).collect();
         let take = |texts: &mut Vec<(String, String)>, key: &str| {
-            let index = texts.iter().position(|(found, value)| found.eq_ignore_ascii_case(key) && !value.is_empty());
+            let index = texts.iter().position(|(found, value)| is_key(found, key) && !value.is_empty());
             index.map(|index| texts.remove(index).1)
         };
         let ends = |lines: &[Line]| lines.first().map(Line::ends);
@@ -351,10 +369,7 @@ impl Drawn {
     /// Size named in the texts.
     pub fn size(&self) -> Option<String> {
         let texts = self.texts.iter().map(|text| key_and_value(&text.value));
-        texts
-            .filter(|(key, value)| key.eq_ignore_ascii_case("size") && !value.is_empty())
-            .map(|(_, value)| value)
-            .next()
+        texts.filter(|(key, value)| is_key(key, "size") && !value.is_empty()).map(|(_, value)| value).next()
     }
 
     /// A point of the first entity that is drawn.
@@ -391,7 +406,8 @@ impl Drawn {
 
 /// True for the layers of a piece.
 fn is_used(layer: &str) -> bool {
-    matches!(layer, "1" | "2" | "3" | "4" | "5" | "6" | "7" | "8" | "11" | "13" | "14" | "80" | "81" | "82" | "83")
+    let layers = ["1", "2", "3", "4", "5", "6", "7", "8", "11", "13", "14", "80", "81", "82", "83", "84", "87"];
+    layers.contains(&layer)
 }
 
 /// Reads a notch that is drawn as a line from the edge inwards.
@@ -417,11 +433,17 @@ fn grade_point(text: &Text) -> Option<GradePoint> {
 
 /// Texts of a set of entities as `(key, value)`.
 pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, String)> {
-    let text = |entity: &'e Entity| match &entity.specific {
-        EntityType::Text(text) => Some(key_and_value(&text.value)),
-        _ => None,
+    let lines = |entity: &'e Entity| match &entity.specific {
+        EntityType::Text(text) => vec![text.value.clone()],
+        EntityType::MText(text) => mtext::lines_of(text),
+        _ => Vec::new(),
     };
-    entities.filter_map(text).collect()
+    entities.flat_map(lines).map(|line| key_and_value(&line)).collect()
+}
+
+/// True for a key in any spelling: `Piece Name`, `PIECE_NAME`, `piecename`.
+fn is_key(found: &str, key: &str) -> bool {
+    plain(found) == plain(key)
 }
 
 /// Splits `Key: value`. A text without a key has the key `""`.

@@ -4,6 +4,7 @@ use dxf::entities::{Entity, EntityType, Insert};
 use dxf::{Point, Vector};
 
 use super::curves::{self, CHORD_ERROR_M, Spline};
+use super::mtext;
 use geom::V2;
 
 /// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
@@ -113,12 +114,12 @@ pub enum Figure {
         /// Direction, degrees counter-clockwise from +u.
         angle_deg: f64,
     },
-    /// A TEXT entity, which may be a `key: value`.
+    /// A TEXT or MTEXT entity, each line of which may be a `key: value`.
     Text {
         /// Insertion point, m.
         at: V2,
-        /// Content of the text.
-        value: String,
+        /// Lines of the text.
+        lines: Vec<String>,
     },
     /// Anything else: labels, and kinds that [`super::guard`] counts as unsupported.
     Label,
@@ -166,7 +167,10 @@ fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, Str
             Ok(Figure::Point { at: placement.at(flat(&point.location)), depth_m, angle_deg })
         }
         EntityType::Text(text) => {
-            Ok(Figure::Text { at: placement.at(flat(&text.location)), value: text.value.clone() })
+            Ok(Figure::Text { at: placement.at(flat(&text.location)), lines: vec![text.value.clone()] })
+        }
+        EntityType::MText(text) => {
+            Ok(Figure::Text { at: placement.at(flat(&text.insertion_point)), lines: mtext::lines_of(text) })
         }
         _ => match chain(entity, tolerance)? {
             None => Ok(Figure::Label),

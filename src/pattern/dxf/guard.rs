@@ -10,12 +10,24 @@ use super::DxfError;
 use super::tags::{Tag, ValueType, clipped, value_type};
 
 /// Kinds of entities that carry a pattern. `VERTEX` includes the vertices of LWPOLYLINE.
-pub const KINDS: [&str; 11] =
-    ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"];
+pub const KINDS: [&str; 12] = [
+    "POLYLINE",
+    "VERTEX",
+    "LWPOLYLINE",
+    "LINE",
+    "POINT",
+    "TEXT",
+    "MTEXT",
+    "INSERT",
+    "ARC",
+    "CIRCLE",
+    "ELLIPSE",
+    "SPLINE",
+];
 
 /// Other kinds of entities of DXF [DXF reference, ENTITIES section]. A kind that is in neither list means a damaged or
 /// foreign file.
-const OTHER_KINDS: [&str; 37] = [
+const OTHER_KINDS: [&str; 36] = [
     "3DFACE",
     "3DLINE",
     "3DSOLID",
@@ -35,7 +47,6 @@ const OTHER_KINDS: [&str; 37] = [
     "MESH",
     "MLEADER",
     "MLINE",
-    "MTEXT",
     "MULTILEADER",
     "OLE2FRAME",
     "OLEFRAME",
@@ -63,7 +74,7 @@ const SECTIONS: [&str; 8] =
 pub type Foreign<'a> = BTreeMap<(&'a [u8], &'a str), usize>;
 
 /// Unsupported kinds that draw no part of a piece.
-const LABELS: [&str; 4] = ["ATTDEF", "ATTRIB", "MTEXT", "SEQEND"];
+const LABELS: [&str; 3] = ["ATTDEF", "ATTRIB", "SEQEND"];
 
 /// Number of entities of each kind.
 pub type Counts = BTreeMap<&'static str, usize>;
@@ -110,7 +121,7 @@ pub struct Inventory<'a> {
     pub entities: Counts,
     /// Entities of unsupported kinds outside blocks.
     pub foreign: Foreign<'a>,
-    /// Texts (group code 1 of TEXT).
+    /// Texts (group code 1 of TEXT and MTEXT, and 3 of MTEXT).
     pub texts: Vec<Located<'a>>,
     /// Names of inserted blocks.
     inserted: Vec<Located<'a>>,
@@ -295,10 +306,11 @@ impl<'a> Walk<'a, '_> {
                 .map(|tag| Located { bytes: tag.value.trim_ascii(), line: tag.line });
             self.inventory.inserted.extend(names);
         }
-        if keyword == "TEXT" {
-            self.inventory.texts.extend(
-                record.iter().filter(|tag| tag.code == 1).map(|tag| Located { bytes: tag.value, line: tag.line }),
-            );
+        if matches!(keyword, "TEXT" | "MTEXT") {
+            let is_text = |tag: &&Tag<'_>| tag.code == 1 || (keyword == "MTEXT" && tag.code == 3);
+            self.inventory
+                .texts
+                .extend(record.iter().filter(is_text).map(|tag| Located { bytes: tag.value, line: tag.line }));
         }
     }
 

@@ -13,7 +13,9 @@ mod curves;
 mod figures;
 mod guard;
 mod loose;
+mod mtext;
 mod outline;
+mod quality;
 mod sew_line;
 mod tags;
 mod units;
@@ -29,6 +31,7 @@ use self::blocks::{Drawn, Library};
 pub use self::code_page::CodePage;
 use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
+use self::units::Encoding;
 pub use self::units::{Unit, UnitSource};
 pub(crate) use self::write::D6673;
 pub use self::write::{Standard, write_pieces};
@@ -36,6 +39,8 @@ use super::piece::{Beside, Piece};
 use super::style::named::without;
 use super::{scale, size_order};
 
+/// Greatest distance of a copy from what it draws again, m: the rounding of files.
+const SHADOW_M: f64 = 0.1e-3;
 /// Name in place of that of a block, for an outline that is drawn outside all blocks.
 pub const NO_BLOCK: &str = "(no block)";
 
@@ -265,7 +270,7 @@ fn plain(key: &str) -> String {
 pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
-    let encoding = units::code_page(&inventory, file_name)?;
+    let Encoding { page: encoding, remark } = units::code_page(&inventory, file_name)?;
     let (claims, unit_remark) = match unit {
         Some(given) => {
             (Vec::new(), units::claims(&inventory, file_name).ok().and_then(|c| units::overruled(&c, given)))
@@ -287,7 +292,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         texts: blocks::texts(drawing.entities()),
         pieces: Vec::new(),
         refused: Vec::new(),
-        warnings: units::contradictions(&claims).into_iter().chain(unit_remark.clone()).collect(),
+        warnings: units::contradictions(&claims).into_iter().chain(unit_remark.clone()).chain(remark).collect(),
         unit_remark,
         unused: BTreeMap::new(),
         encoding,
@@ -300,6 +305,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }
     file.add_all(&drawing, &inventory);
+    file.drop_shadows();
     file.warnings.extend(file.doubt());
     let sample_size =
         file.texts.iter().find(|(key, _)| key.eq_ignore_ascii_case("size")).map(|(_, value)| value.clone());
@@ -370,6 +376,30 @@ impl PatternFile {
             Ok(piece) => self.pieces.push(piece),
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, size, reason }),
         }
+    }
+
+    /// Leaves out pieces that draw a piece of another size again, under that size and a number (`M-1`): CAD programs
+    /// keep such copies beside the original.
+    fn drop_shadows(&mut self) {
+        let is_drawn_by = |piece: &Piece, of: &str, other: &Piece| {
+            other.name == piece.name
+                && other.size.as_deref() == Some(of)
+                && other.outline.len() == piece.outline.len()
+                && other.outline.iter().zip(&piece.outline).all(|(a, b)| (a - b).norm() < SHADOW_M)
+        };
+        let shadow = |piece: &Piece| {
+            let (of, number) = piece.size.as_deref()?.rsplit_once('-')?;
+            let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+            (is_number && self.pieces.iter().any(|other| is_drawn_by(piece, of, other))).then(|| of.to_owned())
+        };
+        let shadows: Vec<Option<String>> = self.pieces.iter().map(shadow).collect();
+        let said = self.pieces.iter().zip(&shadows).filter_map(|(piece, of)| {
+            let (size, of) = (piece.size.as_deref()?, of.as_deref()?);
+            Some(format!("block `{}`: size {size} draws `{}` of size {of} again: left out", piece.block, piece.name))
+        });
+        self.warnings.extend(said.collect::<Vec<_>>());
+        let mut is_shadow = shadows.iter().map(Option::is_some);
+        self.pieces.retain(|_| !is_shadow.next().unwrap_or(false));
     }
 
     /// Gives pieces without texts the texts of the piece of the same name in another size: CAD programs write texts in
@@ -463,6 +493,7 @@ fn counts_of<'d>(entities: impl Iterator<Item = &'d Entity>) -> Counts {
             EntityType::Line(_) => ("LINE", 0),
             EntityType::ModelPoint(_) => ("POINT", 0),
             EntityType::Text(_) => ("TEXT", 0),
+            EntityType::MText(_) => ("MTEXT", 0),
             EntityType::Insert(_) => ("INSERT", 0),
             EntityType::Arc(_) => ("ARC", 0),
             EntityType::Circle(_) => ("CIRCLE", 0),

@@ -55,8 +55,11 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
                     wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
                 }
             };
-            // The table counts loops that are cut away, and segments that are drawn twice.
-            let slack = if &row[column("simple_polygon")] == "0" { 5e-2 } else { 1e-3 };
+            // The table counts loops that are cut away, and segments that are drawn twice. It has the area of the points,
+            // from which the quality curve differs by up to 12 mm.
+            let followed = format!("block `{}`: its boundary is sewn along its quality curve", &row[1]);
+            let is_followed = file.warnings.iter().any(|warning| warning.starts_with(&followed));
+            let slack = if &row[column("simple_polygon")] == "0" || is_followed { 5e-2 } else { 1e-3 };
             expect("area_mm2", piece.area_mm2, slack * piece.area_mm2);
             expect("turn_points", piece.turn_points as f64, 0.0);
             expect("curve_points", piece.curve_points as f64, 0.0);

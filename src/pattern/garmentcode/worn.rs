@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Specification, Stitch};
-use crate::propose::{Class, Face, Hand, Named};
+use crate::trade::{Class, Face, Hand, Named};
 use geom::{V2, V3};
 
 /// Distance from the middle plane between front and back from which a panel lies on one side, m.
@@ -217,7 +217,6 @@ impl<'a> Worn<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::garment::Role;
     use crate::garmentcode;
 

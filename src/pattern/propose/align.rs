@@ -2,9 +2,9 @@
 //!
 //! The score is the mean of [`goodness`] over the parts of the template, less a penalty for turning the piece.
 
-use super::Label;
 use super::shape::{Section, Shape};
 use super::templates::{Part, TEMPLATES, Template};
+use super::{Class, Label};
 use geom::V2;
 
 /// Weight of the squared distance between a section of the outline and its expected position.
@@ -53,19 +53,28 @@ pub struct Alignment {
 pub const LEAST_FIT: f64 = 0.35;
 
 /// Best alignment of the templates for which `is_one` is true. The piece may be turned, at a penalty: most are drawn
-/// upright.
+/// upright. A grain that lies on its side says that the piece does, except for bands, yokes and half sleeves: theirs
+/// may run either way.
 #[must_use]
 pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alignment> {
-    let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
+    let cost = |template: &Template, quarter_turns: usize| {
+        let hangs = match template.class {
+            Class::Body | Class::SidePanel | Class::Leg | Class::Skirt => true,
+            Class::Sleeve => template.is_whole,
+            Class::Yoke | Class::Waistband | Class::Cuff | Class::Other => false,
+        };
+        let is_upright = if hangs && shape.lies() { !quarter_turns.is_multiple_of(2) } else { quarter_turns == 0 };
+        if is_upright { 0.0 } else { TURNED }
+    };
     align(shape, TEMPLATES.iter().filter(|template| is_one(template)), cost)
 }
 
-/// Best alignment of some templates with a shape. `cost` is the penalty for a number of quarter turns.
+/// Best alignment of some templates with a shape. `cost` is the penalty of a template for a number of quarter turns.
 #[must_use]
 pub fn align<'t>(
     shape: &Shape,
     templates: impl Iterator<Item = &'t Template>,
-    cost: impl Fn(usize) -> f64,
+    cost: impl Fn(&Template, usize) -> f64,
 ) -> Option<Alignment> {
     let mut best: Option<Alignment> = None;
     let templates: Vec<&Template> = templates.collect();
@@ -76,7 +85,7 @@ pub fn align<'t>(
             for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
                 let parts = parts_of(template, *is_mirrored);
                 let Some(Cut { goodness, runs }) = sections.best(&parts, size) else { continue };
-                let score = goodness - cost(quarter_turns);
+                let score = goodness - cost(template, quarter_turns);
                 if best.as_ref().is_none_or(|best| score > best.score) {
                     let labelled = (0..parts.len()).map(|k| Labelled {
                         label: parts[k].label,

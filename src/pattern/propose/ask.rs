@@ -1,6 +1,6 @@
 //! Questions to the user about what could not be determined, with their possible answers and the answers given.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// A question that the user should decide.
@@ -97,21 +97,45 @@ impl fmt::Display for Question {
     }
 }
 
+/// Answer that dismisses the pieces of a question: they are nothing that is draped.
+const NONE_OF_THESE: &str = "none of these: left out";
+
 /// Asks questions: looks up the answers given, and collects the questions.
 pub(super) struct Asker<'a> {
     answers: &'a Answers,
     asked: Vec<Question>,
+    /// Pieces that the user dismissed before.
+    dismissed: BTreeSet<usize>,
+    /// Pieces that the user dismisses now.
+    dismissing: BTreeSet<usize>,
+    /// Questions without an answer of which the drape cannot do without.
+    unsettled: Vec<String>,
+}
+
+/// Everything that was asked.
+pub(super) struct Asked {
+    /// Questions in the order in which they were asked.
+    pub questions: Vec<Question>,
+    /// Pieces that the user dismisses, and has not before.
+    pub dismissing: BTreeSet<usize>,
+    /// Texts of the questions that are to be answered before anything is draped.
+    pub unsettled: Vec<String>,
 }
 
 impl<'a> Asker<'a> {
-    /// Makes an asker with some answers.
-    pub fn new(answers: &'a Answers) -> Self {
-        Self { answers, asked: Vec::new() }
+    /// Makes an asker with some answers, among them some that dismissed pieces.
+    pub fn new(answers: &'a Answers, dismissed: BTreeSet<usize>) -> Self {
+        Self { answers, asked: Vec::new(), dismissed, dismissing: BTreeSet::new(), unsettled: Vec::new() }
     }
 
     /// Makes an asker with the same answers, for a trial whose questions are discarded.
     pub fn aside(&self) -> Self {
-        Self::new(self.answers)
+        Self::new(self.answers, self.dismissed.clone())
+    }
+
+    /// True for a piece that the user dismissed.
+    pub fn is_dismissed(&self, piece: usize) -> bool {
+        self.dismissed.contains(&piece)
     }
 
     /// True if the user has answered a question.
@@ -119,9 +143,9 @@ impl<'a> Asker<'a> {
         self.answers.contains_key(text)
     }
 
-    /// All questions in the order in which they were asked.
-    pub fn into_questions(self) -> Vec<Question> {
-        self.asked
+    /// Ends asking.
+    pub fn into_asked(self) -> Asked {
+        Asked { questions: self.asked, dismissing: self.dismissing, unsettled: self.unsettled }
     }
 
     /// Asks a question without choices.
@@ -148,6 +172,39 @@ impl<'a> Asker<'a> {
         let taken = answer.or(stands);
         self.keep(Question { number: 0, text, choices, taken, is_answered: answer.is_some() });
         taken
+    }
+
+    /// Asks a question about what some pieces are, as [`Asker::ask`] does. The user may also dismiss them: then the
+    /// default stands until the proposal is made without them.
+    pub fn ask_of<S: Into<String>>(
+        &mut self,
+        pieces: impl IntoIterator<Item = usize>,
+        text: String,
+        choices: impl IntoIterator<Item = S>,
+        stands: Option<usize>,
+    ) -> Option<usize> {
+        let mut choices: Vec<String> = choices.into_iter().map(Into::into).collect();
+        choices.push(NONE_OF_THESE.to_owned());
+        let none = choices.len() - 1;
+        let taken = self.ask(text, choices, stands);
+        if taken == Some(none) {
+            self.dismissing.extend(pieces);
+            return stands;
+        }
+        taken
+    }
+
+    /// Asks a question as [`Asker::ask`] does, to be answered before anything is draped.
+    pub fn ask_first<S: Into<String>>(
+        &mut self,
+        text: String,
+        choices: impl IntoIterator<Item = S>,
+        stands: Option<usize>,
+    ) -> Option<usize> {
+        if !self.is_answered(&text) {
+            self.unsettled.push(text.clone());
+        }
+        self.ask(text, choices, stands)
     }
 }
 

@@ -35,7 +35,8 @@ pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Ask
         // The identifier of a trunk piece does not say trunk.
         let place = if place.is_empty() { Class::Body.as_str().to_owned() } else { place.replace('_', " ") };
         let text = format!("which piece is the {place}?");
-        taken[k] = asker.ask(text, names, Some(taken[k])).unwrap_or(taken[k]);
+        let of_place = rivals.iter().map(|&rival| recognised[rival].piece);
+        taken[k] = asker.ask_of(of_place, text, names, Some(taken[k])).unwrap_or(taken[k]);
     }
     let mut left = kept(&recognised, &contested, &taken);
     ask_band(pieces, &recognised, &mut left, asker);
@@ -48,7 +49,8 @@ fn ask_band(pieces: &[Piece], all: &[Recognised], left: &mut Vec<Recognised>, as
     let is_left = |band: &&Recognised| left.iter().any(|candidate| candidate.piece == band.piece);
     let Some(stands) = bands.iter().position(is_left).filter(|_| !bands.iter().all(is_left)) else { return };
     let names: Vec<&str> = bands.iter().map(|band| pieces[band.piece].name.as_str()).collect();
-    let taken = asker.ask("which piece is the waistband?".to_owned(), names, Some(stands));
+    let of_band: Vec<usize> = bands.iter().map(|band| band.piece).collect();
+    let taken = asker.ask_of(of_band, "which piece is the waistband?".to_owned(), names, Some(stands));
     if let Some(taken) = taken.filter(|&taken| taken != stands) {
         left.retain(|candidate| candidate.class != Class::Waistband);
         left.push(bands[taken].clone());

@@ -7,13 +7,13 @@
 
 use super::align::upright;
 use super::ask::Asker;
-use super::names::Named;
 use super::recognise::{CONTRADICTED, DETAIL_SHARE, LEAST_UNNAMED_FIT, Reading};
 use super::shape::Shape;
 use super::templates::Template;
 use super::told::Told;
 use super::{Class, Face, Hand, ProposedSeam, Sewn, best_sewn};
 use crate::piece::Piece;
+use crate::trade::Named;
 
 /// Kinds with a characteristic shape, which can contradict a name. Bands and skirts are rectangles, like much else.
 const SHAPED: [Class; 3] = [Class::Body, Class::Leg, Class::Sleeve];
@@ -52,7 +52,8 @@ struct Claim {
 pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<Named>, Reading) {
     let all: Vec<Named> = told.iter().map(|told| told.all()).collect();
     let as_called = best_sewn(pieces, &all, asker);
-    let claims = doubtful(pieces, told, &all, &well_sewn(pieces, &as_called));
+    let mut claims = doubtful(pieces, told, &all, &well_sewn(pieces, &as_called));
+    claims.retain(|claim| !claim.pieces.iter().any(|&piece| asker.is_dismissed(piece)));
     if claims.is_empty() {
         return (all, as_called.reading);
     }
@@ -60,7 +61,7 @@ pub fn settled(pieces: &[Piece], told: &[Told], asker: &mut Asker<'_>) -> (Vec<N
     for (claim, is_aside) in claims.iter().zip(&mut aside).filter(|(claim, is_aside)| claim.is_own && **is_aside) {
         let piece = claim.pieces[0];
         let ClaimQuestion { text, choices } = question(&pieces[piece].name, all[piece], claim.says);
-        *is_aside = asker.ask(text, choices, Some(1)) == Some(1);
+        *is_aside = asker.ask_of([piece], text, choices, Some(1)) == Some(1);
     }
     let named = without(&all, &claims, &aside);
     let reading = best_sewn(pieces, &named, asker).reading;

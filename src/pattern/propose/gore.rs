@@ -4,9 +4,9 @@
 //! other pieces must then be bands and details. Equal panels are gores as well. A pair cut for left and right
 //! alternates with its mirror image round the skirt.
 
-use super::names::Named;
 use super::{Class, PartName};
 use crate::piece::Piece;
+use crate::trade::Named;
 use geom::polyline::{perimeter, signed_area};
 
 /// Fewest gores of a skirt.

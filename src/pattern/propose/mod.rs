@@ -17,7 +17,6 @@ mod gore;
 mod lengths;
 #[cfg(test)]
 mod name_tests;
-mod names;
 mod nest;
 mod notched;
 mod panels;
@@ -33,15 +32,13 @@ mod tests;
 mod told;
 mod waist;
 mod wear;
-mod words;
 mod worn_pieces;
 mod write;
 
-use std::fmt;
+use std::collections::BTreeSet;
 
-use self::ask::Asker;
 pub use self::ask::{Answers, Question, UnknownAnswer};
-pub(super) use self::names::Named;
+use self::ask::{Asked, Asker};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
@@ -50,119 +47,11 @@ use self::worn_pieces::Worn;
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
+use super::trade::{self, Named, PartName};
+pub use super::trade::{Class, Face, Hand};
 
 /// Least gain in [`Sewn::worth`] for a less likely reading of the pieces to be taken: about one seam.
 const SURER: f64 = 1.0;
-
-/// Kind of a piece.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Class {
-    /// Front or back of the trunk.
-    Body,
-    /// Side panel of a front or back: between the princess seam and the side.
-    SidePanel,
-    /// Front or back of a leg.
-    Leg,
-    /// Sleeve, or front or back of one.
-    Sleeve,
-    /// Front or back of a skirt.
-    Skirt,
-    /// Yoke: separately cut part of a front or back over the shoulder, or of a leg or skirt below the waist.
-    Yoke,
-    /// Band round the waist of a skirt or trousers.
-    Waistband,
-    /// Band at the end of a sleeve.
-    Cuff,
-    /// Anything else, in no proposed seam.
-    Other,
-}
-
-impl Class {
-    fn as_str(self) -> &'static str {
-        match self {
-            Self::Body => "trunk",
-            Self::SidePanel => "side panel",
-            Self::Leg => "leg",
-            Self::Sleeve => "sleeve",
-            Self::Skirt => "skirt",
-            Self::Yoke => "yoke",
-            Self::Waistband => "waistband",
-            Self::Cuff => "cuff",
-            Self::Other => "part",
-        }
-    }
-}
-
-/// Front or back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Face {
-    /// Front of the wearer.
-    Front,
-    /// Back of the wearer.
-    Back,
-}
-
-/// Side of the wearer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Hand {
-    /// The wearer's right.
-    Right,
-    /// The wearer's left.
-    Left,
-}
-
-impl Hand {
-    /// Both hands, the right first.
-    pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
-
-    fn other(self) -> Self {
-        match self {
-            Self::Right => Self::Left,
-            Self::Left => Self::Right,
-        }
-    }
-
-    fn as_str(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Left => "left",
-        }
-    }
-}
-
-impl fmt::Display for Hand {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
-    }
-}
-
-impl Face {
-    /// Both faces, the front first.
-    pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
-
-    fn other(self) -> Self {
-        match self {
-            Self::Front => Self::Back,
-            Self::Back => Self::Front,
-        }
-    }
-
-    fn as_str(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Back => "back",
-        }
-    }
-}
-
-impl fmt::Display for Face {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
-    }
-}
 
 /// Kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -224,17 +113,6 @@ impl Label {
     }
 }
 
-/// Part of a kind of piece that names tell apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PartName {
-    /// Under sleeve: the piece below the arm of a sleeve in two.
-    Under,
-    /// Gore of a skirt: one of several equal parts.
-    Gore,
-    /// Any panel of a garment.
-    Panel,
-}
-
 /// Role of a piece. `is_bodice` is true if something is sewn to the lower edge of the trunk.
 fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
     match (class, face, hand) {
@@ -269,7 +147,7 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
 
 /// Statement of the name of a piece.
 pub(super) fn said(name: &str) -> Named {
-    names::read(name)
+    trade::read(name)
 }
 
 /// Roles of pieces of which this is known, for files that have their seams.
@@ -343,6 +221,9 @@ pub struct Proposal {
     /// Pieces as worn.
     #[serde(skip)]
     worn: Vec<Worn>,
+    /// Texts of the questions that are to be answered before anything is draped.
+    #[serde(skip)]
+    unsettled: Vec<String>,
 }
 
 impl Proposal {
@@ -426,23 +307,43 @@ fn sewn(pieces: &[Piece], named: &[Named], reading: Reading, asker: &Asker<'_>) 
     Sewn { reading, worn, seams }
 }
 
+/// Proposal with some answers. Pieces that an answer dismisses are left out, and the rest is read again.
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
-    let (mut asker, mut notes) = (Asker::new(answers), Vec::new());
-    let (named, reading) = doubt::settled(pieces, &told::told(pieces), &mut asker);
-    let details = recognise::details(pieces, &named);
-    let mut listed: Vec<String> = pieces
-        .iter()
-        .zip(details)
-        .filter(|(_, is_detail)| *is_detail)
-        .map(|(piece, _)| format!("`{}`", piece.name))
-        .collect();
-    listed.dedup();
-    if !listed.is_empty() {
-        notes.push(format!(
-            "left out: {}: by their names or their size details that a drape does without",
-            listed.join(", ")
-        ));
+    let (mut dismissed, mut settled) = (BTreeSet::new(), Vec::new());
+    loop {
+        let (mut proposal, dismissing) = without(pieces, answers, &dismissed);
+        if dismissing.is_empty() {
+            let is_new = |question: &Question| proposal.questions.iter().all(|asked| asked.text != question.text);
+            let kept: Vec<Question> = settled.into_iter().filter(is_new).collect();
+            proposal.questions.splice(0..0, kept);
+            return proposal;
+        }
+        settled.extend(proposal.questions.into_iter().filter(|question| question.is_answered));
+        dismissed.extend(dismissing);
     }
+}
+
+/// Note on the pieces for which `is_it` is true. `None` without any.
+fn left_out(pieces: &[Piece], is_it: impl Fn(usize) -> bool, why: &str) -> Option<String> {
+    let mut listed: Vec<String> =
+        (0..pieces.len()).filter(|&k| is_it(k)).map(|k| format!("`{}`", pieces[k].name)).collect();
+    listed.dedup();
+    (!listed.is_empty()).then(|| format!("left out: {}: {why}", listed.join(", ")))
+}
+
+/// Proposal without the pieces that the user dismissed, and the pieces that an answer dismisses besides.
+fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> (Proposal, BTreeSet<usize>) {
+    let mut asker = Asker::new(answers, dismissed.clone());
+    let mut told = told::told(pieces);
+    for &piece in dismissed {
+        told[piece].own.class = Some(Class::Other);
+    }
+    let (named, reading) = doubt::settled(pieces, &told, &mut asker);
+    let (details, is_spare) = (recognise::details(pieces, &named), recognise::spares(pieces));
+    let mut notes: Vec<String> = Vec::new();
+    let is_plain = |k: usize| details[k] && !is_spare[k] && !dismissed.contains(&k);
+    notes.extend(left_out(pieces, is_plain, "by their names or their size details that a drape does without"));
+    notes.extend(left_out(pieces, |k| is_spare[k], "their quantity is 0: alternatives that are not cut"));
     let recognised = recognise::recognise(pieces, &named, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
@@ -454,7 +355,7 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut asker);
-    let questions = asker.into_questions();
+    let Asked { questions, dismissing, unsettled } = asker.into_asked();
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let recognised = recognised.iter().find(|found| found.piece == index);
@@ -478,5 +379,7 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
         }));
     }
     let open = sew::open(&worn, &seams);
-    Proposal { pieces: listed, seams, open, questions, notes, size: None, allowance_m: 0.0, worn }
+    let proposal =
+        Proposal { pieces: listed, seams, open, questions, notes, size: None, allowance_m: 0.0, worn, unsettled };
+    (proposal, dismissing)
 }

@@ -1,11 +1,11 @@
 //! Panels of fronts and backs with princess seams: one in the middle, one at either side.
 
 use super::align::{Alignment, LEAST_FIT, upright};
-use super::names::Named;
 use super::shape::Shape;
 use super::templates::Template;
 use super::{Class, Face, Label};
 use crate::piece::Piece;
+use crate::trade::Named;
 
 /// A panel of a front or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

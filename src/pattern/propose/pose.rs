@@ -1,12 +1,12 @@
 //! Pose of a drawn piece of known role: which side is up, and which half of a piece it is.
 
 use super::align::{TURNED, align, parts_of};
-use super::names;
 use super::shape::{Shape, quarter_turned};
 use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label};
 use crate::garment::Role;
 use crate::style::{Edge, StylePiece};
+use crate::trade;
 use geom::V2;
 
 /// Pose of a drawn piece.
@@ -40,7 +40,7 @@ pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
 /// corners.
 #[must_use]
 pub fn pose(piece: &StylePiece) -> Option<Pose> {
-    let is_yoke = names::read(&piece.id).class == Some(Class::Yoke);
+    let is_yoke = trade::read(&piece.id).class == Some(Class::Yoke);
     let class = match piece.role {
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack if is_yoke => Class::Yoke,
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack => Class::Body,
@@ -61,7 +61,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     corners.dedup();
     let shape = Shape::new(outline, corners)?;
     // As in a proposal, a sleeve called front or back is half a sleeve.
-    let is_whole_sleeve = names::read(&piece.id).face.is_none();
+    let is_whole_sleeve = trade::read(&piece.id).face.is_none();
     let has = |label: Label| {
         piece.edges.iter().any(|edge| edge.name.as_deref().is_some_and(|name| name.starts_with(label.as_str())))
     };
@@ -90,7 +90,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     // The grain of a band runs along the band, that of any other piece runs vertically.
     let is_along =
         |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
-    let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
+    let cost = |_: &Template, turns| if class != Class::Waistband && is_along(turns) { TURNED } else { 0.0 };
     let alignment = align(&shape, TEMPLATES.iter().filter(fits), cost)?;
     Some(Pose {
         quarter_turns: alignment.quarter_turns,
@@ -161,6 +161,6 @@ fn middle(edge: &Edge) -> V2 {
 /// Front or back, and side of the wearer, by a name.
 #[must_use]
 pub fn named_face_and_hand(name: &str) -> (Option<Face>, Option<Hand>) {
-    let named = names::read(name);
+    let named = trade::read(name);
     (named.face, named.hand)
 }

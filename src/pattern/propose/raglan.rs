@@ -2,10 +2,10 @@
 
 use super::Class;
 use super::align::{LEAST_FIT, upright};
-use super::names::Named;
 use super::shape::Shape;
 use super::templates::Template;
 use crate::piece::Piece;
+use crate::trade::Named;
 
 /// Possible values of `is_raglan`, the likelier first. True is likelier if fronts, backs and sleeves together fit
 /// raglan templates better than plain ones. Without a sleeve that fits a raglan template, only false is possible.

@@ -1,9 +1,8 @@
 //! Recognition of pieces: first by the name, then by the outline, then by the other pieces.
 
-use super::align::{Alignment, LEAST_FIT, upright};
+use super::align::{Alignment, LEAST_FIT, Labelled, upright};
 use super::ask::Asker;
 use super::gore::{self, Cut};
-use super::names::Named;
 use super::panels::{self, Panel};
 use super::raglan;
 use super::shape::Shape;
@@ -11,6 +10,7 @@ use super::templates::Template;
 use super::{Class, Face, Hand, Label, PartName, circle_skirt};
 use crate::piece::Piece;
 use crate::style::named::reference;
+use crate::trade::Named;
 
 /// Least score of an outline without other evidence.
 pub const LEAST_UNNAMED_FIT: f64 = 0.6;
@@ -39,6 +39,10 @@ const ANY_WAIST_M: f64 = 0.1e-3;
 /// Greatest area of a nameless piece that is taken for a detail, as a share of the largest piece. The sleeve of a
 /// T-shirt has a fifth, half of a child's sleeve a tenth.
 pub const DETAIL_SHARE: f64 = 0.08;
+
+/// Square of the perimeter over four areas from which a piece is a strip: about 13 times as long as wide. A leg, the
+/// slenderest piece round the body, has 8.
+const STRIP: f64 = 15.0;
 
 /// Greatest relative length difference between the two inseams of a leg in one piece.
 const SAME_INSEAM: f64 = 0.03;
@@ -137,13 +141,38 @@ struct Subject<'p> {
     named: Named,
 }
 
-/// True for each piece that a drape does without: a detail by its name, or a small nameless piece.
+/// True for each piece that a drape does without: a detail by its name, a small nameless piece, a strip that is called
+/// front or back alone, and an alternative that is not cut.
 pub fn details(pieces: &[Piece], named: &[Named]) -> Vec<bool> {
     let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
     let is_detail = |(piece, named): (&Piece, &Named)| {
-        named.class == Some(Class::Other) || (named.is_nameless() && piece.area_m2() < DETAIL_SHARE * largest_m2)
+        named.class == Some(Class::Other)
+            || (named.is_nameless() && piece.area_m2() < DETAIL_SHARE * largest_m2)
+            || (matches!(named.class, None | Some(Class::SidePanel)) && is_strip(piece))
     };
-    pieces.iter().zip(named).map(is_detail).collect()
+    pieces
+        .iter()
+        .zip(named)
+        .map(is_detail)
+        .zip(spares(pieces))
+        .map(|(is_detail, is_spare)| is_detail || is_spare)
+        .collect()
+}
+
+/// True for each piece of quantity 0 beside others that are cut: an alternative of the model.
+pub fn spares(pieces: &[Piece]) -> Vec<bool> {
+    let is_none = |piece: &Piece| {
+        let counts = piece.quantity.as_deref().map(|quantity| quantity.split(',').map(str::trim).collect::<Vec<_>>());
+        counts.is_some_and(|counts| !counts.is_empty() && counts.iter().all(|count| *count == "0"))
+    };
+    let are_none: Vec<bool> = pieces.iter().map(is_none).collect();
+    if are_none.iter().all(|is_none| *is_none) { vec![false; pieces.len()] } else { are_none }
+}
+
+/// True for a tape, a band or a binding: a rectangle with sides `a` and `b` has a square of the perimeter over four
+/// areas of `a / b + 2 + b / a`.
+fn is_strip(piece: &Piece) -> bool {
+    piece.perimeter_m().powi(2) > 4.0 * STRIP * piece.area_m2()
 }
 
 /// Recognises pieces. Each piece that is left out becomes a question, except details.
@@ -181,6 +210,19 @@ pub fn recognise(
     }
     found.sort_by_key(|candidate| candidate.piece);
     reread_lone_legs(pieces, &mut found, asker);
+    let around = Around { has_sleeve, has_yoke, has_trunk: false, is_raglan, has_lone_leg, nameless };
+    for index in take_lone_sleeves(named, &mut found) {
+        let name = &reference(pieces, index);
+        let subject = Subject { index, name, piece: &pieces[index], named: Named { class: None, ..named[index] } };
+        let among = Among { gore: None, panel: None, pair: None };
+        found.extend(ask_kind(
+            subject,
+            "what it looks like goes with a trunk, and there is none",
+            around,
+            among,
+            asker,
+        ));
+    }
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
     }
@@ -199,7 +241,8 @@ pub fn recognise(
             && !candidate.alignment.template.is_limb();
         if is_faced && candidate.face.is_none() {
             let text = format!("is piece `{}` a front or a back?", reference(pieces, candidate.piece));
-            candidate.face = asker.ask(text, ["a front", "a back"], None).map(|choice| Face::BOTH[choice]);
+            let choice = asker.ask_of([candidate.piece], text, ["a front", "a back"], None);
+            candidate.face = choice.map(|choice| Face::BOTH[choice]);
         }
     }
     found
@@ -235,7 +278,7 @@ fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan:
 }
 
 /// Possible answers about a piece of unknown kind.
-const KINDS: [(Class, Option<Face>); 9] = [
+const KINDS: [(Class, Option<Face>); 10] = [
     (Class::Body, Some(Face::Front)),
     (Class::Body, Some(Face::Back)),
     (Class::Sleeve, None),
@@ -245,6 +288,7 @@ const KINDS: [(Class, Option<Face>); 9] = [
     (Class::Skirt, Some(Face::Back)),
     (Class::Waistband, None),
     (Class::Cuff, None),
+    (Class::SidePanel, None),
 ];
 /// Number of kinds that are offered as answers: those that fit best.
 const OFFERED: usize = 3;
@@ -274,7 +318,12 @@ fn ask_kind(
     let text = format!("piece `{name}`: {doubt}; what is it?");
     let nothing = "nothing that is draped".to_owned();
     let choices = std::iter::once(nothing).chain(kinds.iter().map(|(kind, _)| kind.clone()));
-    let choice = asker.ask(text, choices, Some(0))?.checked_sub(1)?;
+    let choice = if is_strip(subject.piece) {
+        asker.ask(text, choices, Some(0))
+    } else {
+        asker.ask_first(text, choices, Some(0))
+    };
+    let choice = choice?.checked_sub(1)?;
     Some(kinds.swap_remove(choice).1)
 }
 
@@ -362,13 +411,17 @@ fn recognise_one(
         {
             let (says, looks) = (alignment.template.class.as_str(), other.template.class.as_str());
             let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
-            if asker.ask(text, [says, looks].map(|class| format!("a {class}")), Some(0)) == Some(1) {
+            if asker.ask_of([index], text, [says, looks].map(|class| format!("a {class}")), Some(0)) == Some(1) {
                 let named = Named { class: Some(other.template.class), ..named };
                 return recognise_one(Subject { named, ..subject }, around, Among { gore, panel, pair }, asker);
             }
             confidence *= DOUBTED;
         }
     }
+    let (shape, alignment) = match alignment.template {
+        Template { class: Class::SidePanel, is_whole: true, .. } => halved_armhole(shape, alignment),
+        _ => (shape, alignment),
+    };
     Ok(Recognised {
         piece: index,
         class: alignment.template.class,
@@ -382,6 +435,24 @@ fn recognise_one(
         gore,
         part: named.part,
     })
+}
+
+/// Divides the armhole of a panel between front and back in the middle, where the seam of the sleeve meets it.
+fn halved_armhole(shape: Shape, mut alignment: Alignment) -> (Shape, Alignment) {
+    let Some(at) = alignment.parts.iter().position(|part| part.label == Label::Armhole) else {
+        return (shape, alignment);
+    };
+    let Labelled { from, span, .. } = alignment.parts[at];
+    let Some((shape, corner)) = shape.with_middle(from, span) else { return (shape, alignment) };
+    let n = shape.len();
+    for part in alignment.parts.iter_mut().filter(|part| part.from >= corner) {
+        part.from += 1;
+    }
+    let from = alignment.parts[at].from;
+    let first = (corner + n - from) % n;
+    let half = |from: usize, span: usize, is_right: bool| Labelled { label: Label::Armhole, from, span, is_right };
+    alignment.parts.splice(at..=at, [half(from, first, true), half(corner, span + 1 - first, false)]);
+    (shape, alignment)
 }
 
 /// Alignment of an outline as a leg in one piece, whose two inseam edges are equally long. `None` for another outline.
@@ -411,7 +482,7 @@ fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Aske
             pieces[candidate.piece].name
         );
         let choices = [rival.template.class, Class::Leg].map(|class| format!("a {}", class.as_str()));
-        if asker.ask(text, choices, Some(0)) == Some(1) {
+        if asker.ask_of([candidate.piece], text, choices, Some(0)) == Some(1) {
             continue;
         }
         candidate.class = rival.template.class;
@@ -419,6 +490,20 @@ fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Aske
         candidate.confidence = DOUBTED * (0.3 + 0.5 * fit);
         candidate.alignment = rival;
     }
+}
+
+/// Takes out side panels, and what only looks like a sleeve, if nothing has an armhole. Returns their indices.
+fn take_lone_sleeves(named: &[Named], found: &mut Vec<Recognised>) -> Vec<usize> {
+    if found.iter().any(|candidate| candidate.class == Class::Body) {
+        return Vec::new();
+    }
+    let is_lone = |candidate: &Recognised| match candidate.class {
+        Class::Sleeve => named[candidate.piece].class != Some(Class::Sleeve),
+        class => class == Class::SidePanel,
+    };
+    let lone = found.iter().filter(|candidate| is_lone(candidate)).map(|candidate| candidate.piece).collect();
+    found.retain(|candidate| !is_lone(candidate));
+    lone
 }
 
 /// True for a leg in one piece, front and back.

@@ -17,6 +17,8 @@ pub enum SeamKind {
     },
     /// Front to back of the trunk, from hem to armhole.
     Side(Hand),
+    /// Front or back to the side panel between them.
+    SideOf(Face, Hand),
     /// Front to back, from neck to armhole.
     Shoulder(Hand),
     /// Middle of a front or back to its side panel.
@@ -92,6 +94,7 @@ impl fmt::Display for SeamKind {
         match self {
             Self::Dart { piece, number } => write!(f, "{piece}_dart_{number}"),
             Self::Side(hand) => write!(f, "side_{hand}"),
+            Self::SideOf(face, hand) => write!(f, "side_{face}_{hand}"),
             Self::Shoulder(hand) => write!(f, "shoulder_{hand}"),
             Self::Princess(face, hand) => write!(f, "princess_{face}_{hand}"),
             Self::Centre(face) => write!(f, "centre_{face}"),
@@ -137,6 +140,7 @@ mod tests {
         let table = [
             (SeamKind::Dart { piece: "front_left".to_owned(), number: 2 }, "front_left_dart_2"),
             (SeamKind::Side(Right), "side_right"),
+            (SeamKind::SideOf(Front, Right), "side_front_right"),
             (SeamKind::Shoulder(Left), "shoulder_left"),
             (SeamKind::Princess(Front, Right), "princess_front_right"),
             (SeamKind::Centre(Back), "centre_back"),

@@ -161,6 +161,9 @@ impl<'w> Tailor<'w, '_, '_> {
             (Class::Waistband, Label::End, SeamKind::WaistbandSide),
         ];
         for (class, label, kind) in pairs {
+            if label == Label::Side && class == Class::Body && self.side_panel(hand) {
+                continue;
+            }
             let [front, back] = Face::BOTH.map(|face| self.along(class, label, face, hand));
             if !front.is_empty() && !back.is_empty() {
                 let a = front.iter().flat_map(|(worn, label)| worn.chain(*label, Some(hand))).collect();
@@ -169,6 +172,19 @@ impl<'w> Tailor<'w, '_, '_> {
                 self.add(kind(hand), a, b, &pieces, PLAIN_DOUBT);
             }
         }
+    }
+
+    /// Joins a panel between front and back to both. False without such a panel.
+    fn side_panel(&mut self, hand: Hand) -> bool {
+        let Some(panel) = self.find(Class::SidePanel, None, hand) else { return false };
+        // Seen from outside, the front lies on the right of a right panel, and on the left of a left one.
+        for (face, side) in [(Face::Front, hand), (Face::Back, hand.other())] {
+            let beside = self.along(Class::Body, Label::Side, face, hand);
+            let pieces: Vec<&Worn> = beside.iter().map(|(worn, _)| *worn).chain([panel]).collect();
+            let a = beside.iter().flat_map(|(worn, label)| worn.chain(*label, Some(hand))).collect();
+            self.add(SeamKind::SideOf(face, hand), a, panel.chain_back(Label::Side, Some(side)), &pieces, PLAIN_DOUBT);
+        }
+        true
     }
 
     /// Pieces of front or back along a seam of one side, each with its label there, in the order of the walk. A yoke
@@ -249,7 +265,11 @@ impl<'w> Tailor<'w, '_, '_> {
                 cap.extend(half.chain(Label::Cap, None));
             }
         }
-        let mut armhole = Chain::new();
+        // The armhole begins and ends in the middle of a panel between front and back.
+        let panel = self.find(Class::SidePanel, None, hand);
+        let half = |side: Hand| panel.map_or(Chain::new(), |panel| panel.chain_back(Label::Armhole, Some(side)));
+        let mut armhole = half(Hand::Right);
+        pieces.extend(panel);
         // The walk goes up the first face, across both yokes, and down the second face.
         let up = [Class::SidePanel, Class::Body, Class::Yoke].map(|class| (class, order[0]));
         let down = [Class::Yoke, Class::Body, Class::SidePanel].map(|class| (class, order[1]));
@@ -260,6 +280,7 @@ impl<'w> Tailor<'w, '_, '_> {
                 armhole.extend(edges);
             }
         }
+        armhole.extend(half(Hand::Left));
         self.add(SeamKind::Armhole(hand), cap, armhole, &pieces, EASED_DOUBT);
     }
 

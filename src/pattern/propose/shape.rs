@@ -21,6 +21,8 @@ const SAME_CURVE: f64 = 0.5;
 const LEAST_STEP_M: f64 = 1e-3;
 /// Greatest distance of a corner from the mirror image of its partner in a symmetric outline, as a share of the size.
 const MIRRORED: f64 = 0.003;
+/// Slope of a grain line below which it lies: half of that of a bias.
+const LYING: f64 = 0.5;
 /// Greatest number of corners of a piece. No pattern has more, and alignment takes time quadratic in the number.
 const MOST_CORNERS: usize = 100;
 
@@ -33,6 +35,8 @@ pub struct Shape {
     corners: Vec<usize>,
     /// Darts cut into the outline.
     darts: Vec<Dart>,
+    /// Grain line, as drawn. `None` if none is drawn.
+    grain: Option<V2>,
 }
 
 /// A dart in an outline: as many edges before its apex as after it.
@@ -92,7 +96,8 @@ impl Shape {
         let marked = Self::new(outline.to_vec(), corner_vertices(piece))?;
         let ends_edge = |k: &usize| !is_on_curve(outline, marked.corners[*k]) || marked.is_in_dart(*k);
         let corners = (0..marked.len()).filter(ends_edge).map(|k| marked.corners[k]).collect();
-        Self::new(outline.to_vec(), corners)
+        let grain = piece.grain.map(|[from, to]| to - from);
+        Some(Self { grain, ..Self::new(outline.to_vec(), corners)? })
     }
 
     /// Shape of a counter-clockwise outline with the given corners. `None` as of [`Shape::of`].
@@ -101,10 +106,40 @@ impl Shape {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             return None;
         }
-        let mut shape = Self { outline, corners, darts: Vec::new() };
+        let mut shape = Self { outline, corners, darts: Vec::new(), grain: None };
         let apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner));
         shape.darts = apexes.map(|apex| Dart { apex, span: shape.leg_span(apex) }).collect();
         Some(shape)
+    }
+
+    /// True if the grain line lies on its side: nearer to the horizontal than a bias.
+    pub fn lies(&self) -> bool {
+        self.grain.is_some_and(|grain| grain.y.abs() < LYING * grain.x.abs())
+    }
+
+    /// Adds a corner at the vertex nearest to the middle of some edges. Returns the shape with the index of the corner.
+    /// `None` if the edges have no vertex between their ends.
+    pub fn with_middle(&self, from: usize, span: usize) -> Option<(Self, usize)> {
+        let n = self.outline.len();
+        let (start, end) = (self.corners[from], self.corners[(from + span) % self.len()]);
+        let vertices: Vec<usize> = (0..=(end + n - start) % n).map(|k| (start + k) % n).collect();
+        let step = |ends: &[usize]| (self.outline[ends[1]] - self.outline[ends[0]]).norm();
+        let whole: f64 = vertices.windows(2).map(step).sum();
+        let mut way = 0.0;
+        let places = vertices.windows(2).map(|ends| {
+            way += step(ends);
+            (ends[1], (way - 0.5 * whole).abs())
+        });
+        let is_inner = |(vertex, _): &(usize, f64)| *vertex != end && !self.corners.contains(vertex);
+        let (vertex, _) = places.filter(is_inner).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let edge = (0..span).map(|k| (from + k) % self.len()).find(|&edge| {
+            let first = self.corners[edge];
+            (vertex + n - first) % n < (self.corners[(edge + 1) % self.len()] + n - first) % n
+        })?;
+        let mut corners = self.corners.clone();
+        corners.insert(edge + 1, vertex);
+        let darts = self.darts.iter().map(|dart| Dart { apex: dart.apex + usize::from(dart.apex > edge), ..*dart });
+        Some((Self { corners, darts: darts.collect(), ..self.clone() }, edge + 1))
     }
 
     /// Vertex indices of the corners.

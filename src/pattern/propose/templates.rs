@@ -71,7 +71,7 @@ use Label::{
 };
 
 /// All templates. A half is also tried as its mirror image.
-pub const TEMPLATES: [Template; 25] = [
+pub const TEMPLATES: [Template; 26] = [
     Template {
         class: Class::Body,
         is_whole: true,
@@ -217,6 +217,17 @@ pub const TEMPLATES: [Template; 25] = [
             part(Side, 90.0, 0.0, [0.97, 0.3], 0.28),
             part(Armhole, 140.0, -0.5, [0.6, 0.85], 0.18),
             part(Princess, 265.0, 0.5, [0.05, 0.45], 0.36),
+        ],
+    },
+    // Between front and back, below the armhole.
+    Template {
+        class: Class::SidePanel,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.1),
+            part(Side, 90.0, 0.0, [1.0, 0.5], 0.4),
+            part(Armhole, 180.0, -0.5, [0.5, 0.97], 0.1),
+            part(Side, 270.0, 0.0, [0.0, 0.5], 0.4),
         ],
     },
     // Over the shoulders.

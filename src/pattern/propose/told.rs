@@ -4,9 +4,9 @@
 //! `PALAZZO BACK`. The words that all names share do not describe a single piece. The rest is a garment term or a usual
 //! abbreviation.
 
-use super::names::{self, Named};
-use super::{Class, Face, Hand};
+use super::{Class, Face, Hand, PartName};
 use crate::piece::Piece;
+use crate::trade::{self, Named};
 
 /// Keys of texts that describe a piece, in lower case.
 const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_id", "piece id", "type", "part"];
@@ -60,7 +60,7 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
     let (own, common) = parted(&words);
     let common_text = |text: &str| pieces.len() > 1 && pieces.iter().all(|piece| has_text(piece, text));
     let common_texts = pieces.first().into_iter().flat_map(|piece| texts(piece, &KEYS));
-    let common_texts = common_texts.filter(|text| common_text(text)).map(names::read);
+    let common_texts = common_texts.filter(|text| common_text(text)).map(trade::read);
     let shared = common_texts.fold(read(&common, false), |said, text| if said.is_nameless() { text } else { said });
     let is_kind_known = shared.class.is_some();
     let start = common_start(pieces);
@@ -74,10 +74,10 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
             return lined(pieces, piece, named);
         }
         let tells = |text: &&str| {
-            let said = names::read(text);
+            let said = trade::read(text);
             !common_text(text) && (said.class.is_some() || said.face.is_some())
         };
-        let is_plain = |text: &&str| tells(text) && names::read(text).class != Some(Class::Other);
+        let is_plain = |text: &&str| tells(text) && trade::read(text).class != Some(Class::Other);
         let text = texts(piece, &KEYS).find(tells).or_else(|| texts(piece, &REMARKS).find(is_plain));
         let over = |first: Named| Named {
             class: first.class,
@@ -87,16 +87,28 @@ pub fn told(pieces: &[Piece]) -> Vec<Told> {
         };
         let said = match text {
             // A text that is equal for fronts and backs was copied, so the letters of the name count before it.
-            Some(text) if is_copied(pieces, text, &face) => over(rest(piece).unwrap_or_else(|| names::read(text))),
-            Some(text) => over(names::read(text)),
+            Some(text) if is_copied(pieces, text, &face) => over(rest(piece).unwrap_or_else(|| trade::read(text))),
+            Some(text) => over(trade::read(text)),
             None if named.face.is_some() => named,
             None => rest(piece).map_or(named, over),
         };
         lined(pieces, piece, said)
     };
-    let own: Vec<Named> = pieces.iter().enumerate().map(own_of).collect();
+    let mut own: Vec<Named> = pieces.iter().enumerate().map(own_of).collect();
+    tell_side_panels(&mut own);
     let shared_by = |style: &Vec<String>| shared_of(shared.and(read(style, false)), &own);
     own.iter().zip(&of_style).map(|(&own, style)| Told { own, shared: shared_by(style) }).collect()
+}
+
+/// Makes a side that is neither front nor back a panel between them, where there is a front and a back of no other kind.
+fn tell_side_panels(own: &mut [Named]) {
+    let is_trunk = |face: Face| own.iter().any(|named| named.face == Some(face) && named.class.is_none());
+    if !Face::BOTH.into_iter().all(is_trunk) {
+        return;
+    }
+    for named in own.iter_mut().filter(|named| (named.class, named.face) == (None, None)) {
+        named.class = (named.part == Some(PartName::Side)).then_some(Class::SidePanel);
+    }
 }
 
 /// Part of the shared statement that may hold for a single piece. If names give more than numbers, that is only the
@@ -121,7 +133,7 @@ fn shared_of(shared: Named, own: &[Named]) -> Named {
 fn lined(pieces: &[Piece], piece: &Piece, said: Named) -> Named {
     let is_lining = |piece: &Piece| {
         let materials = piece.texts.iter().filter(|(key, _)| key.eq_ignore_ascii_case("material"));
-        materials.map(|(_, value)| names::read(value)).any(|said| said.class == Some(Class::Other))
+        materials.map(|(_, value)| trade::read(value)).any(|said| said.class == Some(Class::Other))
     };
     let is_one = is_lining(piece) && (pieces.len() == 1 || !pieces.iter().all(is_lining));
     if is_one { Named { class: Some(Class::Other), ..said } } else { said }
@@ -139,29 +151,29 @@ fn has_text(piece: &Piece, text: &str) -> bool {
 /// True if a front and a back have the same text, and the text names one of them.
 fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(usize) -> Option<Face>) -> bool {
     let says = |wanted: Face| (0..pieces.len()).any(|k| has_text(&pieces[k], text) && face(k) == Some(wanted));
-    names::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
+    trade::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
 }
 
 fn read(words: &[String], is_kind_known: bool) -> Named {
-    names::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
+    trade::read_words(&words.iter().map(String::as_str).collect::<Vec<_>>(), is_kind_known)
 }
 
 /// Words of every name without the names of style and size, and those of the words that name a kind.
 fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
-    let names: Vec<Vec<String>> = pieces.iter().map(|piece| names::words(&piece.name)).collect();
+    let names: Vec<Vec<String>> = pieces.iter().map(|piece| trade::words(&piece.name)).collect();
     let names: Vec<Vec<String>> = names.iter().map(|words| loosened(words, &names)).collect();
-    let hands: Vec<Hand> = names.iter().flatten().filter_map(|word| names::word_of(word)?.hand).collect();
+    let hands: Vec<Hand> = names.iter().flatten().filter_map(|word| trade::word_of(word)?.hand).collect();
     let is_pair = Hand::BOTH.into_iter().all(|hand| hands.contains(&hand));
     let without = |(piece, mut words): (&Piece, Vec<String>)| {
         let mut of_style: Vec<String> = Vec::new();
         for text in &piece.beside.garment {
-            let said = names::words(text);
+            let said = trade::words(text);
             let at = words.windows(said.len().max(1)).position(|found| found == said);
             // Right and left are not sizes.
             let is_hand =
-                is_pair && said.iter().any(|word| names::word_of(word).is_some_and(|said| said.hand.is_some()));
+                is_pair && said.iter().any(|word| trade::word_of(word).is_some_and(|said| said.hand.is_some()));
             if let Some(at) = at.filter(|_| !said.is_empty() && said.len() < words.len() && !is_hand) {
-                let is_kind = |word: &String| names::word_of(word).is_some_and(|said| said.class.is_some());
+                let is_kind = |word: &String| trade::word_of(word).is_some_and(|said| said.class.is_some());
                 of_style.extend(words.drain(at..at + said.len()).filter(is_kind));
             }
         }
@@ -173,7 +185,7 @@ fn words_of(pieces: &[Piece]) -> (Vec<Vec<String>>, Vec<Vec<String>>) {
 /// Splits words where the name of a style joins a garment term. The name must be a word of another name, or be joined
 /// to another term there (`TEAGANFRONT` beside `TEAGANBACK`).
 fn loosened(words: &[String], names: &[Vec<String>]) -> Vec<String> {
-    let is_of_trade = |part: &str| names::word_of(part).is_some();
+    let is_of_trade = |part: &str| trade::word_of(part).is_some();
     let is_style = |part: &str, word: &String| {
         let others = names.iter().flatten().filter(|other| *other != word);
         others.filter_map(|other| other.strip_prefix(part)).any(|rest| rest.is_empty() || is_of_trade(rest))
@@ -219,14 +231,14 @@ fn common_start(pieces: &[Piece]) -> usize {
 
 /// Statement of the abbreviations in the rest of a name. `None` without any.
 fn written_out(rest: &str) -> Option<Named> {
-    let words = names::words(rest);
+    let words = trade::words(rest);
     let whole = |word: &str| ABBREVIATIONS.iter().find(|(_, short)| short.contains(&word)).map(|(long, _)| *long);
     let ending = |word: &str| {
         ENDINGS.iter().find(|(_, endings)| endings.iter().any(|ending| word.ends_with(ending))).map(|(long, _)| *long)
     };
     let exact: Vec<&str> = words.iter().filter_map(|word| whole(word)).collect();
     let found = if exact.is_empty() { words.iter().filter_map(|word| ending(word)).take(1).collect() } else { exact };
-    (!found.is_empty()).then(|| names::read_words(&found, false))
+    (!found.is_empty()).then(|| trade::read_words(&found, false))
 }
 
 #[cfg(test)]
@@ -250,7 +262,7 @@ mod tests {
     fn what_is_left_of_a_name_says_what_a_piece_is() {
         let check = |names: &[&str], expect: &[&str]| {
             let pieces: Vec<Piece> = names.iter().map(|name| called(name)).collect();
-            assert_eq!(all(&pieces), expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
+            assert_eq!(all(&pieces), expect.iter().map(|name| trade::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
         check(&["AB12XFR", "AB12XBK", "AB12XSL"], &["front", "back", "sleeve"]);
         check(&["Z-1 FRT", "Z-1 BCK V2", "Z-1 WB"], &["front", "back", "waistband"]);
@@ -277,7 +289,7 @@ mod tests {
             let garment: Vec<String> = garment.iter().map(|text| (*text).to_owned()).collect();
             let pieces: Vec<Piece> = names.iter().map(|name| in_garment(name, &garment)).collect();
             let own: Vec<Named> = told(&pieces).into_iter().map(|told| told.own).collect();
-            assert_eq!(own, expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
+            assert_eq!(own, expect.iter().map(|name| trade::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
         check(&["ROCK AND ROLL FRONT", "COLLAR"], &["Rock and Roll"], &["front", "collar"]);
         check(&["FRONT L", "COLLAR"], &["L"], &["front", "collar"]);
@@ -295,7 +307,7 @@ mod tests {
     fn a_category_says_what_a_name_does_not() {
         let check = |name: &str, category: &str, expect: &str| {
             let texts = vec![("Category".to_owned(), category.to_owned())];
-            assert_eq!(all(&[Piece { texts, ..called(name) }]), [names::read(expect)], "{name}");
+            assert_eq!(all(&[Piece { texts, ..called(name) }]), [trade::read(expect)], "{name}");
         };
         check("A1_LEFT", "SLEEVE SHORT", "SLEEVE SHORT left");
         check("BACK 2", "SLEEVE", "SLEEVE back");
@@ -308,7 +320,7 @@ mod tests {
         let piece = |name: &str| Piece { texts: vec![("CATEGORY".to_owned(), "FRONT".to_owned())], ..called(name) };
         let check = |names: &[&str], expect: &[&str]| {
             let pieces: Vec<Piece> = names.iter().map(|name| piece(name)).collect();
-            assert_eq!(all(&pieces), expect.iter().map(|name| names::read(name)).collect::<Vec<_>>(), "{names:?}");
+            assert_eq!(all(&pieces), expect.iter().map(|name| trade::read(name)).collect::<Vec<_>>(), "{names:?}");
         };
         check(&["AB12_FR", "AB12_BK"], &["front", "back"]);
         check(&["AB12_1", "AB12_2"], &["front", "front"]);
@@ -319,8 +331,8 @@ mod tests {
         let text = |key: &str, value: &str| (key.to_owned(), value.to_owned());
         let texts = vec![text("Annotation", "CUT 2 FABRIC, CUT 2 LINING"), text("Category", "FRONT")];
         let with = |texts: Vec<(String, String)>| all(&[Piece { texts, ..called("A1") }])[0];
-        assert_eq!(with(texts), names::read("FRONT"));
-        assert_eq!(with(vec![text("Annotation", "SLEEVE X2")]), names::read("SLEEVE"));
+        assert_eq!(with(texts), trade::read("FRONT"));
+        assert_eq!(with(vec![text("Annotation", "SLEEVE X2")]), trade::read("SLEEVE"));
         assert_eq!(with(vec![text("Annotation", "cut 1 lining")]), Named::default());
     }
 

@@ -23,14 +23,15 @@ impl Proposal {
     /// pieces that are sewn to nothing, are left out on both sides alike, each with a note.
     ///
     /// # Errors
-    /// [`Unwearable`] if the rest is not closed: a side, shoulder, leg or yoke seam is uncertain.
+    /// [`Unwearable`] if the rest is not closed (a side, shoulder, leg or yoke seam is uncertain), or if it is to be said
+    /// first what a wide piece is that would be left out.
     pub fn to_drape(&self) -> Result<Self, Unwearable> {
         let mut left = self.clone();
         while let Some((class, reason)) = left.loose() {
             left.leave_out(class, &reason);
         }
         let missing = left.missing();
-        if missing.is_empty() {
+        if missing.is_empty() && left.unsettled.is_empty() {
             return Ok(left);
         }
         let reason = missing
@@ -128,7 +129,11 @@ fn needed(worn: &[Worn]) -> Vec<SeamKind> {
     let mut needed = Vec::new();
     for hand in Hand::BOTH {
         if has(Class::Body) {
-            needed.push(SeamKind::Side(hand));
+            let is_between = |worn: &&Worn| worn.class == Class::SidePanel && worn.face.is_none();
+            match worn.iter().filter(is_between).any(|worn| worn.hand == Some(hand)) {
+                true => needed.extend(Face::BOTH.map(|face| SeamKind::SideOf(face, hand))),
+                false => needed.push(SeamKind::Side(hand)),
+            }
             if is_raglan {
                 needed.extend(Face::BOTH.map(|face| SeamKind::Raglan(face, hand)));
             }

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::ask::Asker;
 use super::gore::Cut;
-use super::recognise::{Recognised, is_whole_leg};
+use super::recognise::{self, Recognised, is_whole_leg};
 use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::Role;
@@ -97,11 +97,14 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, as
         if candidate.gore.is_some() {
             continue;
         }
-        let needs_face = matches!(candidate.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
+        let is_between = candidate.class == Class::SidePanel && candidate.alignment.template.is_whole;
+        let needs_face = (matches!(candidate.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
+            && !is_between)
             || (candidate.class == Class::Skirt && skirts > 1);
         if needs_face && candidate.face.is_none() && !is_whole_leg(candidate) {
             continue;
         }
+        let drawn = if is_between { Some(drawn_panel(candidate, recognised)) } else { drawn };
         for PieceCopy { hand, is_mirror } in copies(candidate, backs_face_inwards, drawn) {
             let id = id_of(candidate, hand);
             if let Some(other) = all.iter().find(|worn| worn.id == id) {
@@ -132,7 +135,7 @@ pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut
     let sleeve = recognised.iter().find(is_it)?;
     let text = format!("is piece `{}` as drawn the right or the left sleeve?", pieces[sleeve.piece].name);
     let choices = ["the right one: the front of its cap is on the right", "the left one"];
-    asker.ask(text, choices, Some(0)).map(|choice| Hand::BOTH[choice])
+    asker.ask_of([sleeve.piece], text, choices, Some(0)).map(|choice| Hand::BOTH[choice])
 }
 
 /// Side of the wearer for which half a piece is drawn, seen from outside. `None` for a whole piece.
@@ -158,7 +161,8 @@ fn copies(candidate: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>)
         return match (candidate.class, candidate.hand) {
             (Class::Leg, None) => both(drawn_leg(candidate)),
             (Class::Leg, Some(hand)) => vec![copy(hand, hand != drawn_leg(candidate))],
-            (Class::Sleeve, None) => both(drawn),
+            (Class::Sleeve | Class::SidePanel, None) => both(drawn),
+            (Class::SidePanel, Some(hand)) => vec![copy(hand, false)],
             (Class::Sleeve | Class::Cuff, Some(hand)) => {
                 vec![copy(hand, backs_face_inwards && candidate.face == Some(Face::Back))]
             }
@@ -173,6 +177,24 @@ fn copies(candidate: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>)
         Some(hand) => vec![copy(hand, hand != natural)],
         None => both(natural),
     }
+}
+
+/// Side for which a panel between front and back is drawn, seen from outside: the one on which its edges are as long as
+/// the sides that they are sewn to. The right one, if both fit as well.
+fn drawn_panel(panel: &Recognised, recognised: &[Recognised]) -> Hand {
+    let side_m = |face: Face| {
+        let is_it = |other: &&Recognised| other.class == Class::Body && other.face == Some(face);
+        let body = recognised.iter().find(is_it)?;
+        let edges = body.alignment.parts.iter().filter(|part| part.label == Label::Side).count();
+        Some(recognise::length_m(body, Label::Side) / edges.max(1) as f64)
+    };
+    let own_m = |is_right: bool| -> f64 {
+        let parts = panel.alignment.parts.iter().filter(|part| part.label == Label::Side && part.is_right == is_right);
+        parts.map(|part| panel.shape.sewn_length(part.from, part.span)).sum()
+    };
+    let Some((front, back)) = side_m(Face::Front).zip(side_m(Face::Back)) else { return Hand::Right };
+    let apart = |front_is_right: bool| (own_m(front_is_right) - front).abs() + (own_m(!front_is_right) - back).abs();
+    if apart(true) <= apart(false) { Hand::Right } else { Hand::Left }
 }
 
 /// Side for which a leg in one piece is drawn, seen from outside: its back reaches further in under the seat than its
@@ -294,7 +316,7 @@ fn side_of(candidate: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror
     // Seen from outside, the right of a front is the wearer's left. The edges of sleeves and bands are named as they
     // lie.
     match (candidate.class, hand) {
-        (Class::Sleeve | Class::Cuff | Class::Leg, _) => {
+        (Class::Sleeve | Class::Cuff | Class::Leg | Class::SidePanel, _) => {
             if is_right_as_worn {
                 Hand::Right
             } else {

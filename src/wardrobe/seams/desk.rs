@@ -226,7 +226,7 @@ pub struct ProposalOnPieces {
 /// Proposes seams as [`fn@propose`] does, for a pattern in memory.
 pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPieces> {
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
-    let size = how.size.unwrap_or(nest.sample_size());
+    let size = how.size.map_or(Ok(nest.sample_size()), |size| nest.size_named(size))?;
     let pieces = nest.pieces(size)?;
     let mut proposal = propose::propose_answered(&pieces, how.answers).origin(Origin::Pattern)?;
     proposal.allowance_m = how.allowance_m;

@@ -1,4 +1,4 @@
-//! Reading of the names of pieces, in the languages of [`super::words`].
+//! Reading of the names of pieces, in the languages of `words`.
 //!
 //! A name is split into words. A word that is no garment term is divided into terms: `Vorderhose` is `vorder` and
 //! `hose`. If anything remains, the word is another one: a `frock` is no German skirt, a `palazzo` no Portuguese yoke.

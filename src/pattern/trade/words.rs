@@ -87,25 +87,29 @@ pub const HANDS: [(Hand, &[&str]); 2] = [
 
 /// Words that distinguish parts of one kind.
 #[rustfmt::skip]
-pub const PARTS: [(PartName, &[&str]); 3] = [
+pub const PARTS: [(PartName, &[&str]); 4] = [
     (PartName::Under, &["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн-"]),
     (PartName::Gore, &["gore", "bahn", "bahnen", "nesga", "клин-"]),
+    (PartName::Side, &[
+        "side", "seite", "seiten", "côté", "cote", "lado", "costado", "lateral", "laterale", "fianco", "fianchetto", "zij", "sida", "boczek", "boczk-",
+        "боков-", "бочок", "бочк-", "бічн-", "yan", "侧", "側", "脇", "サイド", "옆", "bočn-", "bocn-", "πλαϊν-",
+    ]),
     (PartName::Panel, &["panel", "paneel"]),
 ];
 
 /// Words that form compounds with the others and say nothing about seams.
 #[rustfmt::skip]
 pub const PLAIN: &[&str] = &[
-    "side", "centre", "center", "middle", "upper", "top", "inner", "outer", "inside", "outside", "inset", "insert", "part", "piece",
+    "centre", "center", "middle", "upper", "top", "inner", "outer", "inside", "outside", "inset", "insert", "part", "piece",
     "body", "bodice", "torso", "trunk", "bag", "guard", "dart", "princess", "raglan", "band", "belt", "hem", "neck", "arm", "armhole", "waist",
     "hip", "bust", "chest", "shoulder", "knee", "seat", "crotch", "main", "self", "shell", "full", "half", "long", "stand", "bottom",
     "extension", "shield", "tape", "strap", "rib", "trim", "block", "button", "buttonhole", "underlap", "overlap", "curved", "straight", "round", "square", "pointed",
     "edge", "pad", "piping", "elastic", "vent", "pleat", "ruffle", "frill", "godet",
     "blatt", "rumpf", "taille", "hals", "ausschnitt", "schulter", "brust", "hüft", "knie", "knopf", "falte", "falten", "keil", "riegel", "gürtel",
-    "teil", "teile", "stück", "stueck", "mitte", "seite", "seiten", "ober", "innen", "aussen", "außen", "beutel", "leiste", "leisten", "steg",
+    "teil", "teile", "stück", "stueck", "mitte", "ober", "innen", "aussen", "außen", "beutel", "leiste", "leisten", "steg",
     "blende", "schlitz", "naht", "saum", "abnäher", "besatz", "bein", "lang", "kurz", "halb", "streifen", "verlängerung",
-    "pand", "deel", "stuk", "midden", "zij", "boven", "stycke", "stykke", "del", "sida",
-    "片", "身", "頃", "幅", "中", "侧", "側", "大", "小", "上", "下", "内", "內", "外", "面", "底", "子", "布", "头", "頭", "口", "缝", "線", "位", "贴",
+    "pand", "deel", "stuk", "midden", "boven", "stycke", "stykke", "del", 
+    "片", "身", "頃", "幅", "中", "大", "小", "上", "下", "内", "內", "外", "面", "底", "子", "布", "头", "頭", "口", "缝", "線", "位", "贴",
     "貼", "条", "條", "带", "帶", "长", "長", "短", "半", "拼", "接", "里", "土", "男", "女", "装", "裝", "衣", "衫", "服", "ろ", "見", "返", "し",
     "身頃", "판", "몸판", "길", "쪽",
 ];
