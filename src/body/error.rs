@@ -68,6 +68,14 @@ pub enum BodyError {
         /// Problem at that place.
         problem: String,
     },
+    /// A picture is in a format that is not read.
+    #[error("the {view} picture is {format}; accepted: JPEG or PNG")]
+    PictureFormat {
+        /// View: front or side.
+        view: &'static str,
+        /// Format of the picture.
+        format: &'static str,
+    },
     /// No body can be read from a picture.
     #[error(
         "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"

@@ -23,6 +23,7 @@ use render::{self, Camera, Frame, Material, Rgb, Scene};
 use report::FileNames;
 use sim::dressing::Wearer;
 use sim::hybrid::Closure;
+use sim::tight::TooSmall;
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 use spec::Parameters;
 use spec::bodies::{LengthUnit, Sex, pose_body};
@@ -33,8 +34,6 @@ use store::files::SourceFile;
 use store::{InOrigin, Origin, Result, StudyError};
 use wardrobe::seams::{self, Question};
 
-/// Shortfall of a garment's girth above which a trial reports a problem, mm.
-const SHORTFALL_MM: f64 = 5.0;
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
@@ -264,9 +263,7 @@ impl Tried {
     fn new(asked: &Attempt, Garb { style, fabric, .. }: &Garb, outcome: Outcome) -> Self {
         let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
         let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
-        let short = gap.iter().filter(|gap| gap.shortfall_mm > SHORTFALL_MM);
-        let problems =
-            short.map(|gap| format!("does not close around the {}: {:.0} mm short", gap.level, gap.shortfall_mm));
+        let problems = outcome.too_small.iter().map(TooSmall::to_string);
         Self {
             garment: style.name.clone(),
             size: style.size.clone(),

@@ -94,6 +94,7 @@ impl Fitting<'_> {
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
             eases: ease::on(&garb.style, body),
+            too_small: sim::tight::too_small(body, garment, &garb.fabric, &drape.positions),
             points: self.points(garment, drape),
             worn: Assessment::of(body, garb, drape, self.simulator)?,
             closures,

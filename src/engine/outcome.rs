@@ -11,6 +11,7 @@ use fit::measure::{Chi, Metrics};
 use geom::units::mm;
 use pattern::MeasurementKind;
 use sim::hybrid::Closure;
+use sim::tight::TooSmall;
 use sim::{Monitor, Stage, Step};
 use store::cache::Used;
 use store::owner::host;
@@ -72,6 +73,9 @@ pub struct Outcome {
     pub history: Vec<Step>,
     /// Ease at each fit level.
     pub eases: Vec<Ease>,
+    /// Levels of the body at which the garment is too small.
+    #[serde(default)]
+    pub too_small: Vec<TooSmall>,
     /// Points of measure of the style.
     #[serde(default)]
     pub points: Vec<MeasuredPoint>,
@@ -171,6 +175,9 @@ pub(crate) fn finish_in(
             write_result(transaction, id, spec, outcome, provenance)?;
             let stages: Vec<String> = outcome.used.iter().map(Used::to_string).collect();
             queue::log(transaction, id, "info", &stages.join(", "))?;
+            for found in &outcome.too_small {
+                queue::log(transaction, id, "warn", &found.to_string())?;
+            }
             for warning in &outcome.warnings {
                 queue::log(transaction, id, "warn", warning)?;
             }

@@ -138,6 +138,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         seam_gap_max_m: 0.0,
         history: vec![step],
         eases: vec![ease],
+        too_small: Vec::new(),
         points: Vec::new(),
         worn: Assessment::default(),
         closures: (spec.size == "m").then(gap).into_iter().collect(),

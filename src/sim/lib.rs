@@ -25,6 +25,7 @@ pub mod sewn;
 pub mod solver;
 #[cfg(test)]
 mod testing;
+pub mod tight;
 mod tries;
 mod walls;
 

@@ -116,7 +116,8 @@ fn announced_faces(bytes: &[u8]) -> usize {
 
 fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     let options = tobj::LoadOptions { triangulate: true, single_index: false, ignore_points: true, ignore_lines: true };
-    let loaded = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, |_| Ok(Default::default()));
+    let plain = positions_and_faces(bytes);
+    let loaded = tobj::load_obj_buf(&mut Cursor::new(plain), &options, |_| Ok(Default::default()));
     let (models, _) = loaded.map_err(|error| file_error("OBJ", &obj_place(bytes), &error.to_string()))?;
     let mut mesh = TriMesh::default();
     for model in models {
@@ -127,6 +128,24 @@ fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         mesh.triangles.extend(model.mesh.indices.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]));
     }
     Ok(merge_equal_vertices(&mesh))
+}
+
+/// Vertices and faces of an OBJ, without what a body does not use: names, comments, textures, normals and colours. Those
+/// may be in any code page.
+fn positions_and_faces(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes).replace("\\\r\n", " ").replace("\\\n", " ");
+    let plain = |line: &str| {
+        let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
+        match words.next()? {
+            "v" => Some(["v"].into_iter().chain(words.take(3)).collect::<Vec<_>>().join(" ")),
+            "f" => {
+                let corners = words.map(|word| word.split('/').next().unwrap_or_default());
+                Some(["f"].into_iter().chain(corners).collect::<Vec<_>>().join(" "))
+            }
+            _ => None,
+        }
+    };
+    text.lines().filter_map(plain).collect::<Vec<_>>().join("\n")
 }
 
 /// Place of the first line that is not an OBJ statement with the numbers that it needs.

@@ -112,6 +112,26 @@ fn turned_and_inverted_bodies_are_righted_and_said() {
 }
 
 #[test]
+fn names_and_comments_of_an_obj_may_be_in_any_code_page() {
+    let plain = write_obj(&scaled(&block(), 1000.0));
+    let noted = plain.replace("\nf ", " # x\nf ").replace("\nv ", " 0.5 0.5 0.5\nv ");
+    let faces = noted.find("\nf ").expect("faces");
+    let (before, after) = noted.split_at(faces);
+    let textured: String = after
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(rest) => {
+                format!("f {}\n", rest.split(' ').map(|corner| format!("{corner}/9/9")).collect::<Vec<_>>().join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let named = b"# Gr\xfc\xdfe\nmtllib K\xf6rper.mtl\no K\xf6rper\n";
+    let bytes = [&named[..], before.as_bytes(), b"\ng R\xfccken\nusemtl Haut\n", textured.as_bytes()].concat();
+    assert_eq!(read(&bytes).expect("a mesh"), read(plain.as_bytes()).expect("a mesh"));
+}
+
+#[test]
 fn broken_files_are_refused_with_their_place() {
     let check = |bytes: &[u8], needle: &str| {
         let error = import(bytes, None).expect_err("a broken file").to_string();

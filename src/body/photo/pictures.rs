@@ -8,7 +8,8 @@ use super::segment;
 use super::silhouette::Mask;
 use super::trunk;
 use crate::{BodyError, Dimension, Measurements, Sex};
-use image::DynamicImage;
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::io::Cursor;
 
 /// Greatest number of pixels of a picture, and length of its longer side at the working size, pixels. Judgement.
@@ -101,13 +102,47 @@ fn unreadable(view: &'static str, error: &dyn std::fmt::Display) -> BodyError {
     refused(view, format!("it cannot be read ({error})"))
 }
 
-fn reader<'a>(view: &'static str, bytes: &'a [u8]) -> Result<image::ImageReader<Cursor<&'a [u8]>>, BodyError> {
-    image::ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| unreadable(view, &error))
+/// Decoder of a picture, with the orientation in which viewers show it: cameras store pictures as the sensor lies.
+fn decoder<'a>(view: &'static str, bytes: &'a [u8]) -> Result<(impl ImageDecoder + use<'a>, Orientation), BodyError> {
+    let reader =
+        ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| unreadable(view, &error))?;
+    if reader.format().is_none() {
+        return Err(BodyError::PictureFormat { view, format: format_of(bytes) });
+    }
+    let mut decoder = reader.into_decoder().map_err(|error| match error {
+        ImageError::Unsupported(_) => BodyError::PictureFormat { view, format: format_of(bytes) },
+        error => unreadable(view, &error),
+    })?;
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    Ok((decoder, orientation))
 }
 
-/// Width and height of a picture, pixels.
+/// Name of the format of a picture that is not read.
+fn format_of(bytes: &[u8]) -> &'static str {
+    let is_brand =
+        |brands: &[&[u8]]| bytes.get(4..8) == Some(b"ftyp") && brands.iter().any(|b| bytes.get(8..12) == Some(*b));
+    match bytes {
+        _ if is_brand(&[b"heic", b"heix", b"hevc", b"heim", b"heis", b"mif1", b"msf1"]) => "HEIC",
+        _ if is_brand(&[b"avif", b"avis"]) => "AVIF",
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "WebP",
+        [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => "TIFF or a camera's raw format",
+        [b'G', b'I', b'F', b'8', ..] => "GIF",
+        [b'B', b'M', ..] => "BMP",
+        [b'%', b'P', b'D', b'F', ..] => "PDF",
+        [] => "empty",
+        _ => "of no known picture format",
+    }
+}
+
+/// Width and height of a picture as shown, pixels.
 fn size(view: &'static str, bytes: &[u8]) -> Result<(u32, u32), BodyError> {
-    reader(view, bytes)?.into_dimensions().map_err(|error| unreadable(view, &error))
+    let (decoder, orientation) = decoder(view, bytes)?;
+    let (width, height) = decoder.dimensions();
+    let is_lying = matches!(
+        orientation,
+        Orientation::Rotate90 | Orientation::Rotate270 | Orientation::Rotate90FlipH | Orientation::Rotate270FlipH
+    );
+    Ok(if is_lying { (height, width) } else { (width, height) })
 }
 
 /// Height of the front picture in pixels, for [`Camera::of_focal`].
@@ -124,7 +159,9 @@ fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
         return Err(refused(view, format!("it has {width} x {height} pixels, at most 120 million are read")));
     }
-    let picture = reader(view, bytes)?.decode().map_err(|error| unreadable(view, &error))?;
+    let (decoder, orientation) = decoder(view, bytes)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(|error| unreadable(view, &error))?;
+    picture.apply_orientation(orientation);
     let longer = width.max(height);
     let share = (f64::from(WORKING) / f64::from(longer)).min(1.0);
     let scaled = |side: u32| ((f64::from(side) * share).round() as u32).max(1);

@@ -51,7 +51,12 @@ fn bad_pictures_are_refused_with_the_reason() {
         let error = from_pictures(bytes, bytes, None, Sex::Male, 1.75).expect_err(needle).to_string();
         assert!(error.contains(needle), "{error}");
     };
-    check(b"", "cannot be read");
+    check(b"", "the front picture is empty; accepted: JPEG or PNG");
+    check(b"\0\0\0\x18ftypheic\0\0\0\0", "the front picture is HEIC; accepted: JPEG or PNG");
+    check(b"RIFF\x10\0\0\0WEBPVP8 ", "the front picture is WebP");
+    check(b"II*\0\x08\0\0\0", "the front picture is TIFF");
+    check(b"GIF89a", "the front picture is GIF");
+    check(b"hello", "the front picture is of no known picture format");
     check(b"\x89PNG\r\n\x1a\n", "cannot be read");
     check(&png(&image::RgbImage::new(1, 1)), "no person");
     check(&drawn(&[]), "no person");
@@ -217,4 +222,28 @@ fn a_camera_that_looks_down_or_stands_elsewhere_is_doubted() {
     // From above the head down at the middle of the body.
     let down = notes(16.0, 0.9, distance);
     assert_eq!(doubted(&down), 2, "{down:?}");
+}
+
+#[test]
+fn a_picture_stands_as_its_orientation_says() {
+    // A figure stored lying down, as a phone held upright stores it: its head is on the left.
+    let mut lying = image::RgbImage::from_pixel(90, 40, image::Rgb([90, 140, 200]));
+    (0..10).flat_map(|x| (15..25).map(move |y| (x, y))).for_each(|(x, y)| lying.put_pixel(x, y, image::Rgb([9, 9, 9])));
+    let mut plain = Cursor::new(Vec::new());
+    lying.write_to(&mut plain, image::ImageFormat::Jpeg).expect("a JPEG");
+    let plain = plain.into_inner();
+    let check = |tag: u8, size_of: (u32, u32), dark: (u32, u32)| {
+        let exif = [&b"Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0"[..], &[tag, 0, 0, 0], &[0; 4]].concat();
+        let length = u16::try_from(exif.len() + 2).expect("short").to_be_bytes();
+        let tagged = [&plain[..2], &[0xff, 0xe1], &length, &exif, &plain[2..]].concat();
+        assert_eq!(size("front", &tagged).expect("a picture"), size_of, "{tag}");
+        let (decoder, orientation) = decoder("front", &tagged).expect("a picture");
+        let mut picture = DynamicImage::from_decoder(decoder).expect("a picture");
+        picture.apply_orientation(orientation);
+        assert!(picture.to_luma8().get_pixel(dark.0, dark.1).0[0] < 60, "{tag}");
+    };
+    check(1, (90, 40), (5, 20));
+    check(6, (40, 90), (20, 5));
+    check(8, (40, 90), (20, 85));
+    check(3, (90, 40), (85, 20));
 }

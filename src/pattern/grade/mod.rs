@@ -19,6 +19,8 @@ use geom::units::mm;
 
 /// Distance below which a grade point counts as on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-3;
+/// Least difference of two distances that tells which point is nearer, m: half of the rounding of files.
+const NEARER_M: f64 = 0.05e-3;
 /// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
 
@@ -133,12 +135,19 @@ impl<'a> Field<'a> {
             };
             let distance = |k: &usize| (outline[*k] - point.at).norm();
             let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            let on_outline = nearest.filter(|vertex| !point.is_inner && distance(vertex) < ON_OUTLINE_M);
+            let from_inner = inner_points(piece).map(|inner| (inner - point.at).norm()).fold(f64::INFINITY, f64::min);
+            // Lines inside a piece may begin beside a corner, closer than the text of its rule stands.
+            let is_inner = |vertex: &usize| point.is_inner || from_inner + NEARER_M < distance(vertex);
+            let on_outline = nearest.filter(|vertex| !is_inner(vertex) && distance(vertex) < ON_OUTLINE_M);
             let Some(vertex) = on_outline else {
                 own.push(InnerPoint { at: point.at, step: steps[size] });
                 continue;
             };
             match graded[vertex] {
+                // A rule that says otherwise is that of the inner line that ends there.
+                Some((rule, step)) if rule != point.rule && step != steps[size] && from_inner < ON_OUTLINE_M => {
+                    own.push(InnerPoint { at: point.at, step: steps[size] });
+                }
                 Some((rule, step)) if rule != point.rule && step != steps[size] => {
                     let found = format!("rules {rule} and {} at {}", point.rule, place(&point.at));
                     return Err(format!("{found}; accepted: one rule a point"));
@@ -171,6 +180,11 @@ impl<'a> Field<'a> {
         let share = ((point - start).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
         self.steps[k].lerp(&self.steps[(k + 1) % n], share)
     }
+}
+
+/// Points of lines, cut-outs and holes inside a piece.
+fn inner_points(piece: &Piece) -> impl Iterator<Item = &V2> {
+    piece.internal_lines.iter().chain(&piece.cut_outs).flatten().chain(&piece.drill_holes)
 }
 
 /// Displacements of all vertices of a closed outline, interpolated linearly in arc length between the known ones.

@@ -96,6 +96,28 @@ fn points_move_by_their_rules_and_between_them_by_arc_length() {
 }
 
 #[test]
+fn an_inner_line_beside_a_corner_moves_by_its_own_rule() {
+    // The lower left corner stays (rule 1). A line that begins beside it or in it moves by rule 2.
+    let check = |away: V2| {
+        let mut file = square();
+        let piece = &mut file.pieces[0];
+        let corner = piece.grade_points[0].at;
+        let rule = piece.grade_points.iter().map(|point| point.rule).find(|&rule| rule != piece.grade_points[0].rule);
+        let at = corner + away;
+        piece.internal_lines = vec![vec![at, V2::new(0.05, 0.05)]];
+        piece.grade_points.push(GradePoint { at, rule: rule.expect("another rule"), is_inner: false });
+        let graded = grade(&file, &table()).expect("it grades");
+        assert!(graded.refused.is_empty(), "{:?}", graded.refused);
+        for piece in &graded.pieces {
+            assert_eq!(piece.outline[0], corner);
+        }
+        assert_ne!(graded.pieces[2].internal_lines[0][0], at);
+    };
+    check(V2::new(0.0003, 0.0));
+    check(V2::zeros());
+}
+
+#[test]
 fn what_is_ambiguous_is_refused() {
     let check = |edit: fn(&mut Piece), expect: &str| {
         let mut file = square();

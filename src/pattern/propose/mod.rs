@@ -116,7 +116,8 @@ impl Label {
 /// Role of a piece. `is_bodice` is true if something is sewn to the lower edge of the trunk.
 fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
     match (class, face, hand) {
-        (Some(Class::Body | Class::SidePanel) | None, Some(Face::Front), _) => {
+        // A panel between front and back is placed with the front.
+        (Some(Class::Body | Class::SidePanel) | None, Some(Face::Front), _) | (Some(Class::SidePanel), None, _) => {
             if is_bodice {
                 Role::BodiceFront
             } else {

@@ -6,7 +6,7 @@ use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label};
 use crate::garment::Role;
 use crate::style::{Edge, StylePiece};
-use crate::trade;
+use crate::trade::{self, PartName};
 use geom::V2;
 
 /// Pose of a drawn piece.
@@ -40,8 +40,11 @@ pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
 /// corners.
 #[must_use]
 pub fn pose(piece: &StylePiece) -> Option<Pose> {
-    let is_yoke = trade::read(&piece.id).class == Some(Class::Yoke);
+    let said = trade::read(&piece.id);
+    let is_yoke = said.class == Some(Class::Yoke);
+    let is_between = (said.part, said.face) == (Some(PartName::Side), None);
     let class = match piece.role {
+        Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack if is_between => Class::SidePanel,
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack if is_yoke => Class::Yoke,
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack => Class::Body,
         Role::SleeveRight | Role::SleeveLeft => Class::Sleeve,
@@ -78,6 +81,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
             template.class == class && is_it
         }
         Class::Yoke => template.class == class && template.has_shoulder(),
+        Class::SidePanel => template.class == class && template.is_whole,
         Class::Leg => {
             let is_whole = matches!(piece.role, Role::LegRight | Role::LegLeft);
             template.class == class && template.is_whole == is_whole
