@@ -52,8 +52,8 @@ impl fmt::Display for TooSmall {
     }
 }
 
-/// Levels at which a draped garment is too small, from the chest down: at the level itself, or where the most is lacking
-/// nearer to this level than to its neighbours. `positions` in m.
+/// Levels at which a draped garment is too small, from the chest down: at the level itself, or, where no cloth goes round
+/// it, where the most is lacking nearer to this level than to its neighbours. `positions` in m.
 #[must_use]
 pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V3]) -> Vec<TooSmall> {
     let levels = &body.levels;
@@ -71,17 +71,23 @@ pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V
         let is_lacking = found.shortfall_m() > LEAST_M && tension_n_m(fabric, &found) > WORN_N_M;
         is_lacking.then_some(found)
     };
-    let at = |(k, &(level, height_m)): (usize, &(&str, f64))| {
-        let to = |other: Option<&(&str, f64)>, end: f64| other.map_or(end, |(_, other)| 0.5 * (height_m + other));
-        let above = k.checked_sub(1).and_then(|k| named.get(k));
-        let (low, high) = (to(named.get(k + 1), levels.crotch_m), to(above, height_m + STEP_M));
-        lacking(level, height_m).or_else(|| {
-            let count = ((high - low) / STEP_M).floor() as usize;
-            let others = (0..=count).filter_map(|step| lacking(level, high - STEP_M * step as f64));
-            others.reduce(|most, found| if found.shortfall_m() > most.shortfall_m() { found } else { most })
-        })
-    };
-    named.iter().enumerate().filter_map(at).collect()
+    let is_round = named.map(|(_, height_m)| trunk.ring_m(height_m).is_some());
+    let mut found = named.map(|(level, height_m)| lacking(level, height_m));
+    for k in 0..named.len() {
+        // A band just above or below a level is told there, unless it is a part of what is told of a neighbour.
+        let beside = [k.checked_sub(1), (k + 1 < named.len()).then_some(k + 1)];
+        if is_round[k] || beside.into_iter().flatten().any(|other| found[other].is_some()) {
+            continue;
+        }
+        let (level, height_m) = named[k];
+        let to = |other: Option<usize>, end: f64| other.map_or(end, |other| 0.5 * (height_m + named[other].1));
+        let [above, below] = beside;
+        let (low, high) = (to(below, levels.crotch_m), to(above, height_m + STEP_M));
+        let count = ((high - low) / STEP_M).floor() as usize;
+        let near = (0..=count).filter_map(|step| lacking(level, high - STEP_M * step as f64));
+        found[k] = near.reduce(|most, near| if near.shortfall_m() > most.shortfall_m() { near } else { most });
+    }
+    found.into_iter().flatten().collect()
 }
 
 /// Tension of cloth that is stretched across its grain to the girth of the body, N/m.

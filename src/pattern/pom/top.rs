@@ -146,7 +146,8 @@ impl<'a> Trunk<'a> {
         let mut found = Vec::new();
         let side = &self.sides[0][0];
         let round = |below_m: f64| anatomy.along(side, below_m).and_then(|at| anatomy.ways.round(at));
-        found.extend(round(BELOW_ARMHOLE_M).map(|path| anatomy.along_path(Point::HalfChest, path, 0.5)));
+        let chest_m = BELOW_ARMHOLE_M + self.dip_m(side);
+        found.extend(round(chest_m).map(|path| anatomy.along_path(Point::HalfChest, path, 0.5)));
         let is_trunk = |piece: usize| matches!(anatomy.parts[piece], Part::Trunk(_));
         if anatomy.has_below(&self.bottom) {
             found.push(anatomy.along_edges(Point::HalfWaist, &self.bottom, 0.5));
@@ -162,6 +163,16 @@ impl<'a> Trunk<'a> {
         let hem = Some(&self.bottom).filter(|bottom| !bottom.is_empty()).and_then(|b| anatomy.beyond(b, is_trunk));
         found.extend(hem.map(|hem| anatomy.along_edges(Point::HalfHem, &hem, 0.5)));
         found
+    }
+
+    /// Depth of the armhole below the upper end of a side seam, m: a panel between front and back is hollow at the top.
+    fn dip_m(&self, side: &Chain) -> f64 {
+        let anatomy = self.anatomy;
+        let top = side[0].other();
+        let armholes = self.armholes.iter().flat_map(|k| &self.openings[*k]);
+        let own = armholes.filter(|edge| edge.piece == top.edge.piece);
+        let heights = own.flat_map(|edge| anatomy.style().edge(*edge).line.points()).map(|p| p.y);
+        heights.map(|y| anatomy.place(top).y - y).fold(0.0, f64::max)
     }
 
     /// High points of the shoulder, where it meets the neck, on front or back.

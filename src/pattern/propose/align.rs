@@ -81,7 +81,11 @@ pub fn align<'t>(
     for quarter_turns in 0..4 {
         let (framed, size) = shape.framed(quarter_turns);
         let sections = SectionTable::of(&framed);
-        for template in &templates {
+        // Half a trunk is never symmetric, from the side to the centre.
+        let is_whole = sections.mirror.is_some();
+        for template in
+            templates.iter().filter(|template| template.is_whole || template.class != Class::Body || !is_whole)
+        {
             for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
                 let parts = parts_of(template, *is_mirrored);
                 let Some(Cut { goodness, runs }) = sections.best(&parts, size) else { continue };

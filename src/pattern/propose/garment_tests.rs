@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::draft::Model;
+use crate::pom::Point;
 use crate::seams::SeamFile;
 use crate::style::Style;
 use geom::V2;
@@ -601,7 +602,15 @@ fn a_panel_between_front_and_back_is_sewn_to_both_and_to_the_sleeve() {
             &SeamFile { length_tolerance_mm: f64::INFINITY, ..found.seam_file("") },
             "",
         );
-        style.expect("a style").mesh(30e-3).expect("a mesh");
+        let style = style.expect("a style");
+        style.mesh(30e-3).expect("a mesh");
+        // The panels are as wide as what was cut off, so the chest is that of the tee.
+        let chest_m = |style: &Style| {
+            let points = style.points_of_measure();
+            points.iter().find(|found| found.point == Point::HalfChest).expect("a chest").length_m
+        };
+        let plain = Style::read(tee, Model::Tshirt.seams(), "seams").expect("a style");
+        assert!((chest_m(&style) - chest_m(&plain)).abs() < 6e-3, "{} {}", chest_m(&style), chest_m(&plain));
     };
     check("SIDE PANEL");
     check("\u{4fa7}\u{7247}");
