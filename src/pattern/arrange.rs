@@ -174,6 +174,31 @@ pub fn arranged(style: &Style) -> Style {
     moved
 }
 
+/// Returns the style as [`arranged`] does, but with all fronts head up beside the rest, as a specification sheet shows
+/// them.
+#[must_use]
+pub fn hung(style: &Style) -> Style {
+    let mut moved = arranged(style);
+    let is_front = |piece: &StylePiece| {
+        let Piece { level, face, .. } = Piece::of(piece);
+        level.is_some() && face == Some(Face::Front)
+    };
+    let fronts: Vec<bool> = style.pieces.iter().map(is_front).collect();
+    for (piece, _) in moved.pieces.iter_mut().zip(&fronts).filter(|(_, is_front)| **is_front) {
+        piece.turn(std::f64::consts::PI);
+    }
+    let x_of = |is_front: bool| {
+        let of_kind = moved.pieces.iter().zip(&fronts).filter(move |(_, front)| **front == is_front);
+        of_kind.flat_map(|(piece, _)| piece.outline()).map(|p| p.x)
+    };
+    let (end, start) = (x_of(false).reduce(f64::max), x_of(true).reduce(f64::min));
+    let aside = end.zip(start).map_or(0.0, |(end, start)| end + GAP_M - start);
+    for (piece, _) in moved.pieces.iter_mut().zip(&fronts).filter(|(_, is_front)| **is_front) {
+        piece.shift(V2::new(aside, 0.0));
+    }
+    moved
+}
+
 /// Places whole sleeves on both sides of the trunk. Pieces without a known place go further out, to the wearer's right.
 fn beside(pieces: &[Piece], half_width: f64, placed: &mut [Placed]) {
     let mut next = [half_width.max(GAP_M); 2];
@@ -242,6 +267,26 @@ mod tests {
                 };
                 for (k, a) in all.iter().enumerate() {
                     assert!(all[k + 1..].iter().all(|b| is_apart(a, b)), "{model:?} {degrees}: {} overlaps", a.0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_heads_are_up_on_a_specification_sheet() {
+        for model in Model::ALL {
+            let hung = hung(&style(model, 0.0));
+            let mut boxes: Vec<(V2, V2)> = Vec::new();
+            for piece in &hung.pieces {
+                let points = piece.outline();
+                let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
+                let high = points.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
+                let is_apart = |(l, h): &(V2, V2)| (0..2).any(|k| l[k] > high[k] - 1e-9 || low[k] > h[k] - 1e-9);
+                assert!(boxes.iter().all(is_apart), "{model:?} {}", piece.id);
+                boxes.push((low, high));
+                let hem = piece.edges.iter().find(|edge| edge.name.as_deref().is_some_and(|name| name == "hem"));
+                if let Some(hem) = hem {
+                    assert!(hem.line.at(0.5 * hem.line.length()).y < low.y + 0.1 * (high.y - low.y), "{}", piece.id);
                 }
             }
         }

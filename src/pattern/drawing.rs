@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::MeasurementKind;
-use super::arrange::{arrange, arranged};
+use super::arrange::{arrange, arranged, hung};
 use super::pom::PointOfMeasure;
 use super::style::{PathPart, Style, StyleMeasurement, StylePiece};
 use geom::V2;
@@ -42,7 +42,11 @@ text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 /// Draws all pieces of a style about the head (see [`arrange`](super::arrange)), with a legend of the measurements below.
 #[must_use]
 pub fn svg(style: &Style) -> String {
-    let style = &arranged(style);
+    drawn(&arranged(style))
+}
+
+/// Draws the pieces of a style where they lie.
+fn drawn(style: &Style) -> String {
     let all: Vec<V2> = style.pieces.iter().flat_map(StylePiece::outline).collect();
     let (low, high) = bounds_mm(&all);
     let sheet = high - low + V2::repeat(2.0 * MARGIN_MM) + V2::new(0.0, TITLE_MM);
@@ -62,7 +66,8 @@ pub fn svg(style: &Style) -> String {
     out
 }
 
-/// Draws as [`svg`] does, with the points of measure numbered in place of the measurements of the style.
+/// Draws as [`svg`] does, with all pieces head up, and the points of measure numbered in place of the measurements of the
+/// style.
 #[must_use]
 pub fn points_svg(style: &Style) -> String {
     let points = style.points_of_measure().into_iter().zip(1..);
@@ -74,7 +79,7 @@ pub fn points_svg(style: &Style) -> String {
         l2d_m: measure.length_m,
         is_free_edge: false,
     };
-    svg(&Style { measurements: points.map(measurement).collect(), ..style.clone() })
+    drawn(&hung(&Style { measurements: points.map(measurement).collect(), ..style.clone() }))
 }
 
 /// Draws a changed style as [`svg`] does, with the outlines before the change dashed.

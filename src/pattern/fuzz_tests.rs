@@ -3,14 +3,14 @@
 
 use super::draft::{Model, TshirtSize, tshirt};
 use super::features::Features;
-use super::{Style, dxf, garmentcode, grade, info, source};
+use super::{Style, dxf, garmentcode, grade, info, propose, source};
 
 /// Greatest number of points that a small damaged file may become: a multiple of that of the entity with the most
 /// chords.
 const MOST_POINTS: usize = 100_000;
 
 /// Significant tokens of pattern formats.
-const TOKENS: [&str; 40] = [
+const TOKENS: [&str; 46] = [
     "0\nSECTION\n",
     "0\nENDSEC\n",
     "0\nBLOCK\n",
@@ -22,6 +22,12 @@ const TOKENS: [&str; 40] = [
     "0\nINSERT\n2\nP\n",
     "0\nARC\n8\n1\n10\n0\n20\n0\n40\n1e5\n50\n0\n51\n0\n",
     "0\nSPLINE\n",
+    "0\nMTEXT\n8\n1\n10\n0\n20\n0\n1\n",
+    "8\n84\n",
+    "\\P",
+    "\\U+",
+    "\\f",
+    "\u{524d}",
     "0\nCIRCLE\n8\n1\n10\n0\n20\n0\n40\n1e9\n",
     "42\n1\n",
     "42\n-1e300\n",
@@ -106,7 +112,7 @@ const DRAWING: &str = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nP\n10\n0\n20\n0
 51\n360\n0\nELLIPSE\n8\n11\n10\n60\n20\n20\n11\n5\n21\n0\n40\n0.5\n41\n0\n42\n3\n0\nSPLINE\n8\n8\n70\n8\n71\n2\n72\n6\n73\n3\n74\n0\n40\n0\n40\n0\n\
 40\n0\n40\n1\n40\n1\n40\n1\n10\n40\n20\n10\n30\n0\n10\n50\n20\n20\n30\n0\n10\n60\n20\n10\n30\n0\n0\nCIRCLE\n8\n13\n10\n70\n20\n30\n40\n2\n0\nENDBLK\n\
 8\n0\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\n1\n2\nP\n10\n0\n20\n0\n41\n1\n50\n0\n0\nLINE\n8\n1\n10\n200\n20\n0\n11\n300\n21\n0\n0\n\
-LINE\n8\n1\n10\n300\n20\n0\n11\n300\n21\n90\n0\nLINE\n8\n1\n10\n300\n20\n90\n11\n200\n21\n0\n0\nTEXT\n8\n1\n10\n9\n20\n9\n1\nUnits: METRIC\n0\nENDSEC\n0\nEOF\n";
+LINE\n8\n1\n10\n300\n20\n0\n11\n300\n21\n90\n0\nLINE\n8\n1\n10\n300\n20\n90\n11\n200\n21\n0\n0\nMTEXT\n8\n1\n10\n9\n20\n9\n40\n3\n1\n{\\fArial|b0;Style Name: X}\\PUnits: METRIC\n0\nENDSEC\n0\nEOF\n";
 
 const RULES: &str =
     "UNITS: METRIC\nNUMBER OF SIZES: 2\nSIZE LIST: S M\nSAMPLE SIZE: S\nRULE: DELTA 1\n0.0, 0.0  5.0, 5.0\nEND\n";
@@ -138,6 +144,33 @@ fn reads_pattern(bytes: &[u8]) -> bool {
 fn damaged_drawings_never_panic_and_stay_small() {
     let some = survivors(DRAWING.as_bytes(), 4_000, 1, reads_pattern);
     assert!((100..3_900).contains(&some), "{some} of 4000 still read: the damage says nothing");
+}
+
+#[test]
+fn damaged_drawings_with_quality_curves_and_names_of_any_code_page_never_panic() {
+    let curve = "0\nLWPOLYLINE\n8\n84\n90\n4\n70\n1\n10\n0\n20\n0\n10\n45\n20\n-6\n10\n90\n20\n0\n10\n90\n20\n90\n0\nPOINT\n8\n4\n";
+    let drawing = DRAWING.replacen("0\nPOINT\n8\n4\n", curve, 1);
+    let at = drawing.find("# 1").expect("a text");
+    let bytes = [&drawing.as_bytes()[..at], b"Piece Name: \xc7\xb0\xc6\xac", &drawing.as_bytes()[at + 3..]].concat();
+    let some = survivors(&bytes, 4_000, 6, reads_pattern);
+    assert!((100..3_900).contains(&some), "{some} of 4000 still read: the damage says nothing");
+}
+
+#[test]
+fn proposals_of_damaged_garments_never_panic() {
+    let tee = tshirt(TshirtSize::S).dxf();
+    let mut proposed = 0;
+    survivors(&tee, 60, 7, |bytes| {
+        let Ok(file) = source::read(bytes, "a", Some(dxf::Unit::Mm)) else { return false };
+        let Ok(pieces) = file.to_sew(None) else { return true };
+        let proposal = propose::propose(&pieces);
+        let all: Vec<(usize, char)> = proposal.questions.iter().map(|question| (question.number, 'a')).collect();
+        // An answer may make another question needless.
+        let _ = propose::propose_answered(&pieces, &all).map(|answered| answered.to_drape());
+        proposed += 1;
+        true
+    });
+    assert!(proposed > 10, "{proposed}");
 }
 
 #[test]

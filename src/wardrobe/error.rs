@@ -43,7 +43,7 @@ pub enum WardrobeError {
         pattern: String,
     },
     /// An edit of a pattern that holds its own seams.
-    #[error("{pattern}: holds its own seams; they are edited where it was drawn")]
+    #[error("{pattern}: holds its own seams, and needs no seam file; they are edited where it was drawn")]
     HoldsSeams {
         /// Name of the pattern.
         pattern: String,

@@ -313,6 +313,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         piece.size = piece.size.take().or_else(|| sample_size.clone());
     }
     file.share_texts();
+    file.name_by_file();
     Ok(file)
 }
 
@@ -416,6 +417,18 @@ impl PatternFile {
                 piece.quantity = piece.quantity.take().or(quantity);
                 piece.texts = texts;
             }
+        }
+    }
+
+    /// Names the only piece of a file after the file, if nothing else names it.
+    fn name_by_file(&mut self) {
+        let stem = self.file.rsplit(['/', '\\']).next().unwrap_or_default();
+        let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
+        if let [piece] = &mut self.pieces[..]
+            && piece.name == NO_BLOCK
+            && !stem.is_empty()
+        {
+            piece.name = stem.to_owned();
         }
     }
 

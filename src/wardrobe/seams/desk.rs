@@ -5,6 +5,7 @@ use std::path::Path;
 
 use toml_edit::{DocumentMut, Item};
 
+use crate::error::WardrobeError;
 use geom::V2;
 use geom::polyline::segment_distance;
 use geom::units::mm;
@@ -225,6 +226,9 @@ pub struct ProposalOnPieces {
 
 /// Proposes seams as [`fn@propose`] does, for a pattern in memory.
 pub fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<ProposalOnPieces> {
+    if pattern.holds_seams() {
+        return Err(WardrobeError::HoldsSeams { pattern: pattern.name.clone() }.into());
+    }
     let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
     let size = how.size.map_or(Ok(nest.sample_size()), |size| nest.size_named(size))?;
     let pieces = nest.pieces(size)?;
