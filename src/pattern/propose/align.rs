@@ -17,6 +17,8 @@ const SHARE_WEIGHT: f64 = 0.2;
 const FULL_BOW: f64 = 0.09;
 /// Weight of a bow against that of the template.
 const BOW_WEIGHT: f64 = 0.4;
+/// Penalty on a section of a skirt or leg with a dart that is not its waist.
+const ASTRAY: f64 = 0.5;
 /// Penalty on the score of a piece that is not upright.
 pub const TURNED: f64 = 0.12;
 
@@ -88,7 +90,7 @@ pub fn align<'t>(
         {
             for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
                 let parts = parts_of(template, *is_mirrored);
-                let Some(Cut { goodness, runs }) = sections.best(&parts, size) else { continue };
+                let Some(Cut { goodness, runs }) = sections.best(template.class, &parts, size) else { continue };
                 let score = goodness - cost(template, quarter_turns);
                 if best.as_ref().is_none_or(|best| score > best.score) {
                     let labelled = (0..parts.len()).map(|k| Labelled {
@@ -152,13 +154,18 @@ impl SectionTable {
     /// Best partition of the outline into the parts, with its mean goodness. `None` if there are more parts than edges.
     /// The partition is symmetric if outline and template are: otherwise half of a neckline that rises in the middle
     /// would pass for a shoulder.
-    fn best(&self, parts: &[Part], size: V2) -> Option<Cut> {
+    fn best(&self, class: Class, parts: &[Part], size: V2) -> Option<Cut> {
         let n = self.edges;
         if n < parts.len() {
             return None;
         }
-        let value =
-            |section: &Option<Section>, part: &Part| section.map(|section| goodness(&section, part, size, self.total));
+        // What hangs from the waist is shaped there.
+        let hangs = matches!(class, Class::Skirt | Class::Leg);
+        let value = |section: &Option<Section>, part: &Part| {
+            let section = section.as_ref()?;
+            let is_astray = hangs && section.has_dart && part.label != Label::Waist;
+            Some(goodness(section, part, size, self.total) - if is_astray { ASTRAY } else { 0.0 })
+        };
         let of_part = |part: &Part| -> Values {
             self.table.iter().map(|row| row.iter().map(|section| value(section, part)).collect()).collect()
         };

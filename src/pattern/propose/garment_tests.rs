@@ -616,3 +616,24 @@ fn a_panel_between_front_and_back_is_sewn_to_both_and_to_the_sleeve() {
     check("\u{4fa7}\u{7247}");
     check("Seitenteil");
 }
+
+#[test]
+fn a_collar_goes_with_a_trunk_and_a_dart_with_the_waist() {
+    // A front and a back with sleeves cut on: their outlines look like legs.
+    let cut_on = |name: &str, neck: f64| {
+        let points = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (330.0, 480.0, 0), (600.0, 470.0, 1)];
+        let top = [(600.0, 600.0, 1), (80.0, 700.0, 1), (40.0, 690.0 - 0.6 * neck, 0), (0.0, 690.0 - neck, 1)];
+        piece(name, &[&points[..], &top].concat())
+    };
+    let pieces = [cut_on("DELANTERO", 90.0), cut_on("ESPALDA", 20.0), strip("CUELLO", 400.0, 60.0)];
+    let classes: Vec<Option<Class>> = propose(&pieces).pieces.iter().map(|piece| piece.class).collect();
+    assert!(classes.iter().all(|class| matches!(class, None | Some(Class::Body))), "{classes:?}");
+    // Half a skirt that lies on its side, without a grain line: the dart is at its waist.
+    let lying = |name: &str| {
+        let dart = [(0.0, 220.0, 1), (0.0, 150.0, 1), (90.0, 140.0, 1), (0.0, 130.0, 1), (0.0, 0.0, 1)];
+        piece(name, &[&dart[..], &[(700.0, 0.0, 1), (700.0, 260.0, 1), (250.0, 255.0, 0)]].concat())
+    };
+    let found = propose(&[lying("SKIRT FRONT"), lying("SKIRT BACK")]);
+    let side = found.seams.iter().find(|seam| seam.entry.name == "skirt_side_right");
+    assert!(side.is_some_and(|seam| seam.a_mm > 650.0), "{:?} {:?}", found.seams, found.questions);
+}

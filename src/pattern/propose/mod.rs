@@ -11,6 +11,7 @@ mod cap;
 mod choose;
 mod circle_skirt;
 mod doubt;
+mod drawn_dart;
 #[cfg(test)]
 mod garment_tests;
 mod gore;
@@ -47,6 +48,7 @@ use self::worn_pieces::Worn;
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
+use super::style::named::reference;
 use super::trade::{self, Named, PartName};
 pub use super::trade::{Class, Face, Hand};
 
@@ -353,6 +355,10 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
     let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));
     let drawn = drawn.or_else(|| worn_pieces::ask_drawn_sleeve(pieces, &recognised, &mut asker));
     let worn = worn_pieces::worn(pieces, &recognised, drawn, &mut asker);
+    let is_worn = |k: &usize| worn.iter().any(|worn| worn.piece == *k);
+    for k in (0..pieces.len()).filter(is_worn) {
+        drawn_dart::doubt(&reference(pieces, k), &pieces[k]).into_iter().for_each(|doubt| asker.tell(doubt));
+    }
     let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut asker);

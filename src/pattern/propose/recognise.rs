@@ -83,7 +83,7 @@ pub struct Recognised {
 /// Evidence of the other pieces of a file about a piece.
 #[derive(Clone, Copy)]
 struct Around {
-    /// True if there is a sleeve: nameless pieces are then no legs.
+    /// True if there is a sleeve, collar or hood: nameless pieces are then no legs.
     has_sleeve: bool,
     /// True if a name says yoke: a front or back may then have no shoulders.
     has_yoke: bool,
@@ -186,6 +186,8 @@ pub fn recognise(
     let is_called = |named: &Named, class: Class| named.class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| named.iter().any(|named| is_called(named, class)));
+    let is_collar = |named: &Named| is_called(named, Class::Other) && named.part == Some(PartName::Neck);
+    let has_sleeve = has_sleeve || named.iter().any(is_collar);
     let (gores, panels) = (gore::gores(pieces, named), panels::panels(pieces, named));
     let pair = class_of_pair(pieces, named, has_sleeve, is_raglan);
     let is_leg_face = |named: &Named| is_called(named, Class::Leg) && named.face.is_some();

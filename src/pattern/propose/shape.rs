@@ -62,6 +62,8 @@ pub struct Section {
     pub bow: f64,
     /// Sum of |turning angle| at the inner corners, without darts, radians.
     pub turn: f64,
+    /// True if a dart is cut into it.
+    pub has_dart: bool,
 }
 
 /// Rotates a point about the origin by quarter turns, counter-clockwise.
@@ -273,7 +275,7 @@ impl Shape {
     pub fn section(&self, from: usize, span: usize) -> Section {
         let n = self.len();
         let mut points: Vec<V2> = Vec::new();
-        let (mut turn, mut was_leg) = (0.0, false);
+        let (mut turn, mut was_leg, mut has_dart) = (0.0, false, false);
         for k in 0..span {
             let edge = (from + k) % n;
             let is_leg = self.is_leg(edge);
@@ -281,6 +283,7 @@ impl Shape {
                 turn += self.turn(edge).abs();
             }
             was_leg = is_leg;
+            has_dart |= is_leg;
             if !is_leg {
                 points.extend(self.points(edge));
             }
@@ -297,7 +300,7 @@ impl Shape {
         let length = arcs[arcs.len() - 1];
         let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
         let area = geom::polyline::signed_area(&points);
-        Section { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
+        Section { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn, has_dart }
     }
 }
 

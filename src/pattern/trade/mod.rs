@@ -124,6 +124,8 @@ pub enum PartName {
     Under,
     /// Gore of a skirt: one of several equal parts.
     Gore,
+    /// Collar, hood or neckband: goes with a trunk.
+    Neck,
     /// Side of a garment: between front and back.
     Side,
     /// Any panel of a garment.

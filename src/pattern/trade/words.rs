@@ -87,9 +87,14 @@ pub const HANDS: [(Hand, &[&str]); 2] = [
 
 /// Words that distinguish parts of one kind.
 #[rustfmt::skip]
-pub const PARTS: [(PartName, &[&str]); 4] = [
+pub const PARTS: [(PartName, &[&str]); 5] = [
     (PartName::Under, &["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн-"]),
     (PartName::Gore, &["gore", "bahn", "bahnen", "nesga", "клин-"]),
+    (PartName::Neck, &[
+        "collar", "neckband", "hood", "kragen", "kapuze", "kapuzen", "capuche", "cuello", "collo", "colarinho", "gola", "воротник-", "комір-",
+        "комир-", "капюшон-", "yaka", "yakası", "kapşon", "kraag", "krage", "krave", "guler", "límec", "limec", "γιακ-", "कॉलर", "领", "領", "帽",
+        "カラー", "フード", "칼라", "깃", "후드",
+    ]),
     (PartName::Side, &[
         "side", "seite", "seiten", "côté", "cote", "lado", "costado", "lateral", "laterale", "fianco", "fianchetto", "zij", "sida", "boczek", "boczk-",
         "боков-", "бочок", "бочк-", "бічн-", "yan", "侧", "側", "脇", "サイド", "옆", "bočn-", "bocn-", "πλαϊν-",
