@@ -123,6 +123,8 @@ pub struct Inventory<'a> {
     pub foreign: Foreign<'a>,
     /// Texts (group code 1 of TEXT and MTEXT, and 3 of MTEXT).
     pub texts: Vec<Located<'a>>,
+    /// Line numbers of entities between blocks. They are part of no block.
+    pub strays: Vec<usize>,
     /// Names of inserted blocks.
     inserted: Vec<Located<'a>>,
     /// Tags for the crate: version, blocks and entities, without the undefined group codes.
@@ -261,6 +263,10 @@ impl<'a> Walk<'a, '_> {
                 // Some writers end the section with the ENDBLK of a block that was never opened.
                 self.block = None;
             }
+            _ if is_in_blocks && self.block.is_none() && !is_boundary(record) => {
+                self.inventory.strays.push(head.line);
+                return Ok(());
+            }
             _ if is_in_blocks && self.block.is_none() => {
                 return Err(self.fail(
                     &head,
@@ -388,6 +394,12 @@ impl<'a> Walk<'a, '_> {
             None => Ok(()),
         }
     }
+}
+
+/// True for a record that draws a boundary or a sew line, without which a piece is another one.
+fn is_boundary(record: &[Tag<'_>]) -> bool {
+    let layer = record.iter().find(|tag| tag.code == 8).map_or(&b"0"[..], |tag| tag.value.trim_ascii());
+    matches!(layer, b"1" | b"14") && !matches!(record[0].keyword(), "TEXT" | "MTEXT" | "ATTRIB" | "ATTDEF" | "SEQEND")
 }
 
 /// Integer without the zero decimals (`0.000000`) that some writers add. Other values stay as they are.

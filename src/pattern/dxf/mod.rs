@@ -175,6 +175,7 @@ impl PatternFile {
         let wanted = match (size, sizes.as_slice()) {
             (Some(size), _) => size,
             (None, [only]) => only,
+            (None, []) => "",
             (None, _) => {
                 return Err(DxfError::new(
                     &self.file,
@@ -214,6 +215,10 @@ impl PatternFile {
         let mut pieces = whole(wanted);
         if sizes.len() > 1 {
             join_sizes(&mut pieces, &sizes.iter().map(|size| whole(size)).collect::<Vec<_>>());
+        }
+        if sizes.is_empty() {
+            let accepted = "pieces with a closed outline on layer 1";
+            return Err(DxfError::new(&self.file, None, "no piece".to_owned(), accepted));
         }
         if pieces.is_empty() {
             return Err(DxfError::new(
@@ -301,6 +306,11 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
     file.warnings.extend(inventory.missing_blocks().into_iter().map(|(name, line)| {
         format!("block `{name}` is inserted (line {line}) but not in the file: what it draws is missing")
     }));
+    if let Some(first) = inventory.strays.first() {
+        let count = inventory.strays.len();
+        file.warnings
+            .push(format!("{count} entities stand between blocks (the first in line {first}): they are left out"));
+    }
     if unit_source == UnitSource::Assumed {
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }

@@ -10,6 +10,7 @@ mod ask;
 mod cap;
 mod choose;
 mod circle_skirt;
+mod cutting;
 mod doubt;
 mod drawn_dart;
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::align::{Alignment, LEAST_FIT, Labelled, upright};
 use super::ask::Asker;
+use super::cutting::Cutting;
 use super::gore::{self, Cut};
 use super::panels::{self, Panel};
 use super::raglan;
@@ -256,11 +257,22 @@ fn is_nameless_face(named: Named) -> bool {
 }
 
 /// Kind of a front and a back whose names do not give it: the kind that fits both best, because they belong to one
-/// garment. `None` without exactly such two pieces.
+/// garment. `None` without exactly such two pieces. Of a garment with a waistband there may be more, of which the largest
+/// tell.
 fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
-    let pair: Vec<usize> = (0..pieces.len()).filter(|&k| is_nameless_face(named[k])).collect();
-    let [first, second] = pair[..] else { return None };
-    if named[first].face == named[second].face {
+    // What has a waistband, and neither sleeve nor collar, hangs from the waist. Called a skirt, something else may be
+    // above it.
+    let is_called =
+        |classes: &[Class]| named.iter().any(|named| named.class.is_some_and(|class| classes.contains(&class)));
+    let hangs = !has_sleeve && is_called(&[Class::Waistband]) && !is_called(&[Class::Skirt, Class::Leg]);
+    let details = details(pieces, named);
+    let faced: Vec<usize> = (0..pieces.len()).filter(|&k| is_nameless_face(named[k]) && !details[k]).collect();
+    let largest = |face: Face| {
+        let of_face = faced.iter().copied().filter(|&k| named[k].face == Some(face));
+        of_face.max_by(|a, b| pieces[*a].area_m2().total_cmp(&pieces[*b].area_m2()))
+    };
+    let [first, second] = [largest(Face::Front)?, largest(Face::Back)?];
+    if faced.len() > 2 && !hangs {
         return None;
     }
     let [first, second] = [&pieces[first], &pieces[second]];
@@ -273,7 +285,11 @@ fn class_of_pair(pieces: &[Piece], named: &[Named], has_sleeve: bool, is_raglan:
         Some(upright(&Shape::of(piece)?, is_one)?.score)
     };
     // A sleeve is worn with a trunk.
-    let kinds: &[Class] = if has_sleeve { &[Class::Body] } else { &[Class::Body, Class::Leg, Class::Skirt] };
+    let kinds: &[Class] = match (has_sleeve, hangs) {
+        (true, _) => &[Class::Body],
+        (_, true) => &[Class::Leg, Class::Skirt],
+        _ => &[Class::Body, Class::Leg, Class::Skirt],
+    };
     let sums = kinds.iter().filter_map(|&class| Some((fit(first, class)? + fit(second, class)?, class)));
     let (sum, class) = sums.reduce(|best, found| if found.0 > best.0 { found } else { best })?;
     (sum >= 2.0 * LEAST_FIT).then_some(class)
@@ -349,6 +365,7 @@ fn recognise_one(
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),
         (None, None) => around.nameless.contains(&class),
     };
+    let is_half = Cutting::of(piece).is_half(&shape);
     // A sleeve called front or back is half a sleeve.
     let is_half_sleeve = named.face.is_some();
     let as_class = |class: Class| {
@@ -360,6 +377,7 @@ fn recognise_one(
                 Class::Leg => !template.is_whole,
                 Class::Yoke => template.has_shoulder() == around.has_trunk,
                 _ if panel.is_some() || template.is_panel() => panel.is_some_and(|panel| panel.fits(template)),
+                Class::Body | Class::Skirt if is_half && template.is_whole => false,
                 Class::Body if around.is_raglan || template.is_raglan() => around.is_raglan == template.is_raglan(),
                 Class::Body => template.has_shoulder() || around.has_yoke,
                 _ => true,

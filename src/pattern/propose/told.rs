@@ -14,9 +14,9 @@ const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_i
 const REMARKS: [&str; 2] = ["annotation", "description"];
 
 /// Usual abbreviations, as lower-case words, of the terms that they stand for.
-const ABBREVIATIONS: [(&str, &[&str]); 12] = [
-    ("front", &["f", "fr", "frt", "frnt", "fa", "vt"]),
-    ("back", &["b", "bk", "bck", "ba"]),
+const ABBREVIATIONS: [(&str, &[&str]); 13] = [
+    ("front", &["f", "fr", "frn", "fnt", "frt", "frnt", "fa", "vt"]),
+    ("back", &["b", "bk", "bck", "bak", "bac", "ba"]),
     ("sleeve", &["sl", "slv", "sle", "ss", "ls"]),
     ("waistband", &["wb", "wstb"]),
     ("yoke", &["yk", "yo"]),
@@ -24,9 +24,10 @@ const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("collar", &["co", "clr", "col", "clst", "cs"]),
     ("leg", &["ll", "leg"]),
     ("hood", &["ho", "hd"]),
-    ("pocket", &["pk", "pkt", "pkb"]),
+    ("pocket", &["pk", "pkt", "pkb", "pckt", "pckting", "pcktng"]),
+    ("facing", &["fc", "fcg", "fac", "fcng"]),
     ("placket", &["pl", "plkt", "plk"]),
-    ("interlining", &["int", "intl", "lin", "lng"]),
+    ("interlining", &["int", "intl", "lin", "lng", "reins", "reinf"]),
 ];
 
 /// Abbreviations that follow the name of the style without a separator (`RUNNERBK`), the longest first.

@@ -93,7 +93,10 @@ pub fn read(name: &str) -> Named {
 #[must_use]
 pub fn read_words(words: &[&str], is_kind_known: bool) -> Named {
     let words = || words.iter().take_while(|word| !DETAILS.contains(word));
-    let said = words().filter_map(|word| word_of(word)).fold(Named::default(), Named::and);
+    // Terms that are written as two words: `neck band`, `waist band`.
+    let both =
+        words().zip(words().skip(1)).filter_map(|(first, second)| WORDS.get(format!("{first}{second}").as_str()));
+    let said = words().filter_map(|word| word_of(word)).chain(both.copied()).fold(Named::default(), Named::and);
     let is_known = is_kind_known || said.class.is_some();
     let is_initial = |initial: &str| is_known && words().any(|word| *word == initial);
     let face = said.face.or(if is_initial("f") {
@@ -206,6 +209,8 @@ mod tests {
         check("Pattentasche", Some(Other), None, None);
         check("\u{524d}\u{7247}", None, Some(Front), None);
         check("\u{5f8c}\u{8eab}\u{9803}", None, Some(Back), None);
+        check("TATE_NECK_BAND", Some(Other), None, None);
+        check("WAIST BAND BACK", Some(Waistband), Some(Back), None);
         check("\u{5de6}\u{8896}", Some(Sleeve), None, Some(Hand::Left));
         check("\u{c18c}\u{b9e4}", Some(Sleeve), None, None);
         check("Ön beden", None, Some(Front), None);
