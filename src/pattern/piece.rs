@@ -23,7 +23,7 @@ pub struct GradePoint {
     pub at: V2,
     /// Number of its grade rule.
     pub rule: u32,
-    /// True for a point of an internal line, cut-out or drill hole, however near the outline it lies.
+    /// True for a notch and a point of an internal line, cut-out or drill hole, however near the outline it lies.
     pub is_inner: bool,
 }
 

@@ -60,7 +60,7 @@ pub struct Text {
     pub at: V2,
     /// Content of the text.
     pub value: String,
-    /// True if it is on the layer of internal lines, cut-outs or drill holes.
+    /// True if it is on the layer of notches, internal lines, cut-outs or drill holes.
     is_inner: bool,
 }
 
@@ -172,7 +172,7 @@ impl Drawn {
     fn add(&mut self, entity: &Entity, layer: &str, placement: &Placement) {
         let figure = match figure(entity, placement) {
             Ok(Figure::Text { at, lines }) => {
-                let is_inner = matches!(layer, "8" | "11" | "13");
+                let is_inner = matches!(layer, "4" | "8" | "11" | "13" | "80" | "81" | "82" | "83");
                 return self.texts.extend(lines.into_iter().map(|value| Text { at, value, is_inner }));
             }
             Ok(Figure::Label) => return,

@@ -172,7 +172,9 @@ impl Out {
         }
         for graded in &piece.grade_points {
             let is_turn = || piece.turn_points.iter().any(|turn| (turn - graded.at).norm() < ON_POINT_M);
+            let is_notch = || piece.notches.iter().any(|notch| (notch.at - graded.at).norm() < ON_POINT_M);
             let layer = match self.standard {
+                _ if graded.is_inner && is_notch() => "4",
                 _ if graded.is_inner => "8",
                 Standard::Astm => "1",
                 Standard::Aama if is_turn() => "2",

@@ -19,7 +19,7 @@ use geom::units::mm;
 
 /// Distance below which a grade point counts as on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-3;
-/// Least difference of two distances that tells which point is nearer, m: half of the rounding of files.
+/// Least difference of two distances, and of two steps, that counts, m: half of the rounding of files.
 const NEARER_M: f64 = 0.05e-3;
 /// Greatest slope of a grade reference line that counts as horizontal.
 const HORIZONTAL: f64 = 0.02;
@@ -143,12 +143,13 @@ impl<'a> Field<'a> {
                 own.push(InnerPoint { at: point.at, step: steps[size] });
                 continue;
             };
+            let is_other = |step: V2| (step - steps[size]).norm() > NEARER_M;
             match graded[vertex] {
                 // A rule that says otherwise is that of the inner line that ends there.
-                Some((rule, step)) if rule != point.rule && step != steps[size] && from_inner < ON_OUTLINE_M => {
+                Some((rule, step)) if rule != point.rule && is_other(step) && from_inner < ON_OUTLINE_M => {
                     own.push(InnerPoint { at: point.at, step: steps[size] });
                 }
-                Some((rule, step)) if rule != point.rule && step != steps[size] => {
+                Some((rule, step)) if rule != point.rule && is_other(step) => {
                     let found = format!("rules {rule} and {} at {}", point.rule, place(&point.at));
                     return Err(format!("{found}; accepted: one rule a point"));
                 }

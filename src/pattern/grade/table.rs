@@ -82,8 +82,8 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
             _ if line.is_empty() => {}
             _ if line.eq_ignore_ascii_case("END") => open = Open::Nothing,
             Some((key, value)) if key == "RULE" => {
-                let number = reader.rule_number(index, value)?;
-                let rule = Rule { line: index, numbers: Vec::new() };
+                let (number, steps) = reader.rule_number(index, value)?;
+                let rule = Rule { line: index, numbers: reader.numbers(index, steps)? };
                 if let Some(first) = rules.insert(number, rule) {
                     let found = format!("rule {number} again, first in line {}", first.line);
                     return Err(reader.error(Some(index), found, "each rule once"));
@@ -191,13 +191,16 @@ impl Reader<'_> {
         GradeError { file: self.file.to_owned(), line, found, accepted: accepted.to_owned() }
     }
 
-    fn rule_number(&self, line: usize, value: &str) -> Result<u32, GradeError> {
-        let mut words = value.split_whitespace();
-        let number = match (words.next(), words.next(), words.next()) {
-            (Some(kind), Some(number), None) if kind.eq_ignore_ascii_case("DELTA") => number.parse().ok(),
-            _ => None,
-        };
-        number.ok_or_else(|| self.error(Some(line), format!("RULE: {value}"), "RULE: DELTA and a number"))
+    /// Number of a rule, and the steps that follow it in the same line.
+    fn rule_number<'v>(&self, line: usize, value: &'v str) -> Result<(u32, &'v str), GradeError> {
+        let split =
+            |text: &'v str| text.trim_start().split_once(char::is_whitespace).unwrap_or((text.trim_start(), ""));
+        let (kind, rest) = split(value);
+        let (number, steps) = split(rest);
+        let number = number.parse().ok().filter(|_| kind.eq_ignore_ascii_case("DELTA"));
+        let number =
+            number.ok_or_else(|| self.error(Some(line), format!("RULE: {value}"), "RULE: DELTA and a number"))?;
+        Ok((number, steps))
     }
 
     fn numbers(&self, line: usize, text: &str) -> Result<Vec<f64>, GradeError> {

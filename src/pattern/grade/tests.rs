@@ -13,6 +13,10 @@ RULE: DELTA 3\r\n0 0 0 0 0 0\r\nEND\r\n";
 /// A square of 100 mm, rule 3 at its lower corners, 1 at the upper right, 2 at the upper left; a vertex half way up each
 /// side has none.
 fn square() -> PatternFile {
+    dxf::read(drawing().as_bytes(), "square.dxf", None).expect("it reads")
+}
+
+fn drawing() -> String {
     let line = |layer: &str, ends: [[f64; 2]; 2]| {
         let [[a, b], [c, d]] = ends;
         format!("0\nLINE\n8\n{layer}\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n")
@@ -29,7 +33,7 @@ fn square() -> PatternFile {
     text += &line("5", [[20.0, 50.0], [80.0, 50.0]]);
     text += "0\nPOINT\n8\n4\n10\n100\n20\n75\n0\nPOINT\n8\n13\n10\n50\n20\n90\n0\nENDBLK\n8\n0\n0\nENDSEC\n";
     text += "0\nSECTION\n2\nENTITIES\n0\nTEXT\n8\n1\n10\n0\n20\n0\n1\nUnits: METRIC\n0\nENDSEC\n0\nEOF\n";
-    dxf::read(text.as_bytes(), "square.dxf", None).expect("it reads")
+    text
 }
 
 fn table() -> GradeTable {
@@ -44,6 +48,28 @@ fn a_table_has_sizes_and_steps() {
     assert_eq!(table.rules[&2][0], V2::new(0.0, -0.005));
     let inches = read(TABLE.replace("METRIC", "ENGLISH").as_bytes(), "a.rul").expect("it reads");
     assert!((inches.rules[&1][2].x - 0.254).abs() < 1e-12);
+}
+
+#[test]
+fn tables_of_other_programs_are_read() {
+    // Steps behind the number of their rule, and no blank after a key.
+    let joined = TABLE
+        .replace("DELTA  1\r\n", "DELTA  1 ")
+        .replace("DELTA 3\r\n", "DELTA 3 ")
+        .replace("TABLE: BLOUSE", "TABLE:BLOUSE");
+    let table = read(joined.as_bytes(), "blouse.rul").expect("it reads");
+    assert_eq!(table.rules, self::table().rules);
+    // A notch at a graded corner, with a rule of its own that says otherwise.
+    let notch = "0\nTEXT\n8\n4\n10\n0\n20\n0\n40\n3\n1\n# 1\n0\nENDBLK\n";
+    let mut file = square();
+    let corner = file.pieces[0].grade_points[0].at;
+    let notched =
+        dxf::read(drawing().replacen("0\nENDBLK\n", notch, 1).as_bytes(), "square.dxf", None).expect("it reads");
+    assert!(notched.pieces[0].grade_points.iter().any(|point| point.is_inner && point.at == corner));
+    file.pieces = notched.pieces;
+    let graded = grade(&file, &table).expect("it grades");
+    assert!(graded.refused.is_empty(), "{:?}", graded.refused);
+    assert!(graded.pieces.iter().all(|piece| piece.outline[0] == corner));
 }
 
 #[test]
