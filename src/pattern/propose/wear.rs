@@ -53,7 +53,14 @@ impl Proposal {
             let own = self.seams.iter().filter(|seam| touches(seam, id));
             let unsure = own.clone().find(|seam| !is_sure(seam));
             let is_held = own.clone().any(|seam| self.is_hold(seam, piece.class));
+            // Halves of a sleeve that are not joined hang open.
+            let is_open = piece.class == Some(Class::Sleeve) && piece.face.is_some() && {
+                let lengthwise =
+                    |seam: &ProposedSeam| matches!(seam.kind, SeamKind::SleeveTop(_) | SeamKind::SleeveUnderarm(_));
+                own.clone().filter(|seam| lengthwise(seam)).count() < 2
+            };
             let reason = match unsure {
+                None if is_open => "its halves are not joined".to_owned(),
                 Some(seam) => format!("seam {} is not sure", seam.kind),
                 None if !is_held => "what it is sewn to was not found".to_owned(),
                 None => return None,
