@@ -257,6 +257,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         points: Vec::new(),
         worn: Assessment::default(),
         closures: Vec::new(),
+        too_small: Vec::new(),
         eases: vec![ease],
         distortion: None,
         warnings: vec![],
