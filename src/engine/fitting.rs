@@ -5,6 +5,7 @@ use crate::ease;
 use crate::error::EngineError;
 use crate::outcome::{Measured, MeasuredPoint, Outcome};
 use crate::stages::Garb;
+use crate::tight;
 use fit::{self, Simulator, measure};
 use geom::units::mm;
 use pattern::style::PathPart;
@@ -94,7 +95,7 @@ impl Fitting<'_> {
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
             eases: ease::on(&garb.style, body),
-            too_small: sim::tight::too_small(body, garment, &garb.fabric, &drape.positions),
+            too_small: tight::too_small(body, garment, &garb.fabric, &drape.positions),
             points: self.points(garment, drape),
             worn: Assessment::of(body, garb, drape, self.simulator)?,
             closures,

@@ -43,6 +43,7 @@ pub mod slurm;
 pub mod stages;
 #[cfg(test)]
 mod tests;
+pub mod tight;
 mod workers;
 
 pub use actions::why_no_retry;

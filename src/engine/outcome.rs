@@ -6,12 +6,12 @@ use crate::assessment::{self, Assessment};
 use spec::JobSpec;
 use store::{JobId, Result, Status, StudyError};
 
+use crate::tight::TooSmall;
 use fit::Ease;
 use fit::measure::{Chi, Metrics};
 use geom::units::mm;
 use pattern::MeasurementKind;
 use sim::hybrid::Closure;
-use sim::tight::TooSmall;
 use sim::{Monitor, Stage, Step};
 use store::cache::Used;
 use store::owner::host;

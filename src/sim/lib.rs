@@ -25,7 +25,6 @@ pub mod sewn;
 pub mod solver;
 #[cfg(test)]
 mod testing;
-pub mod tight;
 mod tries;
 mod walls;
 

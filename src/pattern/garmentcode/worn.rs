@@ -85,7 +85,7 @@ impl Place {
     }
 }
 
-/// What the panels are: by name where the name says the kind, else by place.
+/// Statements about the panels: by name where the name says the kind, else by place.
 #[must_use]
 pub fn told(specification: &Specification, named: &[Named]) -> Vec<Named> {
     let worn = Worn::new(specification, named);

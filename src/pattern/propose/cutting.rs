@@ -1,4 +1,4 @@
-//! How often a piece is cut, and whether on the fold, by its quantity and its texts.
+//! Number of copies of a piece, and the fold that it is laid on, by its quantity and its texts.
 
 use super::shape::Shape;
 use crate::piece::Piece;

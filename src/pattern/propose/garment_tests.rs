@@ -1,14 +1,11 @@
 //! Whole garments with yokes, bands, cuffs and details: small patterns of straight lines and a few curve points.
 
 use super::*;
-use crate::draft::Model;
-use crate::pom::Point;
-use crate::seams::SeamFile;
 use crate::style::Style;
 use geom::V2;
 
 /// A piece in mm. The third number of a vertex is 1 for a corner.
-fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
+pub(super) fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     let place = |&(x, y, _): &(f64, f64, u8)| V2::new(x, y) * 1e-3;
     Piece {
         block: name.to_owned(),
@@ -19,7 +16,7 @@ fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
     }
 }
 
-fn strip(name: &str, length: f64, width: f64) -> Piece {
+pub(super) fn strip(name: &str, length: f64, width: f64) -> Piece {
     piece(name, &[(0.0, 0.0, 1), (length, 0.0, 1), (length, width, 1), (0.0, width, 1)])
 }
 
@@ -53,7 +50,7 @@ fn sleeve(wide: f64) -> Piece {
 }
 
 /// Half front and half back of trousers, the back up to a waist at a given height, mm.
-fn legs(back_waist: f64) -> Vec<Piece> {
+pub(super) fn legs(back_waist: f64) -> Vec<Piece> {
     let crotch = [(85.0, 850.0, 0), (60.0, 790.0, 0), (10.0, 770.0, 1)];
     let front = [&[(60.0, 0.0, 1), (280.0, 0.0, 1), (300.0, 1000.0, 1), (90.0, 1000.0, 1)][..], &crotch].concat();
     let seat = [(90.0, 850.0, 0), (40.0, 790.0, 0), (-40.0, 770.0, 1)];
@@ -510,130 +507,4 @@ fn a_leg_in_one_piece_is_sewn_to_itself_and_to_the_other() {
     };
     check("LEGGING", false, "leg_right");
     check("LEG", true, "leg_left");
-}
-
-#[test]
-fn a_piece_that_the_user_dismisses_is_left_out_and_the_rest_is_sewn_as_without_it() {
-    let mut short = legs(1000.0);
-    short[0].name = "TROUSER FRONT SHORT".to_owned();
-    short[0].block = short[0].name.clone();
-    let pieces = [&short[..1], &legs(1000.0)].concat();
-    let found = propose(&pieces);
-    let question = found.questions.iter().find(|question| question.text == "which piece is the leg front?");
-    let number = question.expect("there are two").number;
-    let none = propose_answered(&pieces, &[(number, 'c')]).expect("a choice");
-    let ids = |proposal: &Proposal| proposal.worn.iter().map(|worn| worn.id.clone()).collect::<Vec<_>>();
-    assert!(ids(&found).iter().any(|id| id.contains("front")), "{:?}", ids(&found));
-    assert!(ids(&none).iter().all(|id| !id.contains("front")), "{:?}", ids(&none));
-    assert!(none.questions.iter().any(|question| question.number == number && question.is_answered));
-    // Another answer instead takes the piece in again.
-    let again = propose_answered(&pieces, &[(number, 'c'), (number, 'b')]).expect("a choice");
-    assert_eq!(ids(&again), ids(&found));
-}
-
-#[test]
-fn tapes_alternatives_and_what_no_armhole_takes_are_not_sewn() {
-    let check = |extra: Piece, expect: Result<&str, &str>| {
-        let pieces = [legs(1000.0), vec![extra.clone()]].concat();
-        let with = propose(&pieces);
-        let without = propose(&legs(1000.0));
-        assert_eq!(with.seams, without.seams, "{}", extra.name);
-        match expect {
-            Ok(note) => {
-                assert!(with.notes.iter().any(|found| found.contains(note)), "{:?}", with.notes);
-                with.to_drape().expect("it drapes");
-            }
-            Err(asked) => {
-                let error = with.to_drape().expect_err("it is to be said what it is").to_string();
-                assert!(error.contains(asked) && error.contains("nothing that is draped"), "{error}");
-                let number =
-                    with.questions.iter().find(|question| question.text.contains(asked)).expect("asked").number;
-                propose_answered(&pieces, &[(number, 'a')]).expect("a choice").to_drape().expect("it drapes");
-            }
-        }
-    };
-    check(strip("BACK TAPE", 200.0, 10.0), Ok("left out: `BACK TAPE`"));
-    check(strip("X7", 226.0, 121.0), Err("piece `X7`: what it looks like goes with a trunk"));
-    let spare = Piece { quantity: Some("0".to_owned()), ..strip("X8", 400.0, 300.0) };
-    check(spare, Ok("left out: `X8`: their quantity is 0"));
-}
-
-#[test]
-fn a_panel_between_front_and_back_is_sewn_to_both_and_to_the_sleeve() {
-    // A tee of which a strip of 60 mm is cut off beside each side, and worn as a panel of both strips.
-    let drafts = Model::Tshirt.drafts();
-    let tee = &drafts[1].pieces;
-    let narrowed = |piece: &Piece| {
-        let half = piece.outline.iter().map(|p| p.x).fold(0.0, f64::max);
-        let narrow = |p: &mut V2| p.x -= p.x.signum() * 0.06 * (p.x.abs() / half);
-        let mut piece = piece.clone();
-        piece.outline.iter_mut().chain(&mut piece.turn_points).chain(&mut piece.curve_points).for_each(narrow);
-        piece.notches.clear();
-        piece
-    };
-    let (front, back) = (narrowed(&tee[0]), narrowed(&tee[1]));
-    let sides = |piece: &Piece| propose(&[piece.clone(), back.clone()]);
-    let side_m = sides(&front).seams.iter().find(|seam| seam.entry.name == "side_right").expect("a side").a_mm * 1e-3;
-    let hollow = (0..=12).map(|k| {
-        let t = f64::from(k) / 12.0;
-        V2::new(0.12 * (1.0 - t), side_m - 0.06 * t * (1.0 - t))
-    });
-    let outline: Vec<V2> = [V2::new(0.0, 0.0), V2::new(0.12, 0.0)].into_iter().chain(hollow).collect();
-    let turn_points = vec![outline[0], outline[1], outline[2], outline[14]];
-    let panel = |name: &str| Piece {
-        name: name.to_owned(),
-        block: name.to_owned(),
-        outline: outline.clone(),
-        turn_points: turn_points.clone(),
-        ..Piece::default()
-    };
-    let check = |name: &str| {
-        let found = propose(&[front.clone(), back.clone(), tee[2].clone(), panel(name)]);
-        let names: Vec<&str> = found.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
-        for seam in ["side_front_right", "side_back_right", "side_front_left", "side_back_left", "armhole_right"] {
-            assert!(names.contains(&seam), "{name}: {names:?}, {:?}", found.questions);
-        }
-        assert!(!names.contains(&"side_right"), "{name}: {names:?}");
-        let armhole = found.seams.iter().find(|seam| seam.entry.name == "armhole_right").expect("found");
-        let (first, last) = (&armhole.entry.b[0], &armhole.entry.b[armhole.entry.b.len() - 1]);
-        assert_eq!([first.as_str(), last.as_str()], ["side_right.armhole_right", "side_right.armhole_left"]);
-        let style = Style::of(
-            &[front.clone(), back.clone(), tee[2].clone(), panel(name)],
-            &SeamFile { length_tolerance_mm: f64::INFINITY, ..found.seam_file("") },
-            "",
-        );
-        let style = style.expect("a style");
-        style.mesh(30e-3).expect("a mesh");
-        // The panels are as wide as what was cut off, so the chest is that of the tee.
-        let chest_m = |style: &Style| {
-            let points = style.points_of_measure();
-            points.iter().find(|found| found.point == Point::HalfChest).expect("a chest").length_m
-        };
-        let plain = Style::read(tee, Model::Tshirt.seams(), "seams").expect("a style");
-        assert!((chest_m(&style) - chest_m(&plain)).abs() < 6e-3, "{} {}", chest_m(&style), chest_m(&plain));
-    };
-    check("SIDE PANEL");
-    check("\u{4fa7}\u{7247}");
-    check("Seitenteil");
-}
-
-#[test]
-fn a_collar_goes_with_a_trunk_and_a_dart_with_the_waist() {
-    // A front and a back with sleeves cut on: their outlines look like legs.
-    let cut_on = |name: &str, neck: f64| {
-        let points = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (330.0, 480.0, 0), (600.0, 470.0, 1)];
-        let top = [(600.0, 600.0, 1), (80.0, 700.0, 1), (40.0, 690.0 - 0.6 * neck, 0), (0.0, 690.0 - neck, 1)];
-        piece(name, &[&points[..], &top].concat())
-    };
-    let pieces = [cut_on("DELANTERO", 90.0), cut_on("ESPALDA", 20.0), strip("CUELLO", 400.0, 60.0)];
-    let classes: Vec<Option<Class>> = propose(&pieces).pieces.iter().map(|piece| piece.class).collect();
-    assert!(classes.iter().all(|class| matches!(class, None | Some(Class::Body))), "{classes:?}");
-    // Half a skirt that lies on its side, without a grain line: the dart is at its waist.
-    let lying = |name: &str| {
-        let dart = [(0.0, 220.0, 1), (0.0, 150.0, 1), (90.0, 140.0, 1), (0.0, 130.0, 1), (0.0, 0.0, 1)];
-        piece(name, &[&dart[..], &[(700.0, 0.0, 1), (700.0, 260.0, 1), (250.0, 255.0, 0)]].concat())
-    };
-    let found = propose(&[lying("SKIRT FRONT"), lying("SKIRT BACK")]);
-    let side = found.seams.iter().find(|seam| seam.entry.name == "skirt_side_right");
-    assert!(side.is_some_and(|seam| seam.a_mm > 650.0), "{:?} {:?}", found.seams, found.questions);
 }

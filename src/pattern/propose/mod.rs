@@ -16,6 +16,8 @@ mod drawn_dart;
 #[cfg(test)]
 mod garment_tests;
 mod gore;
+#[cfg(test)]
+mod kind_tests;
 mod lengths;
 #[cfg(test)]
 mod name_tests;

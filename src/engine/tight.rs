@@ -1,5 +1,5 @@
-//! Where a garment is too small to close on the body, whatever a simulator makes of it: stretched cloth or cloth inside
-//! the body.
+//! Levels at which a garment is too small to close on the body, whatever a simulator makes of it: stretched cloth or cloth
+//! inside the body.
 //!
 //! A level plane cuts the draped cloth in a ring round the trunk. The length of that ring on the flat pattern is the
 //! girth of the garment there.
@@ -7,12 +7,12 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::cloth::law::Fibre;
-use crate::{Fabric, sewing};
 use body::{Body, Joint};
 use geom::units::mm;
 use geom::{V2, V3};
 use pattern::{Garment, Role};
+use sim::cloth::law::Fibre;
+use sim::{Fabric, sewing};
 
 /// Least shortfall that is told, m: people and patterns are measured to 5 mm.
 const LEAST_M: f64 = 5e-3;
@@ -201,17 +201,32 @@ fn goes_round<'c>(cuts: impl Iterator<Item = &'c Cut>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabric;
-    use crate::testing::{panel, sewn, skirt_role, stitch};
     use body::{Measurements, Sex};
-    use serde_json::json;
+    use pattern::garmentcode;
+    use serde_json::{Value, json};
+    use sim::fabric;
 
     /// A tube of two panels of this girth, cm, 30 cm long.
     fn tube(girth_cm: f64) -> Garment {
         let half = 0.5 * girth_cm;
-        let corners = [[0.0, 0.0], [half, 0.0], [half, 30.0], [0.0, 30.0]];
-        let panels = json!({ "front": panel(&corners, [0.0, 0.0], &[]), "back": panel(&corners, [0.0, 0.0], &[]) });
-        sewn(&panels, &[stitch(("front", 1), ("back", 3)), stitch(("front", 3), ("back", 1))], skirt_role)
+        let edges: Vec<Value> = (0..4).map(|k| json!({ "endpoints": [k, (k + 1) % 4] })).collect();
+        let panel = |z: f64| {
+            let corners = [[0.0, 0.0], [half, 0.0], [half, 30.0], [0.0, 30.0]];
+            json!({ "translation": [0, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+        };
+        let side = |panel: &str, edge: usize| json!({ "panel": panel, "edge": edge });
+        let document = json!({
+            "pattern": {
+                "panels": { "skirt_front": panel(20.0), "skirt_back": panel(-20.0) },
+                "stitches": [
+                    [side("skirt_front", 1), side("skirt_back", 3)],
+                    [side("skirt_front", 3), side("skirt_back", 1)]
+                ]
+            },
+            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        });
+        let read = garmentcode::read(document.to_string().as_bytes(), "tube").expect("a specification");
+        read.style().mesh(0.04).expect("a mesh")
     }
 
     #[test]
