@@ -57,7 +57,7 @@ fn refused(found: String, accepted: &str) -> BodyError {
     BodyError::Measurements { found, accepted: accepted.to_owned() }
 }
 
-/// SeamlyMe (`.smis`) and Valentina (`.vit`).
+/// SeamlyMe (`.smis`) and Valentina (`.vit`), and the base size of their tables of sizes (`.smms`, `.vst`).
 fn of_xml(text: &str) -> Result<Told, BodyError> {
     let accepted = "a file of SeamlyMe (.smis) or Valentina (.vit)";
     let document = roxmltree::Document::parse(text).map_err(|error| refused(error.to_string(), accepted))?;
@@ -71,40 +71,54 @@ fn of_xml(text: &str) -> Result<Told, BodyError> {
         "inch" => 25.4e-3,
         unit => return Err(refused(format!("unit `{unit}`"), "cm, mm or inch in <unit>")),
     };
-    let sex = match text_of("gender") {
-        "male" => Some(Sex::Male),
-        "female" => Some(Sex::Female),
-        _ => None,
-    };
+    let sex = sex_of(text_of("gender"));
     let measures = document.descendants().filter(|node| node.has_tag_name("m"));
     // A value may be a formula of other measurements. It is then not measured.
     let value = |node: roxmltree::Node<'_, '_>| {
-        Some((node.attribute("name")?.to_owned(), node.attribute("value")?.trim().parse().ok()?))
+        let value = node.attribute("value").or_else(|| node.attribute("base"))?;
+        Some((node.attribute("name")?.to_owned(), number(value)?))
     };
     Ok(Told { sex, metres, values: measures.filter_map(value).collect() })
+}
+
+/// Number with a decimal point or a decimal comma.
+fn number(text: &str) -> Option<f64> {
+    text.trim().replace(',', ".").parse().ok()
+}
+
+/// Sex by a word of a file.
+fn sex_of(word: &str) -> Option<Sex> {
+    match word.trim().trim_matches(['"', '\'']).to_lowercase().as_str() {
+        "male" | "m" => Some(Sex::Male),
+        "female" | "f" => Some(Sex::Female),
+        _ => None,
+    }
 }
 
 /// Body of GarmentCode: names and numbers in centimetres, as YAML or JSON.
 fn of_garmentcode(text: &str) -> Result<Told, BodyError> {
     let accepted = "measurements of SeamlyMe (.smis), Valentina (.vit) or GarmentCode (.yaml, .json)";
+    let sex;
     let values: Vec<(String, f64)> = if text.starts_with('{') {
         let json: serde_json::Value =
             serde_json::from_str(text).map_err(|error| refused(error.to_string(), accepted))?;
         let body = json.get("body").unwrap_or(&json).as_object();
+        sex = body.and_then(|body| body.get("sex")?.as_str()).and_then(sex_of);
         let numbers = body.into_iter().flatten().filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)));
         numbers.collect()
     } else {
-        let pair = |line: &str| {
+        let pair = |line: &'_ str| {
             let (name, value) = line.split_once(':')?;
-            let value = value.split('#').next().unwrap_or_default();
-            Some((name.trim().to_owned(), value.trim().parse().ok()?))
+            Some((name.trim().to_owned(), value.split('#').next().unwrap_or_default().trim().to_owned()))
         };
-        text.lines().filter_map(pair).collect()
+        let pairs: Vec<(String, String)> = text.lines().filter_map(pair).collect();
+        sex = pairs.iter().find(|(name, _)| name == "sex").and_then(|(_, value)| sex_of(value));
+        pairs.into_iter().filter_map(|(name, value)| Some((name, number(&value)?))).collect()
     };
     if values.is_empty() {
         return Err(refused("no measurements".to_owned(), accepted));
     }
-    Ok(Told { sex: None, metres: 1e-2, values })
+    Ok(Told { sex, metres: 1e-2, values })
 }
 
 #[cfg(test)]
@@ -129,8 +143,11 @@ mod tests {
         check(VIT, None, &of_vit, Sex::Female);
         check(VIT, Some(Sex::Male), &of_vit, Sex::Male);
         let yaml = "body:\n  height: 171.99  # of the mean\n  bust: 99.8\n  waist: 84.3\n  hips: 103.5\n  arm_pose_angle: 45\n";
+        let vst = VIT.replace("value=\"36.5\"", "base=\"36,5\" size_increase=\"1\"").replace("vit>", "vst>");
+        check(&vst, None, &of_vit, Sex::Female);
         let body = [(Stature, 1719.9), (ChestGirth, 998.0), (WaistGirth, 843.0), (HipGirth, 1035.0)];
         check(yaml, Some(Sex::Female), &body, Sex::Female);
+        check(&yaml.replace("  bust:", "  sex: male\n  bust:"), None, &body, Sex::Male);
         let json =
             "{\"body\": {\"height\": 171.99, \"bust\": 99.8, \"waist\": 84.3, \"hips\": 103.5, \"_note\": \"x\"}}";
         check(json, Some(Sex::Female), &body, Sex::Female);

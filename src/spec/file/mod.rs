@@ -328,7 +328,7 @@ pub fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Sewn>
 
 /// True if a file's ending is one of measurements and not of a mesh.
 pub fn holds_measurements(path: &Path) -> bool {
-    ["toml", "smis", "vit", "yaml", "yml", "json"]
+    ["toml", "smis", "smms", "vit", "vst", "yaml", "yml", "json"]
         .iter()
         .any(|ending| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending)))
 }
