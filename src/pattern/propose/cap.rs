@@ -1,7 +1,7 @@
 //! Detection of the arm for which a sleeve is drawn, by its cap: the front half is hollower, because the arm reaches
 //! forwards.
 
-use super::recognise::Recognised;
+use super::recognised::Recognised;
 use super::{Class, Hand, Label};
 use geom::V2;
 

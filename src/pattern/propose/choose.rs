@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ask::Asker;
-use super::recognise::{Recognised, is_whole_leg, length_m};
+use super::recognised::{Recognised, is_whole_leg, length_m};
 use super::worn_pieces::{self, id_of};
 use super::{Class, Face, Hand, Label, PartName, sew};
 use crate::piece::Piece;

@@ -7,7 +7,8 @@
 
 use super::align::upright;
 use super::ask::Asker;
-use super::recognise::{CONTRADICTED, DETAIL_SHARE, LEAST_UNNAMED_FIT, Reading};
+use super::details::DETAIL_SHARE;
+use super::recognise::{CONTRADICTED, LEAST_UNNAMED_FIT, Reading};
 use super::shape::Shape;
 use super::templates::Template;
 use super::told::Told;

@@ -4,7 +4,7 @@
 //! these the side ends and the armhole begins. The partner does, because both sides of a seam are equally long.
 
 use super::ask::Asker;
-use super::recognise::Recognised;
+use super::recognised::Recognised;
 use super::{sew, worn_pieces};
 use crate::piece::Piece;
 

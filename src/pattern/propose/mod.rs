@@ -11,8 +11,10 @@ mod cap;
 mod choose;
 mod circle_skirt;
 mod cutting;
+mod details;
 mod doubt;
 mod drawn_dart;
+mod faces;
 #[cfg(test)]
 mod garment_tests;
 mod gore;
@@ -27,6 +29,7 @@ mod panels;
 mod pose;
 mod raglan;
 mod recognise;
+mod recognised;
 mod seam_kind;
 mod sew;
 mod shape;
@@ -345,7 +348,7 @@ fn without(pieces: &[Piece], answers: &Answers, dismissed: &BTreeSet<usize>) -> 
         told[piece].own.class = Some(Class::Other);
     }
     let (named, reading) = doubt::settled(pieces, &told, &mut asker);
-    let (details, is_spare) = (recognise::details(pieces, &named), recognise::spares(pieces));
+    let (details, is_spare) = (details::details(pieces, &named), details::spares(pieces));
     let mut notes: Vec<String> = Vec::new();
     let is_plain = |k: usize| details[k] && !is_spare[k] && !dismissed.contains(&k);
     notes.extend(left_out(pieces, is_plain, "by their names or their size details that a drape does without"));

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::ask::Asker;
 use super::gore::Cut;
-use super::recognise::{self, Recognised, is_whole_leg};
+use super::recognised::{Recognised, is_whole_leg, length_m};
 use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::Role;
@@ -186,7 +186,7 @@ fn drawn_panel(panel: &Recognised, recognised: &[Recognised]) -> Hand {
         let is_it = |other: &&Recognised| other.class == Class::Body && other.face == Some(face);
         let body = recognised.iter().find(is_it)?;
         let edges = body.alignment.parts.iter().filter(|part| part.label == Label::Side).count();
-        Some(recognise::length_m(body, Label::Side) / edges.max(1) as f64)
+        Some(length_m(body, Label::Side) / edges.max(1) as f64)
     };
     let own_m = |is_right: bool| -> f64 {
         let parts = panel.alignment.parts.iter().filter(|part| part.label == Label::Side && part.is_right == is_right);
