@@ -164,9 +164,10 @@ def patterns():
     genuine = sorted((PATTERNS / "freesewing").glob("*.dxf"))
     for file in genuine:
         wanted, read = {}, answer("pattern", "inspect", file)[0]
-        mended = " ".join(warning for warning in read["warnings"] if "cut away" in warning)
+        changed = ("cut away", "quality curve")
+        mended = " ".join(warning for warning in read["warnings"] if any(said in warning for said in changed))
         for piece in read["pieces"]:
-            # The length of an outline that was mended is that of the drawn one.
+            # The length of an outline that was mended, or follows its quality curve, is that of the drawn one.
             known = wanted.setdefault((piece["name"], piece["size"]), [])
             known.extend([] if f"`{piece['block']}`" in mended else [piece["perimeter_mm"]])
         blocks += converted(file, FOLDER / file.name, "astm", wanted)
