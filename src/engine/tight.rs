@@ -64,19 +64,20 @@ pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V
         ("hip", levels.hip_m),
     ];
     let trunk = Trunk::new(body, garment, positions);
-    let lacking = |level: &str, height_m: f64| {
-        let garment_girth_m = trunk.ring_m(height_m)?;
+    let lacking = |level: &str, height_m: f64, ring_m: Option<f64>| {
+        let garment_girth_m = ring_m?;
         let body_girth_m = body.trunk_girth_at(height_m)?;
         let found = TooSmall { level: level.to_owned(), height_m, body_girth_m, garment_girth_m };
         let is_lacking = found.shortfall_m() > LEAST_M && tension_n_m(fabric, &found) > WORN_N_M;
         is_lacking.then_some(found)
     };
-    let is_round = named.map(|(_, height_m)| trunk.ring_m(height_m).is_some());
-    let mut found = named.map(|(level, height_m)| lacking(level, height_m));
+    let rings_m = named.map(|(_, height_m)| trunk.ring_m(height_m));
+    let mut found: Vec<Option<TooSmall>> =
+        named.iter().zip(rings_m).map(|(&(level, height_m), ring_m)| lacking(level, height_m, ring_m)).collect();
     for k in 0..named.len() {
         // A band just above or below a level is told there, unless it is a part of what is told of a neighbour.
         let beside = [k.checked_sub(1), (k + 1 < named.len()).then_some(k + 1)];
-        if is_round[k] || beside.into_iter().flatten().any(|other| found[other].is_some()) {
+        if rings_m[k].is_some() || beside.into_iter().flatten().any(|other| found[other].is_some()) {
             continue;
         }
         let (level, height_m) = named[k];
@@ -84,7 +85,8 @@ pub fn too_small(body: &Body, garment: &Garment, fabric: &Fabric, positions: &[V
         let [above, below] = beside;
         let (low, high) = (to(below, levels.crotch_m), to(above, height_m + STEP_M));
         let count = ((high - low) / STEP_M).floor() as usize;
-        let near = (0..=count).filter_map(|step| lacking(level, high - STEP_M * step as f64));
+        let heights_m = (0..=count).map(|step| high - STEP_M * step as f64);
+        let near = heights_m.filter_map(|height_m| lacking(level, height_m, trunk.ring_m(height_m)));
         found[k] = near.reduce(|most, near| if near.shortfall_m() > most.shortfall_m() { near } else { most });
     }
     found.into_iter().flatten().collect()

@@ -79,6 +79,8 @@ pub struct Piece {
 pub struct Beside {
     /// Names of the garment and of its sample size. As part of the name of a piece, they do not describe the piece.
     pub garment: Vec<String>,
+    /// True if the file draws half of the piece, and it was unfolded.
+    pub is_unfolded: bool,
     /// The piece in every size, from the smallest. Empty if the file holds one size.
     pub sizes: Arc<[Piece]>,
 }

@@ -296,7 +296,7 @@ impl Drawn {
         let places = |points: &[V2]| points.iter().map(text_mm).collect::<Vec<_>>().join(", ");
         let drawn = outline.clone();
         let [of_boundary, of_sew_line] = std::mem::take(&mut self.quality);
-        if let Some(away_m) = quality::follow(&mut outline, &of_boundary).filter(|away_m| quality::is_told(*away_m)) {
+        if let Some(away_m) = quality::follow(&mut outline, &of_boundary) {
             remarks.push(quality::remark(block, "boundary", "84", drawn.len(), away_m));
         }
         let spikes = cut_spikes(&mut outline);
@@ -329,7 +329,7 @@ impl Drawn {
         let mut sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
         if let Some(line) = &mut sew_line {
             let drawn = line.len();
-            if let Some(away_m) = quality::follow(line, &of_sew_line).filter(|away_m| quality::is_told(*away_m)) {
+            if let Some(away_m) = quality::follow(line, &of_sew_line) {
                 remarks.push(quality::remark(block, "sew line", "87", drawn, away_m));
             }
         }

@@ -199,13 +199,14 @@ impl PatternFile {
         let said = self.texts.iter().filter(|(key, _)| is_of_garment(key)).map(|(_, value)| value);
         let garment: Vec<&String> = said.collect();
         let to_sew = |piece: &Piece| {
-            let whole = piece.unfolded().unwrap_or_else(|| piece.clone());
+            let unfolded = piece.unfolded();
             Piece {
                 beside: Beside {
                     garment: garment.iter().copied().chain(&piece.size).cloned().collect(),
+                    is_unfolded: unfolded.is_some(),
                     ..Beside::default()
                 },
-                ..whole
+                ..unfolded.unwrap_or_else(|| piece.clone())
             }
         };
         let whole = |size: &str| -> Vec<Piece> {

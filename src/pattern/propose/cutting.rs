@@ -26,7 +26,7 @@ const CUT: [&str; 8] = ["cut", "zuschneiden", "couper", "cortar", "tagliare", "k
 
 /// Statement of a file about the cutting of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cutting {
+struct Cutting {
     /// Number of copies. `None` if the file does not say.
     times: Option<u32>,
     /// True if it is laid on the fold.
@@ -35,7 +35,7 @@ pub struct Cutting {
 
 impl Cutting {
     /// Statement about a piece. The quantity goes before the texts.
-    pub fn of(piece: &Piece) -> Self {
+    fn of(piece: &Piece) -> Self {
         let texts = || piece.texts.iter().map(|(_, text)| text.to_lowercase());
         let of_quantity = piece.quantity.as_deref().and_then(|quantity| {
             let numbers = quantity.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse::<u32>().ok());
@@ -44,11 +44,14 @@ impl Cutting {
         let times = of_quantity.filter(|times| *times > 0).or_else(|| texts().find_map(|text| times_of(&text)));
         Self { times, on_fold: texts().any(|text| FOLD.iter().any(|fold| text.contains(fold))) }
     }
+}
 
-    /// True for half a front or back: laid on the fold, or cut twice from an outline that is not symmetric.
-    pub fn is_half(self, shape: &Shape) -> bool {
-        self.on_fold || (self.times == Some(2) && (0..2).all(|turns| shape.framed(turns).0.mirror().is_none()))
-    }
+/// True for half a front or back: laid on the fold, or cut twice from an outline that is not symmetric. A piece that was
+/// unfolded is whole, though its texts speak of the half that is drawn.
+pub fn is_half(piece: &Piece, shape: &Shape) -> bool {
+    let Cutting { times, on_fold } = Cutting::of(piece);
+    let is_lopsided = || (0..2).all(|turns| shape.framed(turns).0.mirror().is_none());
+    !piece.beside.is_unfolded && (on_fold || (times == Some(2) && is_lopsided()))
 }
 
 /// Number of copies that a text gives: `cut 2`, `cut 1 pair`. `None` for another text.

@@ -133,3 +133,24 @@ fn a_collar_goes_with_a_trunk_and_a_dart_with_the_waist() {
     let side = found.seams.iter().find(|seam| seam.entry.name == "skirt_side_right");
     assert!(side.is_some_and(|seam| seam.a_mm > 650.0), "{:?} {:?}", found.seams, found.questions);
 }
+
+#[test]
+fn a_piece_on_the_fold_is_half_unless_it_was_unfolded() {
+    let on_fold = |piece: Piece, is_unfolded: bool| {
+        let mut piece = piece;
+        piece.texts.push((String::new(), "Cut 1 on fold".to_owned()));
+        piece.beside.is_unfolded = is_unfolded;
+        piece
+    };
+    let tee = &Model::Tshirt.drafts()[1].pieces;
+    let unfolded: Vec<Piece> = tee.iter().map(|piece| on_fold(piece.clone(), true)).collect();
+    assert_eq!(propose(&unfolded).seams, propose(tee).seams);
+    // A flared half skirt, with a straight centre and a slanting side.
+    let half = |name: &str| {
+        let points = [(0.0, 0.0, 1), (420.0, 20.0, 1), (210.0, 700.0, 1), (100.0, 690.0, 0), (0.0, 685.0, 1)];
+        on_fold(piece(name, &points), false)
+    };
+    let found = propose(&[half("SKIRT FRONT"), half("SKIRT BACK")]);
+    let names: Vec<&str> = found.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
+    assert!(names.contains(&"skirt_centre_front") && names.contains(&"skirt_side_left"), "{names:?}");
+}

@@ -2,7 +2,7 @@
 
 use super::align::{Alignment, LEAST_FIT, Labelled, upright};
 use super::ask::Asker;
-use super::cutting::Cutting;
+use super::cutting::is_half;
 use super::details::{details, is_strip};
 use super::faces::{doubt_faces, tell_faces, tell_skirt_faces, tell_yoke_faces};
 use super::gore::{self, Cut};
@@ -289,7 +289,7 @@ fn recognise_one(
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),
         (None, None) => around.nameless.contains(&class),
     };
-    let is_half = Cutting::of(piece).is_half(&shape);
+    let is_half = is_half(piece, &shape);
     // A sleeve called front or back is half a sleeve.
     let is_half_sleeve = named.face.is_some();
     let as_class = |class: Class| {
