@@ -256,6 +256,13 @@ fn worn_lengths_follow_the_levels_of_the_body() {
     let waist = drafted(Model::Trousers, 1).worn_lengths(&stand).swap_remove(0);
     assert!(waist.height_m.is_some_and(|m| (0.9..1.1).contains(&m)), "{waist:?}");
     check(&drafted(Model::Dress, 0), &[("chest", 968.4)]);
+    // A level that leaves trousers at their top edge, which is higher behind than in front, goes round all or nothing.
+    let trousers = drafted(Model::Trousers, 1);
+    for step in 0..60 {
+        let near_top = Stand { underbust_m: 0.90 + 0.005 * f64::from(step), ..stand };
+        let round = trousers.worn_lengths(&near_top).into_iter().find(|worn| worn.level == "underbust");
+        assert!(round.is_none_or(|round| round.length_m > 0.95), "{}", near_top.underbust_m);
+    }
 }
 
 fn shared(file: &str) -> Option<PathBuf> {

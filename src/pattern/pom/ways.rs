@@ -15,6 +15,8 @@ const REACH_M: f64 = 10.0;
 const LEAST_M: f64 = 1e-5;
 /// Greatest number of pieces on a path.
 const MOST_PIECES: usize = 64;
+/// Cosine of the angle between an edge and the way down above which the edge is an opening: 45 degrees.
+const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Distance from its start at which a path round the body counts as closed, m.
 const BACK_M: f64 = 0.05;
 
@@ -228,7 +230,7 @@ impl<'a> Ways<'a> {
         if is_back(ahead.end) {
             return Some(ahead.parts);
         }
-        self.open_round(ahead.parts, from)
+        self.is_opening(ahead.end).then(|| self.open_round(ahead.parts, from))?
     }
 
     /// Path round the body or a limb through a point inside a piece, as of [`Ways::round`].
@@ -247,18 +249,31 @@ impl<'a> Ways<'a> {
         if is_back(ahead) {
             return Some(path);
         }
-        let Some(next) = self.across(ahead) else { return self.open_round(path, behind) };
+        let Some(next) = self.across(ahead) else {
+            return self.is_opening(ahead).then(|| self.open_round(path, behind))?;
+        };
         let rest = self.walk(next, Heading::Level, is_back)?;
-        let came_back = is_back(rest.end);
         path.extend(rest.parts);
-        if came_back { Some(path) } else { self.open_round(path, behind) }
+        match is_back(rest.end) {
+            true => Some(path),
+            false => self.is_opening(rest.end).then(|| self.open_round(path, behind))?,
+        }
+    }
+
+    /// True for a point of an edge that runs down the garment, as a front edge does. A level path that ends at a waist, a
+    /// hem or a neckline has left the cloth, and does not go round.
+    fn is_opening(&self, end: EdgePoint) -> bool {
+        self.down[end.edge.piece].is_none_or(|down| self.sewn_along(end).dot(&down).abs() > UPRIGHT)
     }
 
     /// Extends a path that ended at a free edge by the part that leads from its start in the other direction.
     fn open_round(&self, mut path: Vec<PathPart>, start: EdgePoint) -> Option<Vec<PathPart>> {
+        let mut end = start;
         if let Some(next) = self.across(start) {
-            path.extend(self.walk(next, Heading::Level, |_| false)?.parts);
+            let rest = self.walk(next, Heading::Level, |_| false)?;
+            end = rest.end;
+            path.extend(rest.parts);
         }
-        Some(path)
+        self.is_opening(end).then_some(path)
     }
 }
