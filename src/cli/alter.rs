@@ -68,7 +68,7 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 }
 
 fn moves(found: &Alteration) -> Table {
-    let columns = ["handle", "by_mm", "of", "girth_mm"];
+    let columns = ["handle", "by_mm", "of", "girth_mm", "pieces"];
     let row = |moved: &advice::MovedHandle| {
         let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
         // Half of a girth changes by the amount, and the girth by twice as much.
@@ -76,7 +76,8 @@ fn moves(found: &Alteration) -> Table {
             true => [Value::Text("half girth".to_owned()), by(2.0 * moved.amount_mm)],
             false => [Value::Null, Value::Null],
         };
-        vec![Value::Text(moved.handle.replace('_', " ")), by(moved.amount_mm), of, girth]
+        let pieces = Value::Text(moved.pieces.join(", "));
+        vec![Value::Text(moved.handle.replace('_', " ")), by(moved.amount_mm), of, girth, pieces]
     };
     Table::new(columns, found.moves.iter().map(row))
 }

@@ -1,4 +1,5 @@
-//! Least change of a pattern that brings its levels into their target bands: a quadratic programme.
+//! Change of a pattern that brings its levels into their target bands by few handles: a quadratic programme for the
+//! amounts, within a search over the sets of handles.
 
 /// Quantity of a garment that should lie in a band.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +11,8 @@ pub struct Goal {
     /// Least and greatest wanted value.
     pub band: [f64; 2],
     /// Compliance of the band, for a quantity that scatters: missing the band by `m` costs `m^2 / gives`, to be added
-    /// to the squares of the scaled changes. `None` if the band must be met whatever the change.
+    /// to the squares of the scaled changes, or to the cost of the handles. `None` if the band must be met whatever the
+    /// change.
     pub gives: Option<f64>,
 }
 
@@ -68,6 +70,117 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Departure from a band that counts as none in [`fewest`], in the unit of the goals that must be met, m.
+const MET: f64 = 0.5e-3;
+/// Greatest number of handles in a set. Every level of the trunk takes one, and a garment has no more levels.
+const MOST_HANDLES: usize = 7;
+
+/// Finds the cheapest change that meets the goals as well as all handles together can within their limits. A set of
+/// handles costs the sum of their `costs`, and each its amount as a share of its limit; goals that scatter add what it
+/// costs to miss them.
+///
+/// Searches the sets by branch and bound: a set whose costs reach those of the best one is not searched further, nor
+/// one that misses a goal even if all handles that may still join move to their limits.
+#[must_use]
+pub fn fewest(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64]) -> Change {
+    let scale: Vec<f64> = limits.iter().map(|limit| limit[1].max(-limit[0])).collect();
+    let all = least_change(goals, limits, &scale);
+    let met = |(goal, value): (&Goal, &f64)| match goal.gives {
+        None => Goal { band: [goal.band[0].min(value - MET), goal.band[1].max(value + MET)], ..goal.clone() },
+        Some(_) => goal.clone(),
+    };
+    let goals: Vec<Goal> = goals.iter().zip(&all.values).map(met).collect();
+    let moves = |place: &usize| scale[*place] > 0.0 && goals.iter().any(|goal| goal.sensitivity[*place] != 0.0);
+    let mut order: Vec<usize> = (0..scale.len()).filter(moves).collect();
+    order.sort_by(|a, b| costs[*a].total_cmp(&costs[*b]));
+    let mut search = Search { goals: &goals, limits, costs, scale: &scale, order: &order, best: None };
+    search.extend(&mut Vec::new(), 0, 0.0);
+    let amounts = search.best.map_or(all.amounts, |(_, amounts)| amounts);
+    let values = goals.iter().map(|goal| goal.value + dot(&goal.sensitivity, &amounts)).collect();
+    Change { amounts, values }
+}
+
+/// Cost of a change: that of its handles, their amounts as shares of their limits, and that of goals missed.
+#[must_use]
+pub fn cost(goals: &[Goal], limits: &[[f64; 2]], costs: &[f64], amounts: &[f64]) -> f64 {
+    let moved = amounts.iter().zip(limits).zip(costs).filter(|((amount, _), _)| **amount != 0.0);
+    let of_handles: f64 = moved.map(|((amount, limit), cost)| cost + amount.abs() / limit[1].max(-limit[0])).sum();
+    let missed = goals.iter().filter_map(|goal| {
+        let off = off(goal, goal.value + dot(&goal.sensitivity, amounts));
+        goal.gives.map(|gives| off * off / gives)
+    });
+    of_handles + missed.sum::<f64>()
+}
+
+/// Distance of a value from the band of a goal.
+fn off(goal: &Goal, value: f64) -> f64 {
+    (goal.band[0] - value).max(value - goal.band[1]).max(0.0)
+}
+
+/// Search over the sets of handles.
+struct Search<'a> {
+    goals: &'a [Goal],
+    limits: &'a [[f64; 2]],
+    costs: &'a [f64],
+    scale: &'a [f64],
+    /// Handles that may join a set, the cheapest first.
+    order: &'a [usize],
+    /// Cost and amounts of the best set so far.
+    best: Option<(f64, Vec<f64>)>,
+}
+
+impl Search<'_> {
+    /// Tries a set, and all that join to it handles from `next` on. `spent` is the cost of the set without its amounts.
+    fn extend(&mut self, set: &mut Vec<usize>, next: usize, spent: f64) {
+        if self.best.as_ref().is_some_and(|(best, _)| spent >= *best) || !self.may_meet(set, next) {
+            return;
+        }
+        if self.may_meet(set, self.order.len()) {
+            self.weigh(set);
+        }
+        if set.len() == MOST_HANDLES {
+            return;
+        }
+        for place in next..self.order.len() {
+            let handle = self.order[place];
+            set.push(handle);
+            self.extend(set, place + 1, spent + self.costs[handle]);
+            set.pop();
+        }
+    }
+
+    /// True unless a goal is missed even where every handle of a set, and from `next` on, moves to its limit.
+    fn may_meet(&self, set: &[usize], next: usize) -> bool {
+        let handles = || set.iter().chain(&self.order[next..]);
+        self.goals.iter().filter(|goal| goal.gives.is_none()).all(|goal| {
+            let [mut least, mut most] = [goal.value; 2];
+            for handle in handles() {
+                let ends = self.limits[*handle].map(|limit| limit * goal.sensitivity[*handle]);
+                least += ends[0].min(ends[1]);
+                most += ends[0].max(ends[1]);
+            }
+            least <= goal.band[1] + MET && most >= goal.band[0] - MET
+        })
+    }
+
+    /// Solves for the amounts of a set, and keeps it if it meets the goals at less cost than the best one.
+    fn weigh(&mut self, set: &[usize]) {
+        let pick = |all: &[f64]| -> Vec<f64> { set.iter().map(|handle| all[*handle]).collect() };
+        let goals: Vec<Goal> =
+            self.goals.iter().map(|goal| Goal { sensitivity: pick(&goal.sensitivity), ..goal.clone() }).collect();
+        let limits: Vec<[f64; 2]> = set.iter().map(|handle| self.limits[*handle]).collect();
+        let change = least_change(&goals, &limits, &pick(self.scale));
+        let is_met =
+            goals.iter().zip(&change.values).all(|(goal, value)| goal.gives.is_some() || off(goal, *value) <= MET);
+        let cost = cost(&goals, &limits, &pick(self.costs), &change.amounts);
+        if is_met && self.best.as_ref().is_none_or(|(best, _)| cost < *best) {
+            let mut amounts = vec![0.0; self.scale.len()];
+            set.iter().zip(change.amounts).for_each(|(handle, amount)| amounts[*handle] = amount);
+            self.best = Some((cost, amounts));
+        }
+    }
+}
+
 /// Constraint on scaled handles h: `normal . h <= most + give * multiplier`.
 struct Constraint {
     normal: Vec<f64>,
@@ -90,7 +203,9 @@ fn constraints(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Vec<Constr
         for (sign, bound) in [(1.0, limit[1]), (-1.0, limit[0])] {
             let mut normal = vec![0.0; limits.len()];
             normal[handle] = sign;
-            rows.push(Constraint { normal, most: sign * bound / scale, give: 0.0 });
+            // A handle without any room has no scale.
+            let most = if *scale == 0.0 { 0.0 } else { sign * bound / scale };
+            rows.push(Constraint { normal, most, give: 0.0 });
         }
     }
     rows
@@ -157,5 +272,61 @@ mod tests {
         // 4 a + 4 b = 40 with b counted in tenths: a takes a hundred times as much.
         let found = least_change(&[goal(0.0, &[4.0, 4.0], [40.0, 99.0])], &[WIDE, WIDE], &[1.0, 0.1]);
         assert!((found.amounts[0] / found.amounts[1] - 100.0).abs() < 0.5, "{found:?}");
+    }
+
+    /// Sets of handles that cost 1 each, with goals in the unit m.
+    fn check_set(goals: &[Goal], limits: &[[f64; 2]], expect_mm: &[f64]) {
+        let found = fewest(goals, limits, &vec![1.0; limits.len()]);
+        for (found, expected) in found.amounts.iter().zip(expect_mm) {
+            assert!((1e3 * found - expected).abs() < 0.6, "{:?}, not {expect_mm:?}", found);
+        }
+    }
+
+    #[test]
+    fn one_handle_that_does_it_alone_is_taken_before_two() {
+        const WIDE_M: [f64; 2] = [-0.02, 0.02];
+        let shared = goal(-0.010, &[2.0, 1.0], [0.020, 0.040]);
+        check_set(std::slice::from_ref(&shared), &[WIDE_M; 2], &[15.0, 0.0]);
+        // The first handle ends at its limit, so the second joins.
+        check_set(&[shared.clone()], &[[-0.010, 0.010], WIDE_M], &[10.0, 10.0]);
+        // One handle serves both goals, though others serve each of them better.
+        let both = [goal(0.0, &[1.0, 2.0, 0.0], [0.010, 0.020]), goal(0.0, &[1.0, 0.0, 2.0], [0.010, 0.020])];
+        check_set(&both, &[WIDE_M; 3], &[10.0, 0.0, 0.0]);
+        // Nothing reaches the goal: the handle goes as far as it may.
+        check_set(&[goal(0.0, &[1.0, 0.0], [0.050, 0.060])], &[WIDE_M; 2], &[20.0, 0.0]);
+        check_set(&[goal(0.015, &[1.0], [0.010, 0.020])], &[WIDE_M], &[0.0]);
+    }
+
+    #[test]
+    fn no_subset_of_what_is_found_is_cheaper() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1u32 << 31)
+        };
+        for round in 0..40 {
+            let limits = [[-0.02, 0.02]; 8];
+            let goals: Vec<Goal> = (0..4)
+                .map(|_| {
+                    let slopes: Vec<f64> = (0..8).map(|_| if random() < 0.4 { 4.0 * random() } else { 0.0 }).collect();
+                    goal(0.06 * (random() - 0.5), &slopes, [0.0, 0.01])
+                })
+                .collect();
+            let costs: Vec<f64> = (0..8).map(|_| 1.0 + random()).collect();
+            let found = fewest(&goals, &limits, &costs);
+            let total = cost(&goals, &limits, &costs, &found.amounts);
+            let used: Vec<usize> = (0..8).filter(|k| found.amounts[*k] != 0.0).collect();
+            let pairs = used.iter().flat_map(|a| used.iter().map(move |b| [*a, *b]));
+            for without in pairs {
+                let fewer: Vec<[f64; 2]> =
+                    (0..8).map(|k| if without.contains(&k) { [0.0; 2] } else { limits[k] }).collect();
+                let other = fewest(&goals, &fewer, &costs);
+                let as_good = goals.iter().zip(found.values.iter().zip(&other.values));
+                let is_as_good =
+                    as_good.clone().all(|(goal, (value, other))| off(goal, *other) <= off(goal, *value) + MET);
+                let other = cost(&goals, &limits, &costs, &other.amounts);
+                assert!(!is_as_good || other >= 0.9 * total, "{round}: {without:?} costs {other}, not {total}");
+            }
+        }
     }
 }

@@ -1,36 +1,32 @@
 //! Alterations by the flat pattern alone: the effect of its handles on the ease, and the least movement of handles that
 //! gives the target ease. A band is the range of ease that a target allows.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::alteration::{AlteredLevel, SLACK_MM, STEP_M, Sensitivity, Wish};
 use body::Body;
 use engine::ease;
-use fit::alter::{Goal, least_change};
+use fit::alter::{Goal, fewest};
 use fit::target::Target;
 use geom::units::{from_mm, mm};
 use pattern::handle::HandleError;
+use pattern::style::StylePiece;
 use pattern::{Handle, Style};
 use store::{InOrigin, Origin, Result};
 
-/// Number of rounds of [`Bench::settled`]; each measures the true effect of the change and weights its squares again.
-const ROUNDS: usize = 12;
-/// Amount below which a handle costs as much as one that does not move, m.
-const SMALL_M: f64 = 0.2e-3;
-/// Squared miss of a level, already within its target, that is worth a metre of handle movement, m. So small that no
-/// such level is sacrificed for another.
-const KEPT_M: f64 = 1e-9;
-/// Least amount of a handle that counts as chosen by soft goals, m, and the factor by which these goals are then
-/// firmer.
-const CHOSEN_M: f64 = 1e-3;
-const FIRMER: f64 = 30.0;
+/// Greatest number of rounds of [`Bench::within`]; each measures the true effect of the change.
+const ROUNDS: usize = 6;
+/// Compliance of a level that is within its target, m^2: so small that no such level is sacrificed for another.
+const KEPT_M2: f64 = 1e-9;
+/// Cost of a drawn piece that a handle changes, as a share of the cost of the handle itself.
+const PER_PIECE: f64 = 0.25;
+/// Step of the lengths of outlines by which a piece is told from its mirror image, m.
+const ALIKE_M: f64 = 0.1e-3;
 /// Share of its limit that a handle keeps if it cannot move that far; and the limit below which it stays instead, m.
 const TIGHTER: f64 = 0.6;
 const LEAST_LIMIT_M: f64 = 2e-3;
 /// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
-/// Least amount of a handle that is worth making, mm: cutting and sewing err by as much.
-const LEAST_MM: f64 = 1.0;
 /// Distance inside its band at which an ease is aimed, m, so that rounding of amounts keeps it there.
 const INSIDE_M: f64 = 0.002;
 /// Least change of an ease per movement of a handle for which the handle is used. A weaker one would move more than 5
@@ -55,16 +51,18 @@ pub struct Bench<'a> {
     body: &'a Body,
     target: &'a Target,
     before: BTreeMap<String, f64>,
-    /// Sensitivity of every level to each handle, in the order of `handles`; empty where amounts are given.
+    /// Sensitivity of every level to each handle, and the cost of the handle, in the order of `handles`; empty where
+    /// amounts are given.
     changes: Vec<Sensitivity>,
+    costs: Vec<f64>,
 }
 
 impl<'a> Bench<'a> {
     /// Measures the ease of a style, and finds its handles and their effects.
     pub fn new(style: &'a Style, body: &'a Body, target: &'a Target, wish: &'a Wish) -> Self {
         let before = eases(style, body);
-        let (handles, changes, left_out) = (Vec::new(), Vec::new(), Vec::new());
-        let mut bench = Self { style, handles, left_out, wish, body, target, before, changes };
+        let (handles, changes, costs, left_out) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut bench = Self { style, handles, left_out, wish, body, target, before, changes, costs };
         if wish.moves_mm.is_empty() {
             bench.see_handles();
         } else {
@@ -90,7 +88,12 @@ impl<'a> Bench<'a> {
         own.or_else(|| self.target.band_m(level, is_top))
     }
 
-    /// Returns the given amounts; where none are given, the least change that brings every level into its band and
+    /// Greatest amount of a handle, m.
+    fn limit_m(&self, handle: Handle) -> f64 {
+        from_mm(self.wish.limit_mm.unwrap_or_else(|| handle.most_mm()))
+    }
+
+    /// Returns the given amounts; where none are given, the cheapest change that brings every level into its band and
     /// meets `goals`. A handle that cannot move as far as the change asks gets a tighter limit, in the end 0.
     ///
     /// # Errors
@@ -100,7 +103,7 @@ impl<'a> Bench<'a> {
             return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
         }
         let as_it_is_m = self.missed_m(&vec![0.0; self.handles.len()])?;
-        let mut limits_m = vec![from_mm(self.wish.limit_mm); self.handles.len()];
+        let mut limits_m: Vec<f64> = self.handles.iter().map(|handle| self.limit_m(*handle)).collect();
         loop {
             let refused = match self.within(&limits_m, goals) {
                 Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m => return Ok(amounts),
@@ -137,52 +140,38 @@ impl<'a> Bench<'a> {
         Ok(least.map(|(_, place)| place))
     }
 
-    /// Least change within a limit for each handle, m. Soft goals shrink all amounts. So they are met a second time,
-    /// more firmly, by only those handles that the first time chose.
+    /// Cheapest change within a limit for each handle, m, in steps of a drawing. The effect of handles is linear but for
+    /// a little, by which each round corrects the goals.
     fn within(&self, limits_m: &[f64], others: &[Goal]) -> Moved<Amounts> {
-        let mut limits: Vec<[f64; 2]> = limits_m.iter().map(|limit_m| [-limit_m, *limit_m]).collect();
-        let mut amounts = self.settled(vec![0.0; limits.len()], &limits, others)?;
-        if !others.is_empty() {
-            let chosen = |amount: &f64| amount.abs() >= CHOSEN_M;
-            limits
-                .iter_mut()
-                .zip(&amounts)
-                .filter(|(_, amount)| !chosen(amount))
-                .for_each(|(limit, _)| *limit = [0.0; 2]);
-            let firm = |goal: &Goal| Goal { gives: goal.gives.map(|gives| gives / FIRMER), ..goal.clone() };
-            amounts = self.settled(amounts, &limits, &others.iter().map(firm).collect::<Vec<_>>())?;
+        let limits: Vec<[f64; 2]> = limits_m.iter().map(|limit_m| [-limit_m, *limit_m]).collect();
+        let mut amounts = vec![0.0; limits.len()];
+        for _ in 0..ROUNDS {
+            let goals = self.goals(&amounts)?.into_iter().chain(others.iter().cloned()).collect::<Vec<_>>();
+            let next: Amounts = fewest(&goals, &limits, &self.costs).amounts.iter().map(|m| drawn_m(*m)).collect();
+            let is_same = next == amounts;
+            amounts = next;
+            if is_same {
+                break;
+            }
         }
-        // Amounts too small to cut are set to 0, the least first, and the other handles make up for them.
-        while let Some(place) = least_noise(&amounts) {
-            (limits[place], amounts[place]) = ([0.0; 2], 0.0);
-            amounts = self.settled(amounts, &limits, others)?;
-        }
-        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm(drawn_mm(*m))).collect();
-        self.style.moved(&self.moves(&drawn))?;
-        Ok(drawn)
+        self.style.moved(&self.moves(&amounts))?;
+        Ok(amounts)
     }
 
-    /// Least change within limits for each handle, m, starting from `amounts`. It minimises the sum of magnitudes, so
-    /// that few handles move, by iteratively reweighted least squares: the weights come from the amounts of the round
-    /// before.
-    fn settled(&self, mut amounts: Amounts, limits: &[[f64; 2]], others: &[Goal]) -> Moved<Amounts> {
-        for _ in 0..ROUNDS {
-            let now = eases(&self.style.moved(&self.moves(&amounts))?, self.body);
-            let goal = |(level, ease_m): (&String, &f64)| {
-                let [least, most] = self.band_m(level)?;
-                let inside = INSIDE_M.min(0.25 * (most - least));
-                let sensitivity: Vec<f64> =
-                    self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
-                let done: f64 = sensitivity.iter().zip(&amounts).map(|(s, amount)| s * amount).sum();
-                let is_met = self.before.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
-                let band = [least + inside, most - inside];
-                Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M) })
-            };
-            let goals: Vec<Goal> = now.iter().filter_map(goal).chain(others.iter().cloned()).collect();
-            let scale: Vec<f64> = amounts.iter().map(|amount| (amount.abs() + SMALL_M).sqrt()).collect();
-            amounts = least_change(&goals, limits, &scale).amounts;
-        }
-        Ok(amounts)
+    /// Goals for the ease at every level with a target, linear in the amounts about `amounts`.
+    fn goals(&self, amounts: &[f64]) -> Moved<Vec<Goal>> {
+        let now = eases(&self.style.moved(&self.moves(amounts))?, self.body);
+        let goal = |(level, ease_m): (&String, &f64)| {
+            let [least, most] = self.band_m(level)?;
+            let inside = INSIDE_M.min(0.25 * (most - least));
+            let sensitivity: Vec<f64> =
+                self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
+            let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
+            let is_met = self.before.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
+            let band = if is_met { [least, most] } else { [least + inside, most - inside] };
+            Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M2) })
+        };
+        Ok(now.iter().filter_map(goal).collect())
     }
 
     /// Sum over the levels of their departures from the bands, m, after handles move by `amounts`. Departures within
@@ -224,8 +213,11 @@ impl<'a> Bench<'a> {
                     };
                     let changes: Sensitivity = more.iter().filter_map(change).collect();
                     let is_meant = |level: &str| self.band_m(level).is_some();
+                    let pieces =
+                        self.style.moved(&[(handle, STEP_M)]).map_or(0, |moved| changed_pieces(self.style, &moved));
                     if asks_else || changes.iter().any(|(level, by)| is_meant(level) && by.abs() >= LEAST_EFFECT) {
                         self.changes.push(changes);
+                        self.costs.push(1.0 + PER_PIECE * pieces as f64);
                         self.handles.push(handle);
                     }
                 }
@@ -236,7 +228,6 @@ impl<'a> Bench<'a> {
 
     /// Reasons why levels are missed, a sentence for each.
     pub fn reasons(&self, amounts: &[f64], levels: &[AlteredLevel]) -> Vec<String> {
-        let limit_mm = self.wish.limit_mm;
         let reason = |missed: &AlteredLevel| {
             let level = missed.level.replace('_', " ");
             let helps = |change: &Sensitivity| change.get(&missed.level).is_some_and(|by| by.abs() >= LEAST_EFFECT);
@@ -245,12 +236,17 @@ impl<'a> Bench<'a> {
             let names = |moved: &[(&Handle, f64)]| {
                 moved.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
             };
-            let at_limit: Vec<_> = own.iter().copied().filter(|(_, by_mm)| *by_mm >= limit_mm - DRAWN_MM).collect();
+            let is_at_limit = |(handle, by_mm): &(&Handle, f64)| *by_mm >= mm(self.limit_m(**handle)) - DRAWN_MM;
+            let at_limit: Vec<_> = own.iter().copied().filter(is_at_limit).collect();
             match (own.is_empty(), at_limit.is_empty()) {
                 (true, _) => format!("{level} is missed: no handle of this style changes it"),
                 (_, false) => format!(
-                    "{level} is missed: at the limit of {limit_mm} mm: {} (--limit-mm allows more; another size may be nearer)",
-                    names(&at_limit)
+                    "{level} is missed: another size is needed; as far as this one can be cut: {} (--limit-mm allows more)",
+                    at_limit
+                        .iter()
+                        .map(|(handle, by_mm)| format!("`{}` {by_mm:.1} mm", handle.as_str()))
+                        .collect::<Vec<_>>()
+                        .join(", ")
                 ),
                 _ => format!(
                     "{level} is missed: what changes it cannot move further, or takes other levels out of their bands: {}",
@@ -278,18 +274,19 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Rounds an amount, m, to the steps of a pattern maker, mm.
-fn drawn_mm(amount_m: f64) -> f64 {
-    (mm(amount_m) / DRAWN_MM).round() * DRAWN_MM
+/// Rounds an amount, m, to the steps of a pattern maker.
+fn drawn_m(amount_m: f64) -> f64 {
+    from_mm((mm(amount_m) / DRAWN_MM).round() * DRAWN_MM)
 }
 
-/// Handle with the least amount among those whose drawn amount is not 0 but less than is worth making.
-fn least_noise(amounts: &[f64]) -> Option<usize> {
-    let is_noise = |place: &usize| {
-        let drawn_mm = drawn_mm(amounts[*place]).abs();
-        drawn_mm > 0.0 && drawn_mm < LEAST_MM
-    };
-    (0..amounts.len()).filter(is_noise).min_by(|a, b| amounts[*a].abs().total_cmp(&amounts[*b].abs()))
+/// Number of drawn pieces whose outlines differ. A piece and its mirror image are drawn once.
+fn changed_pieces(style: &Style, changed: &Style) -> usize {
+    let differs = |(was, is): (&StylePiece, &StylePiece)| was.outline() != is.outline();
+    let round_m = |piece: &StylePiece| piece.edges.iter().map(|edge| edge.line.length()).sum::<f64>();
+    // A piece is its image if their outlines are equally long.
+    let drawn = |piece: &StylePiece| (piece.edges.len(), (round_m(piece) / ALIKE_M).round() as i64);
+    let pairs = style.pieces.iter().zip(&changed.pieces);
+    pairs.filter(|pair| differs(*pair)).map(|(was, _)| drawn(was)).collect::<BTreeSet<_>>().len()
 }
 
 /// Ease at every level of a style on a body, m.
@@ -302,19 +299,6 @@ mod tests {
     use super::*;
     use pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
     use spec::bodies::{Dimension, Measurements, Sex, build_body};
-
-    #[test]
-    fn the_least_amount_that_is_less_than_is_made_is_left_out() {
-        let check = |amounts_mm: &[f64], expect: Option<usize>| {
-            let amounts: Vec<f64> = amounts_mm.iter().copied().map(from_mm).collect();
-            assert_eq!(least_noise(&amounts), expect, "{amounts_mm:?}");
-        };
-        check(&[], None);
-        check(&[0.0, 0.2, -0.1], None);
-        check(&[17.0, 0.6, -0.5, 1.0], Some(2));
-        check(&[-0.4, 0.6, 12.0], Some(0));
-        check(&[0.8, -1.2], None);
-    }
 
     #[test]
     fn a_change_has_no_amount_below_what_is_made() {

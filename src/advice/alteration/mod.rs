@@ -38,9 +38,6 @@ const MOST_DRAPES: usize = 3;
 /// Derivative of every level (m per m) or reading (its unit per m) with respect to a handle.
 type Sensitivity = BTreeMap<String, f64>;
 
-/// Greatest amount of a handle in either direction by default, mm.
-pub const ALTER_LIMIT_MM: f64 = 60.0;
-
 /// Request for an alteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wish {
@@ -53,8 +50,8 @@ pub struct Wish {
     /// Least and greatest values: of ease at levels, mm, in place of the intended fit's; and of readings of the drape,
     /// in their units.
     pub targets: BTreeMap<String, [f64; 2]>,
-    /// Greatest amount of a handle in either direction, mm.
-    pub limit_mm: f64,
+    /// Greatest amount of every handle in either direction, mm; `None` for [`Handle::most_mm`] of each.
+    pub limit_mm: Option<f64>,
     /// Handles that must not move.
     pub without: Vec<Handle>,
     /// Given amounts of handles, mm. If there are any, no other handle moves.
@@ -77,7 +74,7 @@ impl Wish {
             subject: Some(subject.to_owned()),
             size: size.to_owned(),
             targets: BTreeMap::new(),
-            limit_mm: ALTER_LIMIT_MM,
+            limit_mm: None,
             without: vec![],
             moves_mm: vec![],
             is_draped: false,
@@ -98,6 +95,8 @@ pub struct MovedHandle {
     pub does: &'static str,
     /// True if the amount is half of a girth, so that the girth changes by twice the amount.
     pub is_half_girth: bool,
+    /// Pieces that it changes, as the seam file names them.
+    pub pieces: Vec<String>,
 }
 
 /// Ease at a level, before and after.
@@ -276,6 +275,9 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         amount_mm: mm(*amount_m),
         does: handle.definition(),
         is_half_girth: handle.is_half_girth(),
+        pieces: style
+            .moved(&[(*handle, *amount_m)])
+            .map_or_else(|_| Vec::new(), |alone| changed_pieces(&style, &alone)),
     };
     Ok(Alteration {
         garment: spec.garment.clone(),
@@ -289,6 +291,12 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         drape: found.after.map(|(redraped, _)| redraped),
         files: written.files,
     })
+}
+
+/// Names of the pieces whose outlines differ.
+fn changed_pieces(style: &Style, changed: &Style) -> Vec<String> {
+    let pairs = style.pieces.iter().zip(&changed.pieces).filter(|(was, is)| was.outline() != is.outline());
+    pairs.map(|(was, _)| was.id.clone()).collect()
 }
 
 /// Drapes a style on a body by FEM-GS, as its study does. Returns the outcome, and the ease of the drape at every

@@ -7,8 +7,9 @@ use crate::alteration::{AlteredReading, MOST_DRAPES, Redraped, Wish, within};
 use fit::alter::Goal;
 use store::{Result, StudyError};
 
-/// Movement of handles that is worth removing a miss of a reading by its scatter, m.
-const WORTH_M: f64 = 0.3e-3;
+/// Cost of missing a reading by its scatter, where a handle costs 1. A handle for one reading is worth while if that is
+/// missed by more than twice its scatter, which seldom happens by chance.
+const PER_SCATTER: f64 = 0.25;
 
 /// A change of a pattern, and the drapes by which it was found.
 pub struct Tried {
@@ -143,7 +144,7 @@ fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts
         let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
         let inside = 0.25 * (most - least);
         // A reading that the coarse drape lacks is a firm goal that no handle serves: it is missed, and reported.
-        let gives = scatter.get(name).map(|scatter| scatter.value.powi(2) / WORTH_M);
+        let gives = scatter.get(name).map(|scatter| scatter.value.powi(2) / PER_SCATTER);
         Some(Goal { value: value - done, sensitivity, band: [least + inside, most - inside], gives })
     };
     wish.targets.iter().filter_map(goal).collect()

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::pattern::DxfStandard;
-use advice::ALTER_LIMIT_MM;
 use pattern::Handle;
 
 /// Arguments of `alter`.
@@ -26,9 +25,9 @@ pub struct Alter {
     /// hem_front_over_back=-5..5; may be given again.
     #[arg(long, value_name = "NAME=LEAST..MOST", value_parser = target, allow_hyphen_values = true)]
     pub target: Vec<(String, [f64; 2])>,
-    /// Greatest amount of a handle either way.
-    #[arg(long, value_name = "MM", default_value_t = ALTER_LIMIT_MM)]
-    pub limit_mm: f64,
+    /// Greatest amount of every handle either way, instead of what a cutter does without drawing the pattern anew.
+    #[arg(long, value_name = "MM")]
+    pub limit_mm: Option<f64>,
     /// A handle that stays as it is; may be given again.
     #[arg(long, value_name = "HANDLE", value_parser = handle)]
     pub without: Vec<Handle>,

@@ -2,15 +2,18 @@
 //! or the depth of the neck.
 //!
 //! No seam file names the handles of a style: `body` finds the movable parts by the roles of the pieces. Each handle
-//! makes a `Plan` (in `girths`, `lengths`, `upper`, `sleeve` or `seat`): points that move with the amount, points that
-//! give way, and conditions on lengths. `rig` interpolates the displacement along the outlines, and `solve` finds how
+//! makes a `Plan` (in `girths`, `waist`, `lengths`, `upper`, `across`, `sleeve` or `seat`): points that move with the
+//! amount, points that give way, and conditions on lengths. `rig` interpolates the displacement along the outlines, and `solve` finds how
 //! far each point gives way. `darts_and_bands` makes darts and bands follow, and `field` the inside of the pieces.
 
+mod across;
 mod body;
 mod darts_and_bands;
 mod drawn;
+mod error;
 mod field;
 mod girths;
+mod kind;
 mod lengths;
 mod meshed;
 mod plan;
@@ -22,8 +25,11 @@ mod solve;
 #[cfg(test)]
 mod tests;
 mod upper;
+mod waist;
 
 pub use self::drawn::{Redrawn, redrawn};
+pub use self::error::HandleError;
+pub use self::kind::Handle;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -34,7 +40,6 @@ use self::plan::Plan;
 use crate::pom::anatomy::Anatomy;
 use crate::pom::{Point, PointOfMeasure};
 use crate::propose::Face;
-use crate::seams::StyleError;
 use crate::style::Style;
 use geom::units::mm;
 
@@ -68,201 +73,14 @@ struct Course {
     steps: Vec<Fields>,
 }
 
-/// A handle. Its amount is the change of the length that the variant names, m.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Handle {
-    /// Half of the girth at the chest.
-    Chest,
-    /// Half of the girth at the waist.
-    Waist,
-    /// Half of the girth at the hip.
-    Hip,
-    /// Half of the lower edge.
-    Hem,
-    /// Half of the girth of a leg at the thigh, by its outseam.
-    Thigh,
-    /// Half of the girth of a leg at the knee.
-    Knee,
-    /// Half of the lower edge of a leg.
-    LegOpening,
-    /// Half of the girth of a leg at the fork, by its inseam.
-    Fork,
-    /// Length of the seat seam in front.
-    FrontRise,
-    /// Length of the seat seam behind.
-    BackRise,
-    /// Length of the inseam.
-    LegLength,
-    /// Slope of the shoulder: the depth of the shoulder point.
-    ShoulderSlope,
-    /// Length of the shoulder.
-    ShoulderLength,
-    /// Depth of the neck in front.
-    FrontNeckDepth,
-    /// Depth of the neck behind.
-    BackNeckDepth,
-    /// Width of the neck.
-    NeckWidth,
-    /// Depth of the armhole.
-    ArmholeDepth,
-    /// Half of the girth of the sleeve at the bicep.
-    Bicep,
-    /// Half of the lower edge of the sleeve.
-    Cuff,
-    /// Height of the sleeve cap.
-    CapHeight,
-    /// Length of the sleeve.
-    SleeveLength,
-    /// Length of front and back.
-    BodyLength,
-    /// Length of the front at its centre.
-    FrontLength,
-    /// Length of the back at its centre.
-    BackLength,
-    /// Length of the skirt.
-    SkirtLength,
-}
-
 impl Handle {
-    /// All handles, in the order in which they are listed.
-    pub const ALL: [Self; 25] = [
-        Self::Chest,
-        Self::Waist,
-        Self::Hip,
-        Self::Hem,
-        Self::Thigh,
-        Self::Knee,
-        Self::LegOpening,
-        Self::Fork,
-        Self::FrontRise,
-        Self::BackRise,
-        Self::LegLength,
-        Self::ShoulderSlope,
-        Self::ShoulderLength,
-        Self::FrontNeckDepth,
-        Self::BackNeckDepth,
-        Self::NeckWidth,
-        Self::ArmholeDepth,
-        Self::Bicep,
-        Self::Cuff,
-        Self::CapHeight,
-        Self::SleeveLength,
-        Self::BodyLength,
-        Self::FrontLength,
-        Self::BackLength,
-        Self::SkirtLength,
-    ];
-
-    /// Name, and definition of a positive amount.
-    const fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Chest => (
-                "chest",
-                "half of the girth 25 mm below the armhole wider: both side seams out from there up to the underarm points; armholes \
-                 lengthen below their middle and sleeves follow at the underarm",
-            ),
-            Self::Waist => (
-                "waist",
-                "half of the waist wider: side seams or outseams out there; of a dress bodice and skirt alike; a waistband follows",
-            ),
-            Self::Hip => ("hip", "half of the girth at the hip wider: side seams or outseams out there"),
-            Self::Hem => ("hem", "half of the lower edge wider: both side seams out there"),
-            Self::Thigh => ("thigh", "half of the leg 25 mm below the fork wider: outseams out there"),
-            Self::Knee => ("knee", "half of the leg at the knee wider: inseams and outseams out there"),
-            Self::LegOpening => ("leg_opening", "half of the leg's lower edge wider: inseams and outseams out there"),
-            Self::Fork => (
-                "fork",
-                "half of the leg at the fork wider: forks of front and back out, inseams with them down to the thigh; the seat seams \
-                 lengthen by it",
-            ),
-            Self::FrontRise => (
-                "front_rise",
-                "front seat seam longer: the upper edge higher there, as before at the outseams, and as long",
-            ),
-            Self::BackRise => (
-                "back_rise",
-                "back seat seam longer: the upper edge higher there, as before at the outseams, and as long",
-            ),
-            Self::LegLength => {
-                ("leg_length", "inseam longer: legs lengthen evenly between fork and lower edge, outseams with them")
-            }
-            Self::ShoulderSlope => (
-                "shoulder_slope",
-                "shoulder points lower, front and back: the shoulder keeps its length, the armhole keeps its own and sinks with it",
-            ),
-            Self::ShoulderLength => {
-                ("shoulder_length", "shoulder longer: shoulder points outwards along it; the armhole keeps its length")
-            }
-            Self::FrontNeckDepth => ("front_neck_depth", "neckline lower at centre front"),
-            Self::BackNeckDepth => ("back_neck_depth", "neckline lower at centre back"),
-            Self::NeckWidth => (
-                "neck_width",
-                "neck wider: high points of the shoulder outwards along it, each by half; the shoulder shortens",
-            ),
-            Self::ArmholeDepth => (
-                "armhole_depth",
-                "underarm points lower along the side seam; the sleeve's underarm points as far down the arm, and across it until the \
-                 cap fits",
-            ),
-            Self::Bicep => (
-                "bicep",
-                "half of the sleeve 25 mm below the armhole wider: its underarm points out, and up until the cap is as long as before",
-            ),
-            Self::Cuff => ("cuff", "half of the sleeve's lower edge wider: the underarm seam out there"),
-            Self::CapHeight => (
-                "cap_height",
-                "cap higher: the sleeve's underarm points down the arm, and inwards until the cap is as long as before",
-            ),
-            Self::SleeveLength => ("sleeve_length", "sleeve longer, evenly between underarm and lower edge"),
-            Self::BodyLength => (
-                "body_length",
-                "front and back longer: slashed straight across below the armhole, side seams with them",
-            ),
-            Self::FrontLength => (
-                "front_length",
-                "front longer in its middle: the lower edge falls between the high points of the shoulder, and not at the side seams",
-            ),
-            Self::BackLength => (
-                "back_length",
-                "back longer in its middle: the lower edge falls between the high points of the shoulder, and not at the side seams",
-            ),
-            Self::SkirtLength => {
-                ("skirt_length", "skirt longer: slashed straight across below the hip, side seams with it")
-            }
-        }
-    }
-
-    /// Name in tables and files.
-    #[must_use]
-    pub const fn as_str(self) -> &'static str {
-        self.words().0
-    }
-
-    /// Definition of a positive amount.
-    #[must_use]
-    pub const fn definition(self) -> &'static str {
-        self.words().1
-    }
-
-    /// True if the amount is the change of half a girth, so that the girth changes by twice the amount.
-    #[must_use]
-    pub const fn is_half_girth(self) -> bool {
-        use Handle::*;
-        matches!(self, Chest | Waist | Hip | Hem | Thigh | Knee | LegOpening | Fork | Bicep | Cuff)
-    }
-
-    /// Handle with a given name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|handle| handle.as_str() == name)
-    }
-
     /// Point of measure that must change by exactly the amount, found by iteration because it depends on more than the
     /// moved points. `None` if moving the points suffices.
     fn aim(self, body: &Body<'_>) -> Option<Point> {
         match self {
             // The waist of a top is at its narrowest girth, whose level shifts.
             Self::Waist if body.trunk.is_none() => Some(Point::HalfWaist),
+            Self::Bust => Some(Point::HalfChest),
             Self::Hip => Some(Point::HalfHip),
             Self::Hem => Some(Point::HalfHem),
             Self::Thigh => Some(Point::HalfThigh),
@@ -275,43 +93,28 @@ impl Handle {
         }
     }
 
-    /// Point of measure that changes by exactly the amount. `None` if none does.
-    #[must_use]
-    pub const fn changes(self) -> Option<Point> {
-        Some(match self {
-            Self::Chest => Point::HalfChest,
-            Self::Waist => Point::HalfWaist,
-            Self::Hip => Point::HalfHip,
-            Self::Hem => Point::HalfHem,
-            Self::Thigh => Point::HalfThigh,
-            Self::Knee => Point::HalfKnee,
-            Self::LegOpening => Point::HalfLegOpening,
-            Self::FrontRise => Point::FrontRise,
-            Self::BackRise => Point::BackRise,
-            Self::LegLength => Point::Inseam,
-            Self::ShoulderLength => Point::Shoulder,
-            Self::FrontNeckDepth => Point::FrontNeckDrop,
-            Self::BackNeckDepth => Point::BackNeckDrop,
-            Self::NeckWidth => Point::NeckWidth,
-            Self::Bicep => Point::HalfBicep,
-            Self::Cuff => Point::HalfCuff,
-            Self::SleeveLength => Point::SleeveLength,
-            Self::BodyLength | Self::SkirtLength => Point::CentreBackLength,
-            _ => return None,
-        })
-    }
-
     fn plan(self, body: &Body<'_>) -> Option<Plan> {
         match self {
             Self::Chest | Self::Waist | Self::Hip | Self::Hem | Self::Thigh | Self::Knee | Self::LegOpening => {
                 girths::plan(body, self)
             }
+            Self::Darts => waist::darts(body),
+            Self::CentreBack => waist::centre_back(body),
             Self::Fork => seat::fork(body),
+            Self::Seat => seat::wedge(body, &seat::SEAT),
+            Self::Abdomen => seat::wedge(body, &seat::ABDOMEN),
+            Self::Rise => seat::depth(body),
             Self::FrontRise => seat::rise(body, Face::Front),
             Self::BackRise => seat::rise(body, Face::Back),
             Self::LegLength => lengths::leg_length(body),
             Self::ShoulderSlope => upper::shoulder_slope(body),
+            Self::ForwardShoulder => upper::forward_shoulder(body),
             Self::ShoulderLength => upper::shoulder_length(body),
+            Self::FrontWidth => across::width(body, Face::Front),
+            Self::BackWidth => across::width(body, Face::Back),
+            Self::UpperBack => across::upper_back(body),
+            Self::Bust => across::bust(body),
+            Self::SwayBack => across::sway_back(body),
             Self::FrontNeckDepth => upper::neck_depth(body, Face::Front),
             Self::BackNeckDepth => upper::neck_depth(body, Face::Back),
             Self::NeckWidth => upper::neck_width(body),
@@ -324,91 +127,6 @@ impl Handle {
             Self::FrontLength => lengths::face_length(body, Face::Front),
             Self::BackLength => lengths::face_length(body, Face::Back),
             Self::SkirtLength => lengths::skirt_length(body),
-        }
-    }
-}
-
-/// Error of changing a style by a handle.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum HandleError {
-    /// The amount is out of range.
-    #[error("handle `{handle}`: {amount_mm:.1} mm; accepted: -{most_mm} to {most_mm} mm", handle = .handle.as_str())]
-    Amount {
-        /// Requested handle.
-        handle: Handle,
-        /// Requested amount, mm.
-        amount_mm: f64,
-        /// Greatest accepted amount either way, mm.
-        most_mm: f64,
-    },
-    /// The style has no such handle.
-    #[error("style `{style}`: there is no handle `{handle}`; there is: {accepted}", handle = .handle.as_str())]
-    Absent {
-        /// Name of the style.
-        style: String,
-        /// Requested handle.
-        handle: Handle,
-        /// Names of the style's handles.
-        accepted: String,
-    },
-    /// The sides of a seam do not stay equally long, or a length cannot be kept.
-    #[error(
-        "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
-    )]
-    Length {
-        /// Handle that was moved.
-        handle: Handle,
-        /// Requested amount, mm.
-        amount_mm: f64,
-        /// Seam with its edges, or the edges of the condition.
-        place: String,
-        /// Deviation as text.
-        found: String,
-        /// Accepted deviation, mm.
-        within_mm: f64,
-    },
-    /// An outline would cross itself.
-    #[error(
-        "handle `{handle}` by {amount_mm:.1} mm: the outline of piece `{piece}` crosses itself at ({u_mm:.0}, {v_mm:.0}) mm; accepted: an \
-         amount that leaves it free of crossings", handle = .handle.as_str()
-    )]
-    Crossing {
-        /// Handle that was moved.
-        handle: Handle,
-        /// Requested amount, mm.
-        amount_mm: f64,
-        /// Identifier of the piece whose outline crosses itself.
-        piece: String,
-        /// First coordinate of the crossing in the plane of the piece, mm.
-        u_mm: f64,
-        /// Second coordinate of the crossing in the plane of the piece, mm.
-        v_mm: f64,
-    },
-    /// A block serves for several pieces of the style, which would change it differently.
-    #[error(
-        "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
-    )]
-    Drawn {
-        /// Name of the block in the pattern file.
-        block: String,
-        /// Greatest distance between the two displaced outlines, mm.
-        apart_mm: f64,
-    },
-    /// Pieces and seam file do not make a style.
-    #[error(transparent)]
-    Style(#[from] StyleError),
-}
-
-impl HandleError {
-    /// Handle that cannot be applied. `None` for an error about the block or the style.
-    #[must_use]
-    pub const fn handle(&self) -> Option<Handle> {
-        match self {
-            Self::Amount { handle, .. }
-            | Self::Absent { handle, .. }
-            | Self::Length { handle, .. }
-            | Self::Crossing { handle, .. } => Some(*handle),
-            Self::Drawn { .. } | Self::Style(_) => None,
         }
     }
 }

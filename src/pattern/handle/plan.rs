@@ -13,12 +13,19 @@ pub struct Move {
     pub at: EdgePoint,
     /// Displacement in the plane of the piece, m/m. For a point that gives way, its direction.
     pub by: V2,
+    /// True at a corner at which a nearly straight edge may turn.
+    pub turns: bool,
 }
 
 impl Move {
     /// Displacement of the point `at` by `by`.
     pub fn new(at: EdgePoint, by: V2) -> Self {
-        Self { at, by }
+        Self { at, by, turns: false }
+    }
+
+    /// Point `at` that stays, and at which a nearly straight edge may turn.
+    pub fn turning(at: EdgePoint) -> Self {
+        Self { at, by: V2::zeros(), turns: true }
     }
 }
 

@@ -24,6 +24,12 @@ const SMOOTH_RAD: f64 = 0.175;
 const END_SHARE: f64 = 0.01;
 /// Least ratio of chord to length of a section whose points are parametrised by the chord.
 const ALONG_CHORD: f64 = 0.5;
+/// Least sine of the angles between the chord of a curve and its directions at both ends, for it to be scaled along these
+/// directions: 6 degrees. A flatter curve would be scaled by far more than its ends move.
+const LEAST_BOW: f64 = 0.1;
+/// Least depth of a curve, m, for it to be sheared so that it keeps its direction at one end: above the amounts by which
+/// ends are moved, so that it bends the same way afterwards.
+const LEAST_DEPTH_M: f64 = 0.02;
 /// Greatest length of a segment of an edge that bends, m. A seam of 100 mm that is moved by 10 mm turns by less than 2
 /// degrees from one segment to the next.
 const SEGMENT_M: f64 = 5e-3;
@@ -47,6 +53,8 @@ struct Outline {
     firsts: Vec<usize>,
     /// Arc lengths of the knots in increasing order.
     knots: Vec<f64>,
+    /// Arc lengths of the knots at which a nearly straight edge may turn.
+    turning: Vec<f64>,
 }
 
 /// True if the outline has a corner at the end of an edge.
@@ -68,7 +76,9 @@ impl<'a> Rig<'a> {
                     None => continue,
                 },
             };
-            outline.add(outline.arc_m(moved));
+            let arc_m = outline.arc_m(moved);
+            outline.add(arc_m);
+            outline.turning.extend(moved.turns.then_some(arc_m));
         }
         Self { style, outlines }
     }
@@ -113,7 +123,7 @@ impl Outline {
             firsts.push(points.len());
         }
         points.push(*points.first()?);
-        let mut outline = Self { line: Polyline::new(points)?, firsts, knots: Vec::new() };
+        let mut outline = Self { line: Polyline::new(points)?, firsts, knots: Vec::new(), turning: Vec::new() };
         for k in 0..edges.len() {
             if outline.is_sharp(outline.firsts[k]) {
                 outline.add(outline.line.arcs()[outline.firsts[k]]);
@@ -174,7 +184,9 @@ impl Outline {
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
-        let bent = self.sections().filter(|(section, ends)| !section.is_stiff && ends.iter().any(|end| is_moved(*end)));
+        let bent = self
+            .sections()
+            .filter(|(section, ends)| section.kind != Kind::Stiff && ends.iter().any(|end| is_moved(*end)));
         let arcs = bent.flat_map(|(section, _)| {
             let [from, to] = section.arcs_m;
             [[from, to], [from - self.length_m(), to - self.length_m()]]
@@ -187,14 +199,20 @@ impl Outline {
         let told = self.told(moves);
         let n = self.line.points().len() - 1;
         let mut moved = vec![V2::zeros(); n];
-        for (section, [from, to]) in self.sections() {
+        let sections: Vec<(Section, [V2; 2])> =
+            self.sections().map(|(section, ends)| (section, ends.map(|end| told[end]))).collect();
+        let count = sections.len();
+        for (k, (section, told)) in sections.iter().enumerate() {
+            let beside = [&sections[(k + count - 1) % count], &sections[(k + 1) % count]];
+            let turns = beside.map(|(other, told)| if section.joins(other) { other.turn(*told) } else { 0.0 });
             for (vertex, moved) in moved.iter_mut().enumerate() {
                 let arcs = [0.0, self.length_m()].map(|round_m| self.line.arcs()[vertex] + round_m);
                 let within = arcs
                     .into_iter()
                     .find(|arc| (section.arcs_m[0] - SAME_M..=section.arcs_m[1] + SAME_M).contains(arc));
                 if let Some(arc_m) = within {
-                    *moved = section.between(section.share(self.line.points()[vertex], arc_m), [told[from], told[to]]);
+                    let place = self.line.points()[vertex];
+                    *moved = section.between(place, section.share(place, arc_m), *told, turns);
                 }
             }
         }
@@ -230,8 +248,28 @@ struct Section {
     /// True if points are parametrised by their projection onto the chord. Where the section turns back, they are
     /// parametrised by arc length.
     by_chord: bool,
-    /// True if the section is straight from corner to corner. It then stays so.
-    is_stiff: bool,
+    /// True for an end at a corner.
+    is_corner: [bool; 2],
+    /// Kind of the section.
+    kind: Kind,
+}
+
+/// Kind of a section, by which the displacement of its ends is carried to its points. The first three are affine maps,
+/// which make no inflection.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Straight from corner to corner, and stays so.
+    Stiff,
+    /// Bends one way, by enough to tell its directions at both ends apart. Is scaled along these directions, so that it
+    /// keeps both.
+    Bow,
+    /// May turn at the given end. Is sheared so that it keeps its direction at the other end.
+    Sheared(usize),
+    /// May turn at the given end, and is too flat to be sheared. Turns as a whole; the section beside it takes up the
+    /// turn.
+    Turned(usize),
+    /// Any other: a cubic Hermite interpolation with the component of the change along the outline as slope at each end.
+    Smooth,
 }
 
 impl Section {
@@ -253,17 +291,59 @@ impl Section {
         places.push(ends[1].dot(&axis));
         let goes_on = places.windows(2).all(|pair| pair[1] >= pair[0] - SAME_M);
         let is_straight = inner.iter().all(|p| segment_distance(&ends[0], &ends[1], p) < STRAIGHT_M);
-        let is_corner = |arc: f64| {
-            let arc = if arc > length_m - SAME_M { arc - length_m } else { arc };
-            outline.firsts.iter().any(|first| (arcs[*first] - arc).abs() < SAME_M && outline.is_sharp(*first))
+        let once = |arc: f64| if arc > length_m - SAME_M { arc - length_m } else { arc };
+        let is_sharp = |first: &usize, arc: f64| (arcs[*first] - once(arc)).abs() < SAME_M && outline.is_sharp(*first);
+        let is_corner = arcs_m.map(|arc| outline.firsts.iter().any(|first| is_sharp(first, arc)));
+        let turns = arcs_m.map(|arc| outline.turning.iter().any(|turning| (turning - once(arc)).abs() < SAME_M));
+        // Sines of the angles between the chord and the directions at the ends, and depths of the section along the
+        // chord's normal to these directions.
+        let sines = [along[0].perp(&axis), axis.perp(&along[1])];
+        let sense = sines[0].signum();
+        let path: Vec<V2> = std::iter::once(ends[0]).chain(inner.iter().copied()).chain([ends[1]]).collect();
+        let bends_on = path.windows(3).all(|p| (p[1] - p[0]).perp(&(p[2] - p[1])) * sense > -SAME_M * SAME_M);
+        let is_deep = |end: usize| bends_on && (sines[end] * chord.norm()).abs() > LEAST_DEPTH_M;
+        let kind = if is_straight && is_corner == [true; 2] {
+            Kind::Stiff
+        } else if bends_on && turns == [false; 2] && sines.iter().all(|sine| sine * sense > LEAST_BOW) {
+            Kind::Bow
+        } else {
+            match turns {
+                [true, false] if is_deep(1) => Kind::Sheared(0),
+                [false, true] if is_deep(0) => Kind::Sheared(1),
+                [true, false] => Kind::Turned(0),
+                [false, true] => Kind::Turned(1),
+                _ => Kind::Smooth,
+            }
         };
         Self {
             arcs_m,
             ends,
             along,
             by_chord: goes_on && chord.norm() > ALONG_CHORD * (arcs_m[1] - arcs_m[0]),
-            is_stiff: is_straight && arcs_m.into_iter().all(is_corner),
+            is_corner,
+            kind,
         }
+    }
+
+    /// True if another section continues this one smoothly at one of its ends, and is turned as a whole about it.
+    fn joins(&self, other: &Self) -> bool {
+        let end = match other.kind {
+            Kind::Turned(end) => 1 - end,
+            _ => return false,
+        };
+        !other.is_corner[end] && self.kind != Kind::Stiff && !matches!(self.kind, Kind::Turned(_))
+    }
+
+    /// Angle by which the section turns as a whole, radians, if its ends are displaced.
+    fn turn(&self, [from, to]: [V2; 2]) -> f64 {
+        let chord = self.ends[1] - self.ends[0];
+        chord.perp(&(to - from)) / chord.norm_squared()
+    }
+
+    /// Coordinates of a vector along the directions at both ends.
+    fn oblique(&self, way: V2) -> [f64; 2] {
+        let [first, last] = self.along;
+        [way.perp(&last) / first.perp(&last), first.perp(&way) / first.perp(&last)]
     }
 
     /// Position along the section, from 0 to 1.
@@ -276,16 +356,30 @@ impl Section {
         }
     }
 
-    /// Displacement at a position along the section, by cubic Hermite interpolation with the component of the change
-    /// along the outline as slope at each end.
-    fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
+    /// Displacement of a point at a position along the section, with the turns of the sections beside it, radians.
+    fn between(&self, place: V2, t: f64, [from, to]: [V2; 2], turns: [f64; 2]) -> V2 {
         let change = to - from;
-        if self.is_stiff {
-            return from + change * t;
-        }
-        let slope = |end: usize| self.along[end] * change.dot(&self.along[end]);
         let (square, cube) = (t * t, t * t * t);
-        let bent = slope(0) * (cube - 2.0 * square + t) + slope(1) * (cube - square);
-        from + change * (3.0 * square - 2.0 * cube) + bent
+        let slopes = [cube - 2.0 * square + t, cube - square];
+        let length_m = self.arcs_m[1] - self.arcs_m[0];
+        let across = |end: usize| V2::new(-self.along[end].y, self.along[end].x) * (turns[end] * length_m);
+        let turned: V2 = (0..2).map(|end| across(end) * slopes[end]).sum();
+        let chord = self.ends[1] - self.ends[0];
+        turned
+            + match self.kind {
+                Kind::Stiff | Kind::Turned(_) => from + change * t,
+                Kind::Bow => {
+                    let [change, chord, own] = [change, chord, place - self.ends[0]].map(|way| self.oblique(way));
+                    from + (0..2).map(|end| self.along[end] * (change[end] * own[end] / chord[end])).sum::<V2>()
+                }
+                Kind::Sheared(end) => {
+                    let kept = self.along[1 - end];
+                    from + change * (kept.perp(&(place - self.ends[0])) / kept.perp(&chord))
+                }
+                Kind::Smooth => {
+                    let slope = |end: usize| self.along[end] * change.dot(&self.along[end]);
+                    from + change * (3.0 * square - 2.0 * cube) + slope(0) * slopes[0] + slope(1) * slopes[1]
+                }
+            }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::body::{Armhole, Body, HalfCap, NEAR_M};
 use super::plan::{Condition, Move, Plan, Term, along, end, start};
-use crate::pom::anatomy::Chain;
+use crate::pom::anatomy::{Chain, Part};
 use crate::pom::top::Centre;
 use crate::propose::Face;
 use crate::style::openings::EdgeEnd;
@@ -23,6 +23,30 @@ pub fn shoulder_slope(body: &Body<'_>) -> Option<Plan> {
     Some(plan)
 }
 
+/// Lowers the front shoulder points and raises the back ones. Shoulders keep their lengths. The halves of a sleeve that
+/// meet at the shoulder shift along the cap.
+pub fn forward_shoulder(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for Shoulder { seam, outwards } in shoulders(body)? {
+        let tip = body.point(end(&seam));
+        let is_front = body.anatomy.parts[tip.edge.piece] == Part::Trunk(Face::Front);
+        plan.drive(tip, if is_front { -V2::y() } else { V2::y() });
+        plan.give(tip, V2::x() * outwards.x.signum());
+        plan.conditions.push(Condition::chain(&seam, 0.0));
+    }
+    hold_across(body, &mut plan);
+    for faces in body.armholes.chunks(Face::BOTH.len()) {
+        let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
+        plan.conditions.push(Condition::edges(&edges, 0.0));
+        let down = |face: &Armhole| face.down(body);
+        plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
+    }
+    for cap in body.caps() {
+        plan.give(cap.top, cap.out);
+    }
+    Some(plan)
+}
+
 /// Moves the shoulder points outwards along the shoulder, front and back. The armhole keeps its length.
 pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
@@ -31,6 +55,7 @@ pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
         plan.drive(tip, outwards);
         plan.give(tip, outwards);
         plan.conditions.push(Condition::chain(&seam, 1.0));
+        plan.moves.push(Move::turning(tip));
     }
     hold_across(body, &mut plan);
     armholes_keep(body, &mut plan);
@@ -45,6 +70,7 @@ pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
         let high = body.point(start(&seam));
         plan.drive(high, outwards * (0.5 / outwards.x.abs()));
         plan.give(high, outwards);
+        plan.moves.push(Move::turning(high));
     }
     for centre in Face::BOTH.into_iter().filter_map(|face| neck_centres(body, face)).flatten() {
         plan.drive(centre, V2::zeros());
@@ -58,11 +84,13 @@ pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
     for at in neck_centres(body, face)? {
         plan.drive(at, -V2::y());
     }
+    let high = body.trunk.as_ref()?.high_points(face).into_iter();
+    plan.moves.extend(high.map(|high| Move::turning(body.point(high))));
     Some(plan)
 }
 
 /// Points of the neckline at its centre, front or back: one, or one on each half.
-fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
+pub fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
     let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
     if let Centre::Within(at) = trunk.neck_centre(face)? {
         let ends = [false, true].map(|is_last| anatomy.point(EdgeEnd::new(at.edge, is_last)));
@@ -149,7 +177,7 @@ fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
 
 impl Armhole {
     /// Unit vector down the first edge of the side seam, at the underarm.
-    fn down(&self, body: &Body<'_>) -> V2 {
+    pub fn down(&self, body: &Body<'_>) -> V2 {
         along(body.anatomy, &vec![self.side[0]])
     }
 }
@@ -162,7 +190,7 @@ pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
 }
 
 /// Point of an armhole at half its height. `None` for one without a shoulder point.
-fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
+pub fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
     let (tip, low) = (body.anatomy.place(armhole.tip?).y, body.anatomy.place(armhole.underarm).y);
     body.anatomy.meeting(&armhole.edges, |p| p.y - 0.5 * (tip + low))
 }
