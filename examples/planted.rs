@@ -150,7 +150,7 @@ fn undone(fault: &Fault, edge_mm: f64, folder: &Path) -> Outcome<String> {
         subject: None,
         size: "planted".to_owned(),
         targets: std::collections::BTreeMap::new(),
-        limit_mm: 60.0,
+        limit_mm: None,
         without: Vec::new(),
         moves_mm: Vec::new(),
         is_draped: false,
