@@ -50,6 +50,16 @@ pub enum BodyError {
         /// Part that cannot be formed, or measurement that is not reached.
         reason: String,
     },
+    /// A figure that a body cannot have.
+    #[error("figure `{figure}`: {problem}; accepted: {accepted}")]
+    Figure {
+        /// Figure as given.
+        figure: String,
+        /// Problem of its name, its amount or its body.
+        problem: String,
+        /// Content that would be accepted.
+        accepted: String,
+    },
     /// A file of measurements cannot be used.
     #[error("found {found}; accepted: {accepted}")]
     Measurements {

@@ -38,6 +38,10 @@ const SLOPE: f64 = 1.5;
 /// Standard deviation of the tape on a smooth skin, m: facets of the mesh, and steps of the search.
 const TAPE: f64 = 0.001;
 
+/// Standard deviation of the place of the crotch point, to front or back, m. Judgement: the skin between the legs is
+/// level over some 20 mm.
+const CROTCH: f64 = 0.004;
+
 /// Distance above and below a level over which the change of its girth is measured, m. Judgement.
 const STEP: f64 = 0.008;
 
@@ -49,6 +53,7 @@ const WAIST: &str = "the waist lies at a share of the stature by definition; a p
 const KNEE_CAP: &str = "the knee cap is not told from the skin: its level follows from stature and crotch";
 const JOINTS: &str = "elbow and wrist joint are told from the line of the arm";
 const BASE: &str = "the base of the neck is where the skin bends";
+const FLOOR: &str = "the skin between the legs is level, and leaves the crotch point open to front and back";
 const FLAT: &str = "a flat summit stands out alike over some height";
 
 /// Uncertainty of every key.
@@ -103,6 +108,8 @@ pub(super) fn uncertainties(mesh: &TriMesh, sites: &Sites, marks: &Marks) -> Vec
         known("front_width_mm", 1.5 * shoulder, SHOULDER),
         known("back_width_mm", 1.5 * shoulder, SHOULDER),
         known("body_rise_mm", TAPE, WAIST),
+        known("crotch_length_front_mm", CROTCH, FLOOR),
+        known("crotch_length_back_mm", CROTCH, FLOOR),
     ]
 }
 

@@ -104,12 +104,12 @@ pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Op
 }
 
 /// Lowest point of the skin between the thighs, in the median plane just above the height of the crotch.
-pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
-    let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
+pub(crate) fn crotch_point(mesh: &impl Sliced, crotch: f64, middle: f64) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, crotch, middle)?;
     let next = outline.points.iter().cycle().skip(1);
-    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > 0.0) != (b.x > 0.0));
-    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (-a.x) / (b.x - a.x)).collect();
-    (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
+    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (middle - a.x) / (b.x - a.x)).collect();
+    (!places.is_empty()).then(|| V3::new(middle, places.iter().sum::<f64>() / places.len() as f64, crotch))
 }
 
 /// Foremost point of one side of the chest at height `z`, or on a flat chest the usual place of the nipple.

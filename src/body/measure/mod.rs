@@ -2,6 +2,7 @@
 
 pub mod arm;
 pub mod confidence;
+pub mod figure_tape;
 pub mod girths;
 pub mod landmarks;
 pub mod lengths;

@@ -104,6 +104,7 @@ pub(super) fn take(mesh: &TriMesh, marks: &Marks) -> Vec<Taken> {
     });
     let shoulder = marks.side_neck.and_then(|neck| taut(mesh, neck, marks.shoulder, V3::z()));
     let rise = median_point(mesh, marks.waist, marks.middle, Side::Front).map(|waist| down(waist, marks.crotch));
+    let crotch = |side: Side| crotch_length(mesh, [marks.crotch, marks.waist], marks.middle, side);
     vec![
         length("armscye_depth_mm", marks.armpit.and_then(|armpit| scye_depth(mesh, marks, armpit.z))),
         length("armscye_width_mm", armscye.as_deref().map(depth_of)),
@@ -117,16 +118,18 @@ pub(super) fn take(mesh: &TriMesh, marks: &Marks) -> Vec<Taken> {
         length("front_width_mm", width(mesh, marks, 1.0)),
         length("back_width_mm", width(mesh, marks, -1.0)),
         length("body_rise_mm", rise),
+        length("crotch_length_front_mm", crotch(Side::Front)),
+        length("crotch_length_back_mm", crotch(Side::Back)),
     ]
 }
 
-fn length_of(path: &[V3]) -> f64 {
+pub(super) fn length_of(path: &[V3]) -> f64 {
     path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
 /// Taut tape between two points of the skin: the convex hull of the section in the plane of both points and `out`, on
 /// the side of `out`. `None` if no outline passes both ends.
-fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
+pub(super) fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
     /// Greatest distance of an end from the outline that the tape follows, m. Judgement.
     const NEAR: f64 = 0.02;
     let along = (to - from).try_normalize(1e-9)?;
@@ -149,6 +152,13 @@ fn taut(mesh: &TriMesh, from: V3, to: V3, out: V3) -> Option<Vec<V3>> {
 /// Armscye depth: from the back neck point down the centre back to the level of the armpit.
 fn scye_depth(mesh: &TriMesh, marks: &Marks, level: f64) -> Option<Vec<V3>> {
     taut(mesh, marks.back_neck, median_point(mesh, level, marks.middle, Side::Back)?, -V3::y())
+}
+
+/// Crotch length front or back: from the waist level in the median plane to the crotch point. `heights` are those of
+/// crotch and waist.
+pub(super) fn crotch_length(mesh: &TriMesh, [crotch, waist]: [f64; 2], middle: f64, side: Side) -> Option<Vec<V3>> {
+    let out = if side == Side::Front { V3::y() } else { -V3::y() };
+    taut(mesh, median_point(mesh, waist, middle, side)?, landmarks::crotch_point(mesh, crotch, middle)?, out)
 }
 
 /// Distance of the armscye outside the armpit, m. Nearer, its plane would cut the trunk.

@@ -5,6 +5,7 @@ use super::fit::{self, Fit};
 use crate::measure::landmarks::{self, Side};
 use crate::measure::sites::Sites;
 use crate::measure::tape;
+use crate::people::figures::TRAITS;
 use crate::people::profile::Profile;
 use crate::shape::figure::Figure;
 use crate::shape::limbs::UPPER_ARM;
@@ -32,16 +33,21 @@ use geom::{TriMesh, V3};
 /// ```
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
-    fit::fit(&profile).and_then(describe).map_err(|error| match error {
+    fit::fit(&profile, [0.0; TRAITS]).and_then(describe).map_err(unformed)
+}
+
+/// Error of a body that cannot be formed, in place of that of a mesh without a part.
+pub(super) fn unformed(error: BodyError) -> BodyError {
+    match error {
         BodyError::MissingPart { part, height_m } => {
             BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {:.0} mm", mm(height_m)) }
         }
         other => other,
-    })
+    }
 }
 
 /// Finds landmarks, control mesh and joints of a fitted skin.
-fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
+pub(super) fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
     let Fit { figure, mesh, sites, girths } = fit;
     let landmarks = find_landmarks(&mesh, &figure, &sites)?;
     let mut control = control_mesh(&mesh, &cuts(&mesh, &figure, &sites, &landmarks))?;
@@ -71,7 +77,7 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
             .ok_or_else(|| missing("front neck", front_height))?,
         armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
         bust: [bust(1.0)?, bust(-1.0)?],
-        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+        crotch: landmarks::crotch_point(mesh, sites.crotch, 0.0).ok_or_else(|| missing("crotch", sites.crotch))?,
     })
 }
 

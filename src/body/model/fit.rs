@@ -7,6 +7,7 @@ use crate::measure::girths::Girths;
 use crate::measure::sites::{self, Sites};
 use crate::measure::tape::Neck;
 use crate::people::dimension::{COUNT, Dimension};
+use crate::people::figures::{ByTrait, TRAITS};
 use crate::people::profile::Profile;
 use crate::shape::figure::{Factors, Figure};
 use crate::{BodyError, Sex};
@@ -37,27 +38,28 @@ pub(super) struct Fit<'a> {
     pub girths: Girths,
 }
 
-/// Makes the skin of a profile and fits it to the requested measurements.
-pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
+/// Makes the skin of a profile and fits it to the requested measurements. `doses` are the strengths of the bends by which
+/// the body departs from the standard body.
+pub(super) fn fit(profile: &Profile, doses: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     static MALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Male));
     static FEMALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Female));
     let factors = match profile.sex {
         Sex::Male => &MALE,
         Sex::Female => &FEMALE,
     };
-    fit_from(profile, **factors)
+    fit_from(profile, **factors, doses)
 }
 
 /// Factors for which the person of the template measures as requested. They are a good start for others, because the
 /// difference between skin and figure varies little.
 fn start(sex: Sex) -> Factors {
     let person = Template::person(sex);
-    fit_from(&person, [1.0; COUNT]).map_or([1.0; COUNT], |fit| fit.figure.factors)
+    fit_from(&person, [1.0; COUNT], [0.0; TRAITS]).map_or([1.0; COUNT], |fit| fit.figure.factors)
 }
 
-fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
+fn fit_from(profile: &Profile, factors: Factors, doses: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
     let template = Template::of(profile.sex);
-    let figure = Figure { factors, ..Figure::new(profile) };
+    let figure = Figure { factors, doses, ..Figure::new(profile) };
     let mesh = template.dress(&figure);
     let sites = figure_sites::find(&mesh, &figure)?;
     let girths = read(&mesh, &figure, &sites)?;

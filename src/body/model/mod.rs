@@ -5,6 +5,7 @@ pub mod control;
 pub mod control_cut;
 pub mod control_file;
 mod figure_sites;
+pub mod figured;
 mod fit;
 mod limb_tape;
 mod template;

@@ -5,6 +5,7 @@
 //! positions by all of them are blended. All bodies of a sex thus have the same topology and vertex order.
 
 use crate::people::profile::Profile;
+use crate::shape::bend::Bend;
 use crate::shape::field::{NEAR, Parts};
 use crate::shape::figure::Figure;
 use crate::shape::loft::{Loft, Part, Place, Ring, column};
@@ -27,6 +28,9 @@ const ANKLE: f64 = 0.045;
 
 /// Difference between the distances from two parts up to which a vertex is bound to both, m. Judgement.
 const MIXING: f64 = 0.08;
+
+/// Parts whose skin bends: trunk and leg. Arms move with the shoulder joint.
+const BENT: [usize; 2] = [0, 3];
 
 /// Number of smoothing passes where trunk and limbs meet, and step of a pass. Judgement.
 const EVENING_PASSES: usize = 30;
@@ -136,12 +140,17 @@ impl Template {
         let parts = figure.parts();
         let rings: [Vec<Ring>; 5] = std::array::from_fn(|i| parts[i].like(&self.parts[i], &self.rings[i]));
         let scale = figure.stature() / self.stature;
+        let bend = Bend::of(figure);
         let weighted_place = |tie: &Tie| {
             let (low, high) = (&rings[tie.part][tie.ring], &rings[tie.part][tie.ring + 1]);
             let mix = |a: f64, b: f64| a + (b - a) * tie.share;
             let radius = mix(low.radius(tie.column), high.radius(tie.column)) + tie.off * scale;
             let local = low.centre.lerp(&high.centre, tie.share) + tie.direction * radius;
             let point = parts[tie.part].lift(local, mix(low.at, high.at) + tie.past * scale);
+            let point = match &bend {
+                Some(bend) if BENT.contains(&tie.part) => bend.moved(point),
+                _ => point,
+            };
             let side = if tie.left { -1.0 } else { 1.0 };
             V3::new(side * point.x, point.y, point.z) * tie.weight
         };
@@ -157,7 +166,8 @@ impl Template {
         let stretch = figure.stature() / crown;
         let image = |&Image { vertex, is_mirrored }: &Image| {
             let p: V3 = right[vertex];
-            V3::new(if is_mirrored { -p.x } else { p.x }, p.y, p.z * stretch)
+            let raised = bend.as_ref().filter(|_| !is_mirrored).map_or(p.z, |bend| p.z + bend.raised(p));
+            V3::new(if is_mirrored { -p.x } else { p.x }, p.y, raised * stretch)
         };
         TriMesh { positions: self.images.iter().map(image).collect(), triangles: self.triangles.clone() }
     }

@@ -2,6 +2,7 @@
 
 pub mod dimension;
 pub mod draw;
+pub mod figures;
 pub mod foreign;
 pub mod likely;
 pub mod profile;

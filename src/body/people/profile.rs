@@ -42,6 +42,12 @@ impl Profile {
         self.values[dimension as usize]
     }
 
+    /// Adds an amount to an estimate, m, and holds it as if it were measured.
+    pub fn depart(&mut self, dimension: Dimension, amount: f64) {
+        self.values[dimension as usize] += amount;
+        self.given[dimension as usize] = true;
+    }
+
     /// True if a dimension was measured.
     pub fn is_given(&self, dimension: Dimension) -> bool {
         self.given[dimension as usize]

@@ -7,6 +7,7 @@ use super::atlas::Atlas;
 use super::interpolate::Monotone;
 use super::loft::{Part, Shape, Station};
 use crate::people::dimension::{COUNT, Dimension};
+use crate::people::figures::{ByTrait, TRAITS, Trait};
 use crate::people::profile::Profile;
 use geom::{V2, V3, smooth_step};
 
@@ -27,12 +28,15 @@ pub(crate) struct Figure<'a> {
     /// Factors of the dimensions of the profile, indexed by [`Dimension`]. They are adjusted until the tape reads the
     /// requested dimensions on the skin.
     pub factors: Factors,
+    /// Strength of the bends of the skin and the moves of the shoulder by which the body departs from the standard body,
+    /// m. 0 for the standard body.
+    pub doses: ByTrait<f64>,
 }
 
 impl<'a> Figure<'a> {
     /// The figure before any fitting.
     pub fn new(profile: &'a Profile) -> Self {
-        Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT] }
+        Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT], doses: [0.0; TRAITS] }
     }
 
     /// Dimension times its factor, m.
@@ -114,8 +118,13 @@ impl<'a> Figure<'a> {
         z_neck
     }
 
+    /// Height of the shoulder point, m.
+    pub fn shoulder_height(&self) -> f64 {
+        self.atlas.shoulder * self.stature() - self.doses[Trait::ShoulderSlope as usize]
+    }
+
     /// Inner end of the shoulder line: distance from the median plane, and height.
-    fn shoulder_line(&self) -> (f64, f64) {
+    pub(super) fn shoulder_line(&self) -> (f64, f64) {
         let h = self.stature();
         let x_neck = self.atlas.neck_half_width * h * self.neck_factor() * 1.10;
         let z_shoulder = self.atlas.shoulder * h;
@@ -211,7 +220,7 @@ impl<'a> Figure<'a> {
         let outline = self.neck_outline();
         let neck = self.neck_factor();
         let x_shoulder = self.shoulder_x();
-        let z_shoulder = self.atlas.shoulder * h;
+        let z_shoulder = self.shoulder_height();
         let (x_neck, z_neck) = self.shoulder_line();
         let rise = z_neck - z_shoulder;
         let on_line = |share: f64| (z_shoulder + rise * share, x_shoulder + (x_neck - x_shoulder) * share);

@@ -6,6 +6,7 @@ use super::figure::{ELLIPSE, Figure};
 use super::loft::{Part, Shape, Station, dome};
 use crate::measure::AxisPoint;
 use crate::people::dimension::Dimension;
+use crate::people::figures::Trait;
 use geom::{V2, V3};
 
 /// Angle of the arms from the vertical, radians. Judgement.
@@ -35,13 +36,14 @@ impl Figure<'_> {
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
-        let z = self.atlas.shoulder * h - radius;
+        let z = self.shoulder_height() - radius;
         let (sin, cos) = ARM_ANGLE.sin_cos();
         let trunk = &self.trunk_sections()[8];
         // Height at which the lower edge of the arm would meet the side of the trunk with the joint at x = 0.
         let meets = z - (trunk.half_width * cos + radius) / sin;
         let clear = (self.atlas.chest * h + ARMPIT_ABOVE_CHEST * h - meets) * sin / cos;
-        V3::new((self.size(Dimension::ShoulderBreadth) / 2.0 - radius).max(clear), -0.014 * h, z)
+        let forward = self.doses[Trait::ShoulderForward as usize];
+        V3::new((self.size(Dimension::ShoulderBreadth) / 2.0 - radius).max(clear), -0.014 * h + forward, z)
     }
 
     fn deltoid_radius(&self) -> f64 {
