@@ -46,6 +46,10 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
 
 fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
     let Alteration { garment, subject, size, .. } = found;
+    for told in found.figures.iter().filter(|told| told.handle.is_none()) {
+        let figure = told.figure.replace('_', " ");
+        context.say(format_args!("{figure}, {:.0} mm: this pattern has no handle for it", told.amount_mm));
+    }
     output::text(&format!("{garment} {size} for {subject}: "))?;
     match found.moves.as_slice() {
         [] => output::text("nothing to change\n")?,
@@ -68,7 +72,7 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 }
 
 fn moves(found: &Alteration) -> Table {
-    let columns = ["handle", "by_mm", "of", "girth_mm", "pieces"];
+    let columns = ["handle", "by_mm", "of", "girth_mm", "for", "pieces"];
     let row = |moved: &advice::MovedHandle| {
         let by = |mm: f64| Value::Text(format!("{mm:+.1}"));
         // Half of a girth changes by the amount, and the girth by twice as much.
@@ -76,8 +80,8 @@ fn moves(found: &Alteration) -> Table {
             true => [Value::Text("half girth".to_owned()), by(2.0 * moved.amount_mm)],
             false => [Value::Null, Value::Null],
         };
-        let pieces = Value::Text(moved.pieces.join(", "));
-        vec![Value::Text(moved.handle.replace('_', " ")), by(moved.amount_mm), of, girth, pieces]
+        let [serves, pieces] = [&moved.serves, &moved.pieces].map(|all| Value::Text(all.join(", ").replace('_', " ")));
+        vec![Value::Text(moved.handle.replace('_', " ")), by(moved.amount_mm), of, girth, serves, pieces]
     };
     Table::new(columns, found.moves.iter().map(row))
 }

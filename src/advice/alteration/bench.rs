@@ -50,7 +50,10 @@ pub struct Bench<'a> {
     pub wish: &'a Wish,
     body: &'a Body,
     target: &'a Target,
+    /// Ease at every level: of the style as it is, and with the given moves.
     before: BTreeMap<String, f64>,
+    given: Vec<(Handle, f64)>,
+    fitted: BTreeMap<String, f64>,
     /// Sensitivity of every level to each handle, and the cost of the handle, in the order of `handles`; empty where
     /// amounts are given.
     changes: Vec<Sensitivity>,
@@ -58,17 +61,26 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// Measures the ease of a style, and finds its handles and their effects.
-    pub fn new(style: &'a Style, body: &'a Body, target: &'a Target, wish: &'a Wish) -> Self {
+    /// Measures the ease of a style, and finds its handles and their effects. `given` moves come first, and are no part
+    /// of the search.
+    ///
+    /// # Errors
+    /// When a given handle cannot move so far.
+    pub fn new(
+        style: &'a Style,
+        given: Vec<(Handle, f64)>,
+        (body, target, wish): (&'a Body, &'a Target, &'a Wish),
+    ) -> Result<Self> {
         let before = eases(style, body);
+        let fitted = eases(&style.moved(&given).origin(Origin::Alter)?, body);
         let (handles, changes, costs, left_out) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut bench = Self { style, handles, left_out, wish, body, target, before, changes, costs };
+        let mut bench = Self { style, handles, left_out, wish, body, target, before, given, fitted, changes, costs };
         if wish.moves_mm.is_empty() {
             bench.see_handles();
         } else {
             bench.handles = wish.moves_mm.iter().map(|(handle, _)| *handle).collect();
         }
-        bench
+        Ok(bench)
     }
 
     /// True if the style has ease at a level.
@@ -167,7 +179,7 @@ impl<'a> Bench<'a> {
             let sensitivity: Vec<f64> =
                 self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
             let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
-            let is_met = self.before.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
+            let is_met = self.fitted.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
             let band = if is_met { [least, most] } else { [least + inside, most - inside] };
             Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M2) })
         };
@@ -187,10 +199,22 @@ impl<'a> Bench<'a> {
         Ok(self.before.keys().filter_map(missed).sum())
     }
 
-    /// Handles that move, with their amounts, m.
+    /// Handles that move, with their amounts, m: the given ones, then those of the search.
     pub fn moves(&self, amounts: &[f64]) -> Vec<(Handle, f64)> {
         let all = self.handles.iter().copied().zip(amounts.iter().copied());
-        all.filter(|(_, amount_m)| amount_m.abs() > 1e-6).collect()
+        self.given.iter().copied().chain(all.filter(|(_, amount_m)| amount_m.abs() > 1e-6)).collect()
+    }
+
+    /// Levels that a handle brings into their targets: those missed without it that it changes.
+    pub fn serves(&self, handle: Handle) -> Vec<String> {
+        let Some(place) = self.handles.iter().position(|other| *other == handle) else { return Vec::new() };
+        let Some(changes) = self.changes.get(place) else { return Vec::new() };
+        let is_missed = |level: &&String| {
+            let band = self.band_m(level).zip(self.fitted.get(*level));
+            band.is_some_and(|([least, most], ease_m)| !(least..=most).contains(ease_m))
+        };
+        let does = |level: &&String| changes.get(*level).is_some_and(|by| by.abs() >= LEAST_EFFECT);
+        self.before.keys().filter(is_missed).filter(does).cloned().collect()
     }
 
     /// Returns the style with its handles moved by their amounts, m.
@@ -204,8 +228,12 @@ impl<'a> Bench<'a> {
     /// Finds the handles that can move, with their sensitivities, and the reasons why others cannot.
     fn see_handles(&mut self) {
         let asks_else = self.wish.targets.keys().any(|name| !self.has_level(name));
-        for handle in self.style.handles().into_iter().filter(|handle| !self.wish.without.contains(handle)) {
-            let moved = |by_m: f64| self.style.moved(&[(handle, by_m)]).map(|style| eases(&style, self.body));
+        let is_free = |handle: &Handle| {
+            !self.wish.without.contains(handle) && !self.given.iter().any(|(given, _)| given == handle)
+        };
+        for handle in self.style.handles().into_iter().filter(is_free) {
+            let moved_style = |by_m: f64| self.style.moved(&[self.given.as_slice(), &[(handle, by_m)]].concat());
+            let moved = |by_m: f64| moved_style(by_m).map(|style| eases(&style, self.body));
             match (moved(STEP_M), moved(-STEP_M)) {
                 (Ok(more), Ok(less)) => {
                     let change = |(level, more_m): (&String, &f64)| {
@@ -214,7 +242,7 @@ impl<'a> Bench<'a> {
                     let changes: Sensitivity = more.iter().filter_map(change).collect();
                     let is_meant = |level: &str| self.band_m(level).is_some();
                     let pieces =
-                        self.style.moved(&[(handle, STEP_M)]).map_or(0, |moved| changed_pieces(self.style, &moved));
+                        self.style.moved(&[(handle, STEP_M)]).map_or(0, |moved| drawn_pieces(self.style, &moved));
                     if asks_else || changes.iter().any(|(level, by)| is_meant(level) && by.abs() >= LEAST_EFFECT) {
                         self.changes.push(changes);
                         self.costs.push(1.0 + PER_PIECE * pieces as f64);
@@ -280,7 +308,7 @@ fn drawn_m(amount_m: f64) -> f64 {
 }
 
 /// Number of drawn pieces whose outlines differ. A piece and its mirror image are drawn once.
-fn changed_pieces(style: &Style, changed: &Style) -> usize {
+fn drawn_pieces(style: &Style, changed: &Style) -> usize {
     let differs = |(was, is): (&StylePiece, &StylePiece)| was.outline() != is.outline();
     let round_m = |piece: &StylePiece| piece.edges.iter().map(|edge| edge.line.length()).sum::<f64>();
     // A piece is its image if their outlines are equally long.
@@ -310,10 +338,10 @@ mod tests {
                 .with(Dimension::WaistGirth, waist_m)
                 .with(Dimension::HipGirth, hip_m);
             let (body, target) = (build_body(&person).expect("a body"), Target::default());
-            let bench = Bench::new(&style, &body, &target, &wish);
+            let bench = Bench::new(&style, Vec::new(), (&body, &target, &wish)).expect("a bench");
             let amounts = bench.found(&[]).expect("handles that move");
             let moves = bench.moves(&amounts);
-            assert!(moves.iter().all(|(_, by_m)| mm(by_m.abs()) > LEAST_MM - 1e-6), "{chest_m}: {moves:?}");
+            assert!(moves.iter().all(|(_, by_m)| mm(by_m.abs()) > DRAWN_MM - 1e-6), "{chest_m}: {moves:?}");
             assert_eq!(bench.missed_m(&amounts).expect("it moves"), 0.0, "{chest_m}: {moves:?}");
         };
         check([1.78, 0.98, 0.85, 1.00]);

@@ -5,6 +5,7 @@
 //! predicted by its linear response to the handles, and checked by draping again (`fitting_room`, `readings`).
 
 mod bench;
+mod figure;
 mod fitting_room;
 mod readings;
 mod tried;
@@ -15,6 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use crate::alteration::bench::Bench;
+pub use crate::alteration::figure::ForFigure;
 use crate::alteration::fitting_room::FittingRoom;
 use crate::alteration::tried::Tried;
 use body::Body;
@@ -97,6 +99,8 @@ pub struct MovedHandle {
     pub is_half_girth: bool,
     /// Pieces that it changes, as the seam file names them.
     pub pieces: Vec<String>,
+    /// Figures and levels that it is for.
+    pub serves: Vec<String>,
 }
 
 /// Ease at a level, before and after.
@@ -217,6 +221,8 @@ pub struct Alteration {
     pub subject: String,
     /// Name of the changed size.
     pub size: String,
+    /// Figures of the subject that no girth tells, with the handles for them.
+    pub figures: Vec<ForFigure>,
     /// Handles that move.
     pub moves: Vec<MovedHandle>,
     /// Ease at every level, from the neck down.
@@ -251,7 +257,8 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let Asked { spec, others, target } = asked(study, wish)?;
     let body = spec.person.body()?;
     let style = stages::style(&spec)?;
-    let bench = Bench::new(&style, &body, &target, wish);
+    let figures = if wish.moves_mm.is_empty() { figure::of(&style, &body, wish)? } else { Vec::new() };
+    let bench = Bench::new(&style, summed(&figures), (&body, &target, wish))?;
     let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
     let room = (asks_drape || wish.is_draped).then(|| FittingRoom::new(&spec, &body)).transpose()?;
     let found = match &room {
@@ -278,12 +285,19 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         pieces: style
             .moved(&[(*handle, *amount_m)])
             .map_or_else(|_| Vec::new(), |alone| changed_pieces(&style, &alone)),
+        serves: figures
+            .iter()
+            .filter(|(_, own)| own.is_some_and(|own| own.0 == *handle))
+            .map(|(told, _)| told.figure.to_owned())
+            .chain(bench.serves(*handle))
+            .collect(),
     };
     Ok(Alteration {
         garment: spec.garment.clone(),
         subject: spec.subject.clone(),
         size: spec.size.clone(),
         moves: moves.iter().map(moved).collect(),
+        figures: figures.iter().map(|(told, _)| told.clone()).collect(),
         levels,
         readings: found.readings(wish),
         drapes: found.drapes,
@@ -291,6 +305,15 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         drape: found.after.map(|(redraped, _)| redraped),
         files: written.files,
     })
+}
+
+/// Moves for all figures, each handle once.
+fn summed(figures: &[(ForFigure, Option<(Handle, f64)>)]) -> Vec<(Handle, f64)> {
+    let mut moves: BTreeMap<Handle, f64> = BTreeMap::new();
+    for (handle, amount_m) in figures.iter().filter_map(|(_, own)| *own) {
+        *moves.entry(handle).or_default() += amount_m;
+    }
+    moves.into_iter().filter(|(_, amount_m)| *amount_m != 0.0).collect()
 }
 
 /// Names of the pieces whose outlines differ.
@@ -314,7 +337,7 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     let Asked { spec, target, .. } = asked(study, wish)?;
     let body = spec.person.body()?;
     let style = stages::style(&spec)?;
-    let bench = Bench::new(&style, &body, &target, wish);
+    let bench = Bench::new(&style, Vec::new(), (&body, &target, wish))?;
     let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;
     let eases = bench.levels(&style, &style).into_iter();
     let ease = |level: AlteredLevel| Standing { name: level.level, unit: "mm", value: level.before_mm, is_ease: true };

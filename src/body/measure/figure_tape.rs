@@ -82,9 +82,11 @@ impl Tape<'_> {
     fn depth(&self, z: f64) -> Option<[f64; 2]> {
         let near = |p: &&V2| (p.x - self.sites.middle).abs() < CENTRAL * self.stature;
         let outline = self.trunk(z)?;
-        let ends = outline.points.iter().filter(near).fold([f64::NEG_INFINITY, f64::INFINITY], |[front, back], p| {
-            [front.max(p.y), back.min(p.y)]
-        });
+        let ends = outline
+            .points
+            .iter()
+            .filter(near)
+            .fold([f64::NEG_INFINITY, f64::INFINITY], |[front, back], p| [front.max(p.y), back.min(p.y)]);
         ends.iter().all(|y| y.is_finite()).then_some(ends)
     }
 
@@ -119,7 +121,11 @@ impl Tape<'_> {
         let ring = hull::convex_hull(&chest.points);
         let part = |(a, b): (&V2, &V2)| {
             let [near, far] = [a, b].map(|p| p.y - side);
-            let share = if (near > 0.0) == (far > 0.0) { f64::from(u8::from(near > 0.0)) } else { near.max(far) / (near - far).abs() };
+            let share = if (near > 0.0) == (far > 0.0) {
+                f64::from(u8::from(near > 0.0))
+            } else {
+                near.max(far) / (near - far).abs()
+            };
             share * (b - a).norm()
         };
         Some(ring.iter().zip(ring.iter().cycle().skip(1)).map(part).sum::<f64>() / 2.0)

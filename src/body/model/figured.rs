@@ -54,7 +54,8 @@ pub fn build_figured(known: &Measurements, figures: &Figures) -> Result<Body, Bo
         return build(known);
     }
     let profile = departed(known, figures)?;
-    let asked: ByTrait<f64> = std::array::from_fn(|i| if is_dimension(Trait::ALL[i]) { 0.0 } else { figures.amount(Trait::ALL[i]) });
+    let asked: ByTrait<f64> =
+        std::array::from_fn(|i| if is_dimension(Trait::ALL[i]) { 0.0 } else { figures.amount(Trait::ALL[i]) });
     bent(&profile, asked).and_then(build::describe).map_err(build::unformed)
 }
 
@@ -117,14 +118,19 @@ fn bent(profile: &Profile, asked: ByTrait<f64>) -> Result<Fit<'_>, BodyError> {
         doses = std::array::from_fn(|i| {
             // A trait that is asked answers as it did, the others as they usually do.
             let reached = (asked[i] - error[i]) / asked[i];
-            let next = if asked[i] == 0.0 { doses[i] + GAINS[i] * error[i] } else { doses[i] / reached.clamp(0.5, 2.0) };
+            let next =
+                if asked[i] == 0.0 { doses[i] + GAINS[i] * error[i] } else { doses[i] / reached.clamp(0.5, 2.0) };
             next.clamp(-MOST, MOST)
         });
     }
     let (_, fit, error) = best.expect("there is a first try");
     let unmet = (0..TRAITS).find(|&i| error[i].abs() > TOLERANCE.max(TOLERATED * asked[i].abs()));
     let Some(i) = unmet else { return Ok(fit) };
-    let which = if asked[i] == 0.0 { (0..TRAITS).max_by(|&a, &b| asked[a].abs().total_cmp(&asked[b].abs())).unwrap_or(i) } else { i };
+    let which = if asked[i] == 0.0 {
+        (0..TRAITS).max_by(|&a, &b| asked[a].abs().total_cmp(&asked[b].abs())).unwrap_or(i)
+    } else {
+        i
+    };
     let figure = Trait::ALL[which].figure(asked[which]).unwrap_or_default();
     Err(BodyError::Figure {
         figure: format!("{figure}={:.0}", mm(asked[which].abs())),
@@ -200,7 +206,13 @@ pub fn figures(body: &Body) -> Result<Vec<FigureFound>, BodyError> {
             None => Some(found[of as usize]? - usual[of as usize]?),
         }
     };
-    let told = |of: Trait| Some(FigureFound { of, amount_mm: mm(amount(of)?), sd_mm: mm(DEVIATIONS[of as usize] * stature / USUAL_STATURE) });
+    let told = |of: Trait| {
+        Some(FigureFound {
+            of,
+            amount_mm: mm(amount(of)?),
+            sd_mm: mm(DEVIATIONS[of as usize] * stature / USUAL_STATURE),
+        })
+    };
     Ok(Trait::ALL.into_iter().filter_map(told).collect())
 }
 

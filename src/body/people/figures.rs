@@ -47,19 +47,7 @@ impl Trait {
     /// All traits.
     pub const ALL: [Self; TRAITS] = {
         use Trait::*;
-        [
-            Seat,
-            Abdomen,
-            SwayBack,
-            UpperBack,
-            Bust,
-            ShoulderSlope,
-            ShoulderForward,
-            UpperArm,
-            Thigh,
-            Rise,
-            HighHip,
-        ]
+        [Seat, Abdomen, SwayBack, UpperBack, Bust, ShoulderSlope, ShoulderForward, UpperArm, Thigh, Rise, HighHip]
     };
 
     /// Name of the figure with more (`amount` above 0) or less of the trait. `None` where the trade has no name for it.
@@ -140,7 +128,8 @@ impl Figures {
     pub fn read<'a>(texts: impl IntoIterator<Item = &'a str>) -> Result<Self, BodyError> {
         let mut figures = Self::default();
         for text in texts {
-            let (name, degree) = text.split_once('=').map_or((text, None), |(name, degree)| (name, Some(degree.trim())));
+            let (name, degree) =
+                text.split_once('=').map_or((text, None), |(name, degree)| (name, Some(degree.trim())));
             let named = named_figure(name.trim(), text)?;
             let amount = named.sign * named.amount(degree, text)?;
             if figures.0.insert(named.of, amount).is_some() {
@@ -201,7 +190,11 @@ impl Named {
         let most = (self.usual_mm[2] * MOST).round();
         let number = degree.strip_suffix("mm").unwrap_or(degree).trim().parse::<f64>().ok();
         number.filter(|amount| *amount > 0.0 && *amount <= most).ok_or_else(|| {
-            refused(text, format!("`{degree}` is no degree"), format!("{}, or above 0 to {most} mm", DEGREES.join(", ")))
+            refused(
+                text,
+                format!("`{degree}` is no degree"),
+                format!("{}, or above 0 to {most} mm", DEGREES.join(", ")),
+            )
         })
     }
 }

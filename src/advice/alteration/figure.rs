@@ -1,0 +1,83 @@
+//! Alterations for the figure of a subject: the handle that the trade uses for each trait, and its amount.
+//!
+//! A pattern is taken as drafted for the standard figure of its size. So a trait asks for as much as the body departs
+//! from the standard body of its own measurements.
+
+use serde::Serialize;
+
+use crate::alteration::Wish;
+use body::{Body, Trait};
+use geom::units::from_mm;
+use pattern::pom::Point;
+use pattern::{Handle, Style};
+use store::{InOrigin, Origin, Result};
+
+/// Movement of a handle by which the change of its point of measure is found, m.
+const STEP_M: f64 = 0.002;
+/// Step of amounts in a pattern maker's drawing, mm.
+const DRAWN_MM: f64 = 0.5;
+
+/// Handles for a trait, the first that a style has, each with the point of measure that changes by the amount of the
+/// trait; without one the handle moves by that amount. Sources: [Liechty10, Armstrong10, Aldrich15].
+const REMEDIES: [(Trait, &[(Handle, Option<Point>)]); 8] = [
+    (Trait::Seat, &[(Handle::Seat, Some(Point::BackRise)), (Handle::BackRise, None)]),
+    (
+        Trait::Abdomen,
+        &[(Handle::Abdomen, Some(Point::FrontRise)), (Handle::FrontRise, None), (Handle::FrontLength, None)],
+    ),
+    (Trait::SwayBack, &[(Handle::SwayBack, None), (Handle::BackRise, None), (Handle::BackLength, None)]),
+    (Trait::UpperBack, &[(Handle::UpperBack, None)]),
+    (Trait::Bust, &[(Handle::Bust, None)]),
+    (Trait::ShoulderSlope, &[(Handle::ShoulderSlope, None)]),
+    (Trait::ShoulderForward, &[(Handle::ForwardShoulder, None)]),
+    (Trait::Rise, &[(Handle::Rise, None)]),
+];
+
+/// A trait of the subject, and the alteration for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ForFigure {
+    /// Name of the figure, such as `flat_seat`.
+    pub figure: &'static str,
+    /// Amount of the trait on the body, mm.
+    pub amount_mm: f64,
+    /// Handle for it; `None` where the style has none, or the amount is beyond what is cut.
+    pub handle: Option<&'static str>,
+    /// Amount of the handle, mm.
+    pub by_mm: f64,
+}
+
+/// Finds the clear traits of a body that no girth tells, and the handles of a style for them.
+///
+/// # Errors
+/// When no standard body has the measurements of the body.
+pub fn of(style: &Style, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Option<(Handle, f64)>)>> {
+    let known = style.handles();
+    let found = body::figures(body).origin(Origin::Body)?;
+    let clear = found.iter().filter(|found| found.is_clear());
+    let asked = clear.filter_map(|found| REMEDIES.iter().find(|(of, _)| *of == found.of).map(|(_, all)| (found, all)));
+    let remedy = |(found, handles): (&body::FigureFound, &&[(Handle, Option<Point>)])| {
+        let own = handles.iter().find(|(handle, _)| known.contains(handle) && !wish.without.contains(handle));
+        let by_mm = own.map_or(0.0, |(handle, point)| found.amount_mm / ratio(style, *handle, *point));
+        let most_mm = own.map_or(0.0, |(handle, _)| wish.limit_mm.unwrap_or_else(|| handle.most_mm()));
+        let by_mm = (by_mm.clamp(-most_mm, most_mm) / DRAWN_MM).round() * DRAWN_MM;
+        let told = ForFigure {
+            figure: found.name().unwrap_or_default(),
+            amount_mm: found.amount_mm,
+            handle: own.map(|(handle, _)| handle.as_str()),
+            by_mm,
+        };
+        (told, own.filter(|_| by_mm != 0.0).map(|(handle, _)| (*handle, from_mm(by_mm))))
+    };
+    Ok(asked.map(remedy).collect())
+}
+
+/// Change of a point of measure by a handle, m/m; 1 without a point, or where it cannot be measured.
+fn ratio(style: &Style, handle: Handle, point: Option<Point>) -> f64 {
+    let length_m = |style: &Style| {
+        style.points_of_measure().iter().find(|found| Some(found.point) == point).map(|found| found.length_m)
+    };
+    let moved = style.moved(&[(handle, STEP_M)]).ok();
+    let change =
+        moved.as_ref().and_then(length_m).zip(length_m(style)).map(|(after, before)| (after - before) / STEP_M);
+    change.filter(|by| *by > 0.1).unwrap_or(1.0)
+}
