@@ -8,7 +8,8 @@ mod grading;
 pub mod population;
 
 pub use alteration::{
-    Alteration, AlteredLevel, AlteredReading, ForFigure, MovedHandle, Redraped, Standing, Wish, alter, standing,
+    Alteration, AlteredLevel, AlteredReading, ForFigure, MovedHandle, Redraped, SignRead, Standing, Wish, alter,
+    standing,
 };
 pub use chance::{
     Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,

@@ -67,6 +67,10 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
     if let Some(drape) = &found.drape {
         output::text(&format!("draped again: {}\n", drape.words()))?;
     }
+    for advice::SignRead { sign, value, unit, cause, handles, .. } in &found.signs {
+        let handles = if handles.is_empty() { "no handle of this pattern".to_owned() } else { handles.join(", ") };
+        output::text(&format!("sign: {sign}, {value:+.0} {unit}: {cause}, altered by {handles}\n"))?;
+    }
     found.remarks.iter().for_each(|remark| context.say(format_args!("{remark}")));
     Ok(())
 }

@@ -243,7 +243,10 @@ impl<'a> Bench<'a> {
                     let is_meant = |level: &str| self.band_m(level).is_some();
                     let pieces =
                         self.style.moved(&[(handle, STEP_M)]).map_or(0, |moved| drawn_pieces(self.style, &moved));
-                    if asks_else || changes.iter().any(|(level, by)| is_meant(level) && by.abs() >= LEAST_EFFECT) {
+                    let is_for_ease = !handle.is_for_figure();
+                    if asks_else
+                        || is_for_ease && changes.iter().any(|(level, by)| is_meant(level) && by.abs() >= LEAST_EFFECT)
+                    {
                         self.changes.push(changes);
                         self.costs.push(1.0 + PER_PIECE * pieces as f64);
                         self.handles.push(handle);
@@ -325,7 +328,7 @@ fn eases(style: &Style, body: &Body) -> BTreeMap<String, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+    use pattern::draft::{Model, TSHIRT_SEAMS, TshirtSize, tshirt};
     use spec::bodies::{Dimension, Measurements, Sex, build_body};
 
     #[test]
@@ -347,5 +350,46 @@ mod tests {
         check([1.78, 0.98, 0.85, 1.00]);
         check([1.75, 0.94, 0.84, 0.97]);
         check([1.70, 0.90, 0.80, 0.93]);
+    }
+
+    /// Random targets: each level asked for another ease, by up to 25 mm either way, with a chance of a half.
+    fn asked(style: &Style, body: &Body, random: &mut impl FnMut() -> f64) -> BTreeMap<String, [f64; 2]> {
+        let mut band = |ease_m: f64| {
+            let at_mm = mm(ease_m) + if random() < 0.5 { 50.0 * (random() - 0.5) } else { 0.0 };
+            [at_mm - 5.0, at_mm + 5.0]
+        };
+        eases(style, body).into_iter().map(|(level, ease_m)| (level, band(ease_m))).collect()
+    }
+
+    #[test]
+    fn no_handle_or_pair_of_a_change_can_be_spared_for_a_cheaper_one() {
+        const GOALS: usize = 8;
+        let mut state = 20_260_330_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1u32 << 31)
+        };
+        let person =
+            Measurements::of(Sex::Male, 1.76).with(Dimension::ChestGirth, 0.96).with(Dimension::WaistGirth, 0.85);
+        let (body, target) = (build_body(&person).expect("a body"), Target::default());
+        for goal in 0..GOALS {
+            let model = [Model::Tshirt, Model::Trousers][goal % 2];
+            let style = Style::read(&model.drafts()[1].pieces, model.seams(), "a.toml").expect("a style");
+            let wish = Wish { targets: asked(&style, &body, &mut random), ..Wish::of("a", "a", "M") };
+            let bench = Bench::new(&style, Vec::new(), (&body, &target, &wish)).expect("a bench");
+            let amounts = bench.found(&[]).expect("handles that move");
+            let limits: Vec<[f64; 2]> =
+                bench.handles.iter().map(|handle| [-bench.limit_m(*handle), bench.limit_m(*handle)]).collect();
+            let cost = |amounts: &[f64]| fit::alter::cost(&[], &limits, &bench.costs, amounts);
+            let missed_m = bench.missed_m(&amounts).expect("it moves");
+            let used: Vec<usize> = (0..amounts.len()).filter(|k| amounts[*k] != 0.0).collect();
+            for (a, b) in used.iter().flat_map(|a| used.iter().map(move |b| (*a, *b))).filter(|(a, b)| a <= b) {
+                let limits_m = (0..limits.len()).map(|k| if k == a || k == b { 0.0 } else { limits[k][1] });
+                let Ok(other) = bench.within(&limits_m.collect::<Vec<_>>(), &[]) else { continue };
+                let is_as_good = bench.missed_m(&other).expect("it moves") <= missed_m + from_mm(SLACK_MM);
+                let (own, other) = (cost(&amounts), cost(&other));
+                assert!(!is_as_good || other >= 0.9 * own, "goal {goal}: without {a} and {b} {other:.2}, not {own:.2}");
+            }
+        }
     }
 }

@@ -17,21 +17,39 @@ const STEP_M: f64 = 0.002;
 /// Step of amounts in a pattern maker's drawing, mm.
 const DRAWN_MM: f64 = 0.5;
 
-/// Handles for a trait, the first that a style has, each with the point of measure that changes by the amount of the
-/// trait; without one the handle moves by that amount. Sources: [Liechty10, Armstrong10, Aldrich15].
-const REMEDIES: [(Trait, &[(Handle, Option<Point>)]); 8] = [
-    (Trait::Seat, &[(Handle::Seat, Some(Point::BackRise)), (Handle::BackRise, None)]),
-    (
-        Trait::Abdomen,
-        &[(Handle::Abdomen, Some(Point::FrontRise)), (Handle::FrontRise, None), (Handle::FrontLength, None)],
-    ),
-    (Trait::SwayBack, &[(Handle::SwayBack, None), (Handle::BackRise, None), (Handle::BackLength, None)]),
-    (Trait::UpperBack, &[(Handle::UpperBack, None)]),
-    (Trait::Bust, &[(Handle::Bust, None)]),
-    (Trait::ShoulderSlope, &[(Handle::ShoulderSlope, None)]),
-    (Trait::ShoulderForward, &[(Handle::ForwardShoulder, None)]),
-    (Trait::Rise, &[(Handle::Rise, None)]),
-];
+/// What the trade alters for a trait.
+struct Remedy {
+    of: Trait,
+    /// Handles of garments that cover the part of the body.
+    covers: &'static [Handle],
+    /// Handles for the trait, the first that a style has, each with the point of measure that changes by the amount of
+    /// the trait; without one the handle moves by that amount.
+    handles: &'static [(Handle, Option<Point>)],
+}
+
+/// Sources: [Liechty10, Armstrong10, Aldrich15].
+const REMEDIES: [Remedy; 9] = {
+    use Handle::*;
+    use Trait as Of;
+    const SEAT: &[Handle] = &[Fork, Hip];
+    const SHOULDER: &[Handle] = &[ShoulderLength];
+    const TRUNK: &[Handle] = &[Fork, Hip, ShoulderLength];
+    [
+        remedy(Of::Seat, SEAT, &[(Seat, Some(Point::BackRise)), (BackRise, None)]),
+        remedy(Of::Abdomen, TRUNK, &[(Abdomen, Some(Point::FrontRise)), (FrontRise, None), (FrontLength, None)]),
+        remedy(Of::SwayBack, TRUNK, &[(SwayBack, None), (BackRise, None), (BackLength, None)]),
+        remedy(Of::UpperBack, SHOULDER, &[(UpperBack, None)]),
+        remedy(Of::Bust, SHOULDER, &[(Bust, None)]),
+        remedy(Of::ShoulderSlope, SHOULDER, &[(ShoulderSlope, None)]),
+        remedy(Of::ShoulderForward, SHOULDER, &[(ForwardShoulder, None)]),
+        remedy(Of::Rise, &[Fork], &[(Rise, None)]),
+        remedy(Of::HighHip, SEAT, &[]),
+    ]
+};
+
+const fn remedy(of: Trait, covers: &'static [Handle], handles: &'static [(Handle, Option<Point>)]) -> Remedy {
+    Remedy { of, covers, handles }
+}
 
 /// A trait of the subject, and the alteration for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -54,9 +72,12 @@ pub fn of(style: &Style, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Opt
     let known = style.handles();
     let found = body::figures(body).origin(Origin::Body)?;
     let clear = found.iter().filter(|found| found.is_clear());
-    let asked = clear.filter_map(|found| REMEDIES.iter().find(|(of, _)| *of == found.of).map(|(_, all)| (found, all)));
-    let remedy = |(found, handles): (&body::FigureFound, &&[(Handle, Option<Point>)])| {
-        let own = handles.iter().find(|(handle, _)| known.contains(handle) && !wish.without.contains(handle));
+    let is_covered = |remedy: &&Remedy| remedy.covers.iter().any(|handle| known.contains(handle));
+    let asked = clear.filter_map(|found| {
+        REMEDIES.iter().find(|remedy| remedy.of == found.of).filter(is_covered).map(|remedy| (found, remedy))
+    });
+    let altered = |(found, remedy): (&body::FigureFound, &Remedy)| {
+        let own = remedy.handles.iter().find(|(handle, _)| known.contains(handle) && !wish.without.contains(handle));
         let by_mm = own.map_or(0.0, |(handle, point)| found.amount_mm / ratio(style, *handle, *point));
         let most_mm = own.map_or(0.0, |(handle, _)| wish.limit_mm.unwrap_or_else(|| handle.most_mm()));
         let by_mm = (by_mm.clamp(-most_mm, most_mm) / DRAWN_MM).round() * DRAWN_MM;
@@ -68,7 +89,7 @@ pub fn of(style: &Style, body: &Body, wish: &Wish) -> Result<Vec<(ForFigure, Opt
         };
         (told, own.filter(|_| by_mm != 0.0).map(|(handle, _)| (*handle, from_mm(by_mm))))
     };
-    Ok(asked.map(remedy).collect())
+    Ok(asked.map(altered).collect())
 }
 
 /// Change of a point of measure by a handle, m/m; 1 without a point, or where it cannot be measured.

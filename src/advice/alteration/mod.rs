@@ -8,6 +8,7 @@ mod bench;
 mod figure;
 mod fitting_room;
 mod readings;
+mod signs;
 mod tried;
 mod written;
 
@@ -18,6 +19,7 @@ use serde::Serialize;
 use crate::alteration::bench::Bench;
 pub use crate::alteration::figure::ForFigure;
 use crate::alteration::fitting_room::FittingRoom;
+pub use crate::alteration::signs::SignRead;
 use crate::alteration::tried::Tried;
 use body::Body;
 use engine::{Outcome, stages};
@@ -235,6 +237,8 @@ pub struct Alteration {
     pub remarks: Vec<String>,
     /// Drape of the changed pattern, where the request has one.
     pub drape: Option<Redraped>,
+    /// Signs of a misfit on that drape.
+    pub signs: Vec<SignRead>,
     /// Changed pattern, its seam file, and a sheet of old and new outlines, by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
@@ -302,6 +306,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         readings: found.readings(wish),
         drapes: found.drapes,
         remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).cloned().collect(),
+        signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs::read(read, &style.handles())),
         drape: found.after.map(|(redraped, _)| redraped),
         files: written.files,
     })

@@ -146,7 +146,7 @@ impl Handle {
                  follows"),
             Self::Hip => ("hip", 20.0, true,
                 "half of the girth at the hip wider: side seams or outseams out there"),
-            Self::Hem => ("hem", 60.0, true,
+            Self::Hem => ("hem", 30.0, true,
                 "half of the lower edge wider: both side seams out there"),
             Self::Thigh => ("thigh", 15.0, true,
                 "half of the leg 25 mm below the fork wider: outseams out there"),
@@ -246,6 +246,28 @@ impl Handle {
     #[must_use]
     pub const fn is_half_girth(self) -> bool {
         self.entry().is_half_girth
+    }
+
+    /// True if the handle is for a figure, which no girth tells: it is no remedy for a girth by itself.
+    #[must_use]
+    pub const fn is_for_figure(self) -> bool {
+        use Handle::*;
+        matches!(
+            self,
+            Seat | Abdomen
+                | Rise
+                | FrontRise
+                | BackRise
+                | ShoulderSlope
+                | ForwardShoulder
+                | FrontWidth
+                | BackWidth
+                | UpperBack
+                | Bust
+                | SwayBack
+                | FrontLength
+                | BackLength
+        )
     }
 
     /// Handle with a given name.
