@@ -23,7 +23,7 @@ mod solve;
 mod tests;
 mod upper;
 
-pub use self::drawn::{Redrawn, redrawn};
+pub use self::drawn::{Redrawn, outlines_apart_m};
 
 use std::collections::BTreeMap;
 use std::ops::Range;
