@@ -51,7 +51,7 @@ pub fn written(
         let files = vec![(file.name.clone(), file.bytes.to_vec()), sheet];
         return Ok(Written { files, again, keeps_source: false, remarks: Vec::new() });
     };
-    let mut written = match kept(spec, &[spec], moves, name).and_then(|kept| kept.checked(spec, changed)) {
+    let mut written = match kept(spec, &[&spec.size], moves, name).and_then(|kept| kept.checked(spec, changed)) {
         Ok(written) => written,
         Err(NotKept(reason)) => anew(spec, seams, moves, standard, name, reason)?,
     };
@@ -72,12 +72,7 @@ pub fn nest(
     name: &str,
 ) -> Result<Vec<(String, Vec<u8>)>> {
     let jobs: Vec<&JobSpec> = others.iter().chain([spec]).collect();
-    let of_source = kept(spec, &jobs, moves, name).and_then(|kept| {
-        let read = |job: &&JobSpec| patterns::read_style(&kept.pattern, Some(&kept.seams), Some(&job.size), kept.unit);
-        jobs.iter().map(read).collect::<Result<Vec<_>>>()?;
-        Ok(files_of(&kept.pattern))
-    });
-    if let Ok(files) = of_source {
+    if let Ok(files) = kept_nest(spec, &jobs, moves, name) {
         return Ok(files);
     }
     let mut pieces: Vec<Piece> = Vec::new();
@@ -118,31 +113,49 @@ struct Kept {
     departs_m: f64,
 }
 
-/// Changes the sizes of some jobs in the files of their pattern, all of which must have the same.
-fn kept(spec: &JobSpec, jobs: &[&JobSpec], moves: &[(Handle, f64)], name: &str) -> std::result::Result<Kept, NotKept> {
-    let unit = spec.unit.as_deref().and_then(patterns::unit_of);
-    let parts = spec.pattern.parts();
+/// Changes all sizes of a pattern in its files, if they hold the sizes of all jobs, and reads these again.
+fn kept_nest(
+    spec: &JobSpec,
+    jobs: &[&JobSpec],
+    moves: &[(Handle, f64)],
+    name: &str,
+) -> std::result::Result<Vec<(String, Vec<u8>)>, NotKept> {
     let is_other = |job: &&&JobSpec| job.pattern.bytes != spec.pattern.bytes || job.unit != spec.unit;
     if let Some(other) = jobs.iter().find(is_other) {
         return Err(format!("size {} is in another file than size {}", other.size, spec.size).into());
     }
+    let source = patterns::Nest::read(&spec.pattern, spec.unit.as_deref().and_then(patterns::unit_of))?;
+    // The seam file is that of the requested size, which comes last.
+    let is_it = |size: &&str| size.eq_ignore_ascii_case(&spec.size);
+    let sizes: Vec<&str> = source.sizes().into_iter().filter(|size| !is_it(size)).chain([spec.size.as_str()]).collect();
+    let kept = kept(spec, &sizes, moves, name)?;
+    for job in jobs {
+        patterns::read_style(&kept.pattern, Some(&kept.seams), Some(&job.size), kept.unit)?;
+    }
+    Ok(files_of(&kept.pattern))
+}
+
+/// Changes some sizes of a job's pattern in its files.
+fn kept(spec: &JobSpec, sizes: &[&str], moves: &[(Handle, f64)], name: &str) -> std::result::Result<Kept, NotKept> {
+    let unit = spec.unit.as_deref().and_then(patterns::unit_of);
+    let parts = spec.pattern.parts();
     if let Some(other) = parts.iter().find(|part| source::kind(&part.bytes) != Kind::Dxf) {
         return Err(format!("{} is no DXF", other.name).into());
     }
     let Some(seams) = &spec.seams else { return Err("the pattern has no seam file".into()) };
     // Pieces of each size, and how many of them come of each part.
-    let mut sizes: Vec<(Vec<Piece>, Vec<usize>)> = Vec::new();
-    for job in jobs {
-        let of_part = |part: &SourceFile| patterns::pieces(part, Some(&job.size), unit);
+    let mut drawn: Vec<(Vec<Piece>, Vec<usize>)> = Vec::new();
+    for size in sizes {
+        let of_part = |part: &SourceFile| patterns::pieces(part, Some(size), unit);
         let of_parts = parts.iter().map(of_part).collect::<Result<Vec<_>>>()?;
         let counts = of_parts.iter().map(Vec::len).collect();
-        sizes.push((of_parts.concat(), counts));
+        drawn.push((of_parts.concat(), counts));
     }
-    let redrawings = sizes.iter().map(|(pieces, _)| Redrawn::of(pieces, &seams.bytes, &seams.name, moves));
+    let redrawings = drawn.iter().map(|(pieces, _)| Redrawn::of(pieces, &seams.bytes, &seams.name, moves));
     let redrawings = redrawings.collect::<std::result::Result<Vec<_>, _>>()?;
     let (mut changed, mut departs_m) = (Vec::new(), 0.0_f64);
     for (number, part) in parts.iter().enumerate() {
-        let of_sizes = sizes.iter().zip(&redrawings).flat_map(|((pieces, counts), redrawn)| {
+        let of_sizes = drawn.iter().zip(&redrawings).flat_map(|((pieces, counts), redrawn)| {
             let before: usize = counts[..number].iter().sum();
             (before..before + counts[number]).map(move |piece| (&pieces[piece], move |p| redrawn.carried(piece, p)))
         });
@@ -159,8 +172,8 @@ fn kept(spec: &JobSpec, jobs: &[&JobSpec], moves: &[(Handle, f64)], name: &str) 
         parts => SourceFile::folder(name, parts),
     };
     let mut reseamed = seams.bytes.to_vec();
-    for (job, redrawn) in jobs.iter().zip(&redrawings) {
-        let again = patterns::pieces(&pattern, Some(&job.size), unit)?;
+    for (size, redrawn) in sizes.iter().zip(&redrawings) {
+        let again = patterns::pieces(&pattern, Some(size), unit)?;
         let of_size = redrawn.seams(&again, &seams.bytes, &seams.name)?;
         // Corners are found on one size of a nest. Without a name of that size, the requested one comes last.
         if of_size != *seams.bytes {

@@ -217,3 +217,50 @@ impl Labels {
         middle
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draft::Model;
+
+    /// Positions and sizes of the labels of a sheet.
+    fn labels(sheet: &str) -> Vec<[f64; 4]> {
+        let number = |tag: &str, name: &str| -> f64 {
+            let value = tag.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
+            value.and_then(|value| value.parse().ok()).expect("a number")
+        };
+        let tags = sheet.split("<rect class=\"under\"").skip(1);
+        tags.map(|tag| ["x", "y", "width", "height"].map(|name| number(tag, name))).collect()
+    }
+
+    #[test]
+    fn every_edge_that_moves_has_one_arrow_with_its_way() {
+        let check = |model: Model, moves: &[(Handle, f64)], arrows: usize, says: &[&str]| {
+            let style = Style::read(&model.drafts().swap_remove(0).pieces, model.seams(), "a").expect("a style");
+            let sheet = changed_svg(&style, &style.moved(moves).expect("it has them"), moves);
+            assert_eq!(sheet.matches("class=\"piece\"").count(), style.pieces.len());
+            assert_eq!(sheet.matches("class=\"before\"").count(), style.pieces.len());
+            let labels = labels(&sheet);
+            assert_eq!(labels.len(), arrows, "{model:?} {moves:?}");
+            let apart = |a: &[f64; 4], b: &[f64; 4]| {
+                a[0] + a[2] <= b[0] || b[0] + b[2] <= a[0] || a[1] + a[3] <= b[1] || b[1] + b[3] <= a[1]
+            };
+            let all_apart = (0..arrows).all(|k| labels[..k].iter().all(|other| apart(other, &labels[k])));
+            assert!(all_apart, "{model:?} {moves:?}: {labels:?}");
+            for words in says {
+                assert!(sheet.contains(words), "{model:?}: {words} in {sheet}");
+            }
+        };
+        use Handle::*;
+        check(Model::Tshirt, &[], 0, &["dashed: before"]);
+        // The lower edges of front and back go down, and both side seams of each below the armhole, which they end at.
+        check(Model::Tshirt, &[(BodyLength, 0.02)], 2, &["body length +20.0 mm", ">20.0</text>"]);
+        check(Model::Tshirt, &[(Hem, 0.02)], 4, &["hem +20.0 mm, half of the girth", ">10.0</text>"]);
+        check(
+            Model::Dress,
+            &[(Waist, -0.01), (SkirtLength, 0.03)],
+            10,
+            &["waist -10.0 mm, half of the girth", ">30.0</text>"],
+        );
+    }
+}

@@ -64,9 +64,10 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         // Outlines come first: what lies on them stays on them.
         let (outlines, others): (Vec<&Entity<'_>>, Vec<&Entity<'_>>) =
             entities.iter().partition(|entity| self.is_outline(entity));
-        for entity in outlines {
-            self.outline(entity);
-        }
+        // The cut line comes before them all.
+        let (cut, within): (Vec<&Entity<'_>>, Vec<&Entity<'_>>) =
+            outlines.into_iter().partition(|entity| entity.layer == "1");
+        cut.into_iter().chain(within).for_each(|entity| self.outline(entity));
         self.mark_curves(&others);
         let shift_of = |layer: &str| {
             let first =
@@ -161,14 +162,16 @@ impl<'s, 'a, 'r> Redrawing<'s, 'a, 'r> {
         let points: Vec<V2> = chain.spots.iter().map(|spot| self.metres(*spot, chain.sense)).collect();
         let n = points.len();
         let is_own = matches!(entity.layer, "1" | "14" | "8");
-        let mut places: Vec<V2> = points.iter().map(|point| (self.redraw.carried)(*point)).collect();
+        // A sew line that ends on the cut line still does.
+        let mut places: Vec<V2> = points.iter().map(|point| self.place(*point)).collect();
         let mut added = 0;
         for side in 0..if chain.is_closed { n } else { n.saturating_sub(1) } {
             let next = (side + 1) % n;
             let bulge = self.bulge(&chain, side);
             let is_sewn = self.is_sewn([points[side], points[next]]);
             let is_divided = bulge.is_none() && is_sewn && !self.is_chord(&points, chain.is_closed, side);
-            let drawn = Side::new([points[side], points[next]], self.redraw.carried, is_divided);
+            let drawn =
+                Side::new([points[side], points[next]], [places[side], places[next]], self.redraw.carried, is_divided);
             match bulge {
                 Some((tag, bulge)) => self.bend(tag, bulge, [points[side], points[next]], chain.sense),
                 None => self.departs_m = self.departs_m.max(if is_own && is_sewn { drawn.departs_m } else { 0.0 }),

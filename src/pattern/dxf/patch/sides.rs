@@ -25,12 +25,13 @@ pub struct Side {
 }
 
 impl Side {
-    /// Side between two points, carried. If `is_divided`, it gets as few points as keep it within [`DRAWN_M`] of the
-    /// carried line.
-    pub fn new(ends: [V2; 2], carried: impl Fn(V2) -> V2, is_divided: bool) -> Self {
+    /// Side between two points that go to `places`, with the others carried. If `is_divided`, it gets as few points as keep
+    /// it within [`DRAWN_M`] of the carried line.
+    pub fn new(ends: [V2; 2], places: [V2; 2], carried: impl Fn(V2) -> V2, is_divided: bool) -> Self {
         let steps = ((ends[1] - ends[0]).norm() / STEP_M).ceil().clamp(2.0, MOST_STEPS) as usize;
         let share = |k: usize| k as f64 / steps as f64;
-        let line: Vec<V2> = (0..=steps).map(|k| carried(ends[0].lerp(&ends[1], share(k)))).collect();
+        let between = (1..steps).map(|k| carried(ends[0].lerp(&ends[1], share(k))));
+        let line: Vec<V2> = std::iter::once(places[0]).chain(between).chain([places[1]]).collect();
         let kept = if is_divided { evenly(&line) } else { vec![0, steps] };
         let departs_m = kept.windows(2).map(|pair| departs(&line, pair[0], pair[1])).fold(0.0, f64::max);
         let drawn = kept.into_iter().map(|k| (share(k), line[k])).collect();
@@ -112,7 +113,7 @@ mod tests {
         let ends = [V2::zeros(), V2::new(0.4, 0.0)];
         let check = |bend_m: f64, is_divided: bool, points: usize| {
             let carried = |p: V2| V2::new(p.x, 0.02 + bend_m * (p.x / 0.4 * std::f64::consts::PI).sin());
-            let side = Side::new(ends, carried, is_divided);
+            let side = Side::new(ends, ends.map(carried), carried, is_divided);
             assert_eq!(side.between().count(), points, "{bend_m}");
             assert!(side.departs_m <= DRAWN_M || !is_divided, "{}", side.departs_m);
             for share in [0.0, 0.1, 0.37, 0.5, 1.0] {
