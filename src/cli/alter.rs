@@ -35,6 +35,10 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
     let found = advice::alter(&study, &wish)?;
     if let Some(folder) = &arguments.output {
         context.write_files(folder, &found.files)?;
+        context.say(match found.keeps_source {
+            true => "the pattern is the file that came: nothing but coordinates of what moves has changed",
+            false => "the pattern is written as a new file",
+        });
     }
     match context.json {
         true => output::json(&found)?,

@@ -79,8 +79,10 @@ pub struct Piece {
 pub struct Beside {
     /// Names of the garment and of its sample size. As part of the name of a piece, they do not describe the piece.
     pub garment: Vec<String>,
-    /// True if the file draws half of the piece, and it was unfolded.
-    pub is_unfolded: bool,
+    /// Line number of its block in the file, from 1. `None` outside all blocks, and for other files than DXF.
+    pub line: Option<usize>,
+    /// Line at which the piece was unfolded. `None` if the file does not draw half of it.
+    pub fold: Option<[V2; 2]>,
     /// The piece in every size, from the smallest. Empty if the file holds one size.
     pub sizes: Arc<[Piece]>,
 }

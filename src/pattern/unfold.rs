@@ -9,14 +9,15 @@ const ON_FOLD_M: f64 = 0.1e-3;
 const CORNER_TURN_DEG: f64 = 10.0;
 
 /// Mirror line, which reflects points to the other half.
-struct Fold {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fold {
     from: V2,
     along: V2,
 }
 
 impl Fold {
-    fn of(piece: &Piece) -> Option<Self> {
-        let [from, to] = piece.mirror_line?;
+    /// Fold at a line. `None` for a line of no length.
+    pub(crate) fn at([from, to]: [V2; 2]) -> Option<Self> {
         Some(Self { from, along: (to - from).try_normalize(0.0)? })
     }
 
@@ -24,7 +25,8 @@ impl Fold {
         self.along.perp(&(point - self.from)).abs()
     }
 
-    fn reflected(&self, point: V2) -> V2 {
+    /// Reflection of a point.
+    pub(crate) fn reflected(&self, point: V2) -> V2 {
         let offset = point - self.from;
         self.from + self.along * (2.0 * self.along.dot(&offset)) - offset
     }
@@ -55,7 +57,7 @@ impl Piece {
     /// outline turns there.
     #[must_use]
     pub fn unfolded(&self) -> Option<Self> {
-        let fold = Fold::of(self)?;
+        let fold = Fold::at(self.mirror_line?)?;
         let outline = fold.opened(&self.outline)?;
         let sew_line = match &self.sew_line {
             Some(line) => Some(fold.opened(line)?),

@@ -83,13 +83,19 @@ impl SourceFile {
             let error = FileError::NoPattern { folder: path.to_owned(), patterns: json.len() };
             return Err(StudyError::refused(Origin::Pattern, error));
         }
+        let parts = files.iter().map(|file| Self::read(file)).collect::<Result<Vec<_>>>()?;
+        Ok(Self::folder(&name_of(path), &parts))
+    }
+
+    /// Folder of a name with some files.
+    #[must_use]
+    pub fn folder(name: &str, parts: &[Self]) -> Self {
         let mut bytes = Vec::new();
-        for file in files {
-            let part = Self::read(&file)?;
+        for part in parts {
             bytes.extend_from_slice(format!("{}\0{}\0", part.name, part.bytes.len()).as_bytes());
             bytes.extend_from_slice(&part.bytes);
         }
-        Ok(Self { name: format!("{}/", name_of(path)), bytes: bytes.into() })
+        Self { name: format!("{name}/"), bytes: bytes.into() }
     }
 
     /// Files that this value holds: itself, or those of the folder.
@@ -100,7 +106,7 @@ impl SourceFile {
         }
         let mut parts = Vec::new();
         let mut rest = &self.bytes[..];
-        // Bytes of `read_pattern` split without a remainder; other bytes end the list.
+        // Bytes of `folder` split without a remainder; other bytes end the list.
         while let Some((name, after)) = split_zero(rest) {
             let Some((length, after)) = split_zero(after) else { break };
             let length = String::from_utf8_lossy(length).parse().unwrap_or(usize::MAX);

@@ -239,6 +239,9 @@ pub struct Alteration {
     pub drape: Option<Redraped>,
     /// Signs of a misfit on that drape.
     pub signs: Vec<SignRead>,
+    /// True if the pattern is written in the files of the source, in which nothing but coordinates of what moves changes.
+    /// False if it is written anew.
+    pub keeps_source: bool,
     /// Changed pattern, its seam file, and a sheet of old and new outlines, by file name.
     #[serde(skip)]
     pub files: Vec<(String, Vec<u8>)>,
@@ -277,7 +280,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard, &name)?;
     if wish.is_nest {
         let name = names.part(&format!("{}-nest-{}", spec.garment, spec.subject));
-        written.files.push(written::nest(&spec, &others, &moves, wish.standard, &name)?);
+        written.files.extend(written::nest(&spec, &others, &moves, wish.standard, &name)?);
     }
     let levels = bench.levels(&changed, &written.again);
     let reasons = if wish.moves_mm.is_empty() { bench.reasons(&found.amounts, &levels) } else { Vec::new() };
@@ -305,9 +308,10 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         levels,
         readings: found.readings(wish),
         drapes: found.drapes,
-        remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).cloned().collect(),
+        remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).chain(&written.remarks).cloned().collect(),
         signs: found.after.as_ref().map_or_else(Vec::new, |(_, read)| signs::read(read, &style.handles())),
         drape: found.after.map(|(redraped, _)| redraped),
+        keeps_source: written.keeps_source,
         files: written.files,
     })
 }

@@ -10,7 +10,8 @@ use geom::polyline::segment_distance;
 use geom::units::mm;
 use pattern::dxf::{self, PatternFile, Standard};
 use pattern::grade::{self, Ungraded};
-use pattern::{Piece, Style, handle};
+use pattern::handle::Redrawn;
+use pattern::{Piece, Style};
 use report::FileNames;
 use spec::patterns;
 use store::files::SourceFile;
@@ -53,8 +54,8 @@ pub fn drawn(
     let mut files = vec![(format!("{whole}.seams.toml"), seams.bytes.to_vec())];
     let mut nest: Option<PatternFile> = None;
     for (name, turns) in names.iter().zip(turns) {
-        let pieces = handle::redrawn(&base, &seams.bytes, &seams.name, &knobs.moves(turns));
-        let mut pieces = pieces.origin(Origin::Grade)?.pieces;
+        let redrawn = Redrawn::of(&base, &seams.bytes, &seams.name, &knobs.moves(turns));
+        let mut pieces = redrawn.origin(Origin::Grade)?.pieces();
         pieces.iter_mut().for_each(|piece| piece.size = Some(name.clone()));
         let file = format!("{}.dxf", parts.part(&format!("{garment}-{name}")));
         let written = dxf::write_pieces(&pieces, &texts(name), Standard::Aama);

@@ -15,6 +15,7 @@ mod guard;
 mod loose;
 mod mtext;
 mod outline;
+pub mod patch;
 mod quality;
 mod sew_line;
 mod tags;
@@ -203,8 +204,8 @@ impl PatternFile {
             Piece {
                 beside: Beside {
                     garment: garment.iter().copied().chain(&piece.size).cloned().collect(),
-                    is_unfolded: unfolded.is_some(),
-                    ..Beside::default()
+                    fold: piece.mirror_line.filter(|_| unfolded.is_some()),
+                    ..piece.beside.clone()
                 },
                 ..unfolded.unwrap_or_else(|| piece.clone())
             }
@@ -385,7 +386,10 @@ impl PatternFile {
     fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
         let size = drawn.size();
         match drawn.into_piece(block, &mut self.warnings) {
-            Ok(piece) => self.pieces.push(piece),
+            Ok(mut piece) => {
+                piece.beside.line = line;
+                self.pieces.push(piece);
+            }
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, size, reason }),
         }
     }

@@ -12,7 +12,9 @@ use crate::style::correspond::shares;
 use crate::style::named::called;
 use crate::style::nest_corners::corners_of;
 use crate::style::{Style, StylePiece};
+use crate::unfold::Fold;
 use geom::V2;
+use geom::polyline::segment_distance;
 use geom::units::mm;
 use toml_edit::{Array, DocumentMut, Value, value};
 
@@ -24,66 +26,125 @@ const SHORT_M: f64 = 1e-3;
 /// Greatest difference between the changes of a block that is worn twice, m.
 const ALIKE_M: f64 = 0.05e-3;
 
-/// Changed pieces, and a seam file that makes the changed style of these pieces.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Redrawn {
-    /// Pieces as drawn, with changed outlines, in the order of the file.
-    pub pieces: Vec<Piece>,
-    /// Bytes of the seam file. Only `corners_at`, the positions of corners on their pieces, change.
-    pub seams: Vec<u8>,
+/// Handles applied to pieces as drawn: where every point of each piece goes.
+pub struct Redrawn<'a> {
+    pieces: &'a [Piece],
+    entries: SeamFile,
+    /// Displacements of the changed pieces, by their index.
+    carriers: BTreeMap<usize, Carrier>,
 }
 
-/// Applies handles with their amounts, m, to pieces as drawn. The pieces and the seam file make the style that has the
-/// handles. `file` is the name of the seam file for messages.
-///
-/// # Errors
-/// [`HandleError`] if pieces and seam file make no style, a handle cannot be applied, or a block that is worn twice
-/// would have to change in two ways.
-pub fn redrawn(
-    pieces: &[Piece],
-    seam_bytes: &[u8],
-    file: &str,
-    handles: &[(Handle, f64)],
-) -> Result<Redrawn, HandleError> {
-    let entries = SeamFile::parse(seam_bytes, file)?;
-    let style = Style::of(pieces, &entries, file)?;
-    let (mut after, mut steps) = (style.clone(), Vec::new());
-    for &(handle, amount_m) in handles {
-        let course = after.moved_in_steps(handle, amount_m, HALVINGS)?;
-        steps.extend(course.steps);
-        after = course.style;
-    }
-    let mut redrawn: BTreeMap<usize, Carrier<'_>> = BTreeMap::new();
-    for (number, (worn, entry)) in style.pieces.iter().zip(entries.piece.values()).enumerate() {
-        let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
-        let fields = steps.iter().filter_map(|fields| fields.get(&number)).collect();
-        let carrier = Carrier { pose: Pose::of(&pieces[drawn], worn, entry.mirror), fields };
-        if let Some(other) = redrawn.get(&drawn) {
-            let apart = |p: &V2| (carrier.carried(*p) - other.carried(*p)).norm();
-            let apart_m = pieces[drawn].outline.iter().map(apart).fold(0.0, f64::max);
-            if apart_m > ALIKE_M {
-                return Err(HandleError::Drawn { block: entry.block.clone(), apart_mm: mm(apart_m) });
-            }
+impl<'a> Redrawn<'a> {
+    /// Applies handles with their amounts, m, to pieces as drawn. `file` is the name of the seam file for messages.
+    ///
+    /// # Errors
+    /// [`HandleError`] if pieces and seam file make no style, a handle cannot be applied, or a block that is worn twice
+    /// would have to change in two ways.
+    pub fn of(
+        pieces: &'a [Piece],
+        seam_bytes: &[u8],
+        file: &str,
+        handles: &[(Handle, f64)],
+    ) -> Result<Self, HandleError> {
+        let entries = SeamFile::parse(seam_bytes, file)?;
+        let style = Style::of(pieces, &entries, file)?;
+        let (mut after, mut steps) = (style.clone(), Vec::new());
+        for &(handle, amount_m) in handles {
+            let course = after.moved_in_steps(handle, amount_m, HALVINGS)?;
+            steps.extend(course.steps);
+            after = course.style;
         }
-        redrawn.insert(drawn, carrier);
+        let mut carriers: BTreeMap<usize, Carrier> = BTreeMap::new();
+        for (number, (worn, entry)) in style.pieces.iter().zip(entries.piece.values()).enumerate() {
+            let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
+            let fields: Vec<Field> = steps.iter_mut().filter_map(|fields| fields.remove(&number)).collect();
+            let fold = pieces[drawn].beside.fold.and_then(Fold::at);
+            let carrier = Carrier { pose: Pose::of(&pieces[drawn], worn, entry.mirror), fields, fold };
+            if let Some(other) = carriers.get(&drawn) {
+                let apart = |p: &V2| (carrier.carried(*p) - other.carried(*p)).norm();
+                let apart_m = pieces[drawn].outline.iter().map(apart).fold(0.0, f64::max);
+                if apart_m > ALIKE_M {
+                    return Err(HandleError::Drawn { block: entry.block.clone(), apart_mm: mm(apart_m) });
+                }
+            }
+            carriers.insert(drawn, carrier);
+        }
+        Ok(Self { pieces, entries, carriers })
     }
-    let piece =
-        |(number, piece): (usize, &Piece)| redrawn.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece));
-    let changed: Vec<Piece> = pieces.iter().enumerate().map(piece).collect();
-    let mut corners = BTreeMap::new();
-    for (name, entry) in entries.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
-        let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
-        let vertices = corners_of(&pieces[drawn], entries.size.as_deref(), &entry.corners_at);
-        let (Some(by), Ok(vertices)) = (redrawn.get(&drawn), vertices) else { continue };
-        let (before, after) = (pieces[drawn].seam_outline(), changed[drawn].seam_outline());
-        let nearest = |place: V2| {
-            let away = |k: &usize| (after[*k] - place).norm_squared();
-            (0..after.len()).min_by(|vertex, other| away(vertex).total_cmp(&away(other))).unwrap_or(0)
+
+    /// Place of a point of a piece after the change. `piece` is the index of the piece. Half of a piece that is folded
+    /// changes as its other half does, so that it still lies at the fold.
+    #[must_use]
+    pub fn carried(&self, piece: usize, p: V2) -> V2 {
+        self.carriers.get(&piece).map_or(p, |by| by.carried(p))
+    }
+
+    /// Changed pieces, in the order of the file. Their outlines have as many vertices as follow the change within a
+    /// hundredth of a millimetre.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<Piece> {
+        let piece = |(number, piece): (usize, &Piece)| {
+            self.carriers.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece))
         };
-        let moved: Vec<usize> = vertices.into_iter().map(|vertex| nearest(by.carried(before[vertex]))).collect();
-        corners.insert(name.clone(), shares(after, &moved));
+        self.pieces.iter().enumerate().map(piece).collect()
     }
-    Ok(Redrawn { pieces: changed, seams: with_corners(seam_bytes, file, &corners)? })
+
+    /// Bytes of a seam file that makes the changed style of changed pieces, given in the order of the pieces before.
+    /// Only `corners_at`, the positions of corners on their pieces, change. Corners that are found on another size of a
+    /// nest stay.
+    ///
+    /// # Errors
+    /// [`HandleError`] if the bytes are no seam file.
+    pub fn seams(&self, changed: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Vec<u8>, HandleError> {
+        let (entries, mut corners) = (&self.entries, BTreeMap::new());
+        let made_on = entries.size.as_deref();
+        for (name, entry) in entries.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
+            let Some(&drawn) = called(self.pieces, &entry.block, made_on).first() else { continue };
+            let (before, Some(after)) = (&self.pieces[drawn], changed.get(drawn)) else { continue };
+            let is_made_on = |size: &Option<String>| {
+                size.as_deref().zip(made_on).is_some_and(|(size, made_on)| size.eq_ignore_ascii_case(made_on))
+            };
+            let is_other = !is_made_on(&after.size) && after.beside.sizes.iter().any(|sized| is_made_on(&sized.size));
+            let vertices = corners_of(before, made_on, &entry.corners_at);
+            let (Some(by), Ok(vertices), false) = (self.carriers.get(&drawn), vertices, is_other) else { continue };
+            let (before, after) = (before.seam_outline(), after.seam_outline());
+            let nearest = |place: V2| {
+                let away = |k: &usize| (after[*k] - place).norm_squared();
+                (0..after.len()).min_by(|vertex, other| away(vertex).total_cmp(&away(other))).unwrap_or(0)
+            };
+            let moved: Vec<usize> = vertices.into_iter().map(|vertex| nearest(by.carried(before[vertex]))).collect();
+            corners.insert(name.clone(), shares(after, &moved));
+        }
+        with_corners(seam_bytes, file, &corners)
+    }
+}
+
+/// Greatest distance between the edges of two styles with the same edges, m, each piece laid on the other by its corners.
+/// Infinite if they have not the same edges.
+#[must_use]
+pub fn outlines_apart_m(style: &Style, other: &Style) -> f64 {
+    let has_same = |(piece, other): (&StylePiece, &StylePiece)| piece.edges.len() == other.edges.len();
+    if style.pieces.len() != other.pieces.len() || !style.pieces.iter().zip(&other.pieces).all(has_same) {
+        return f64::INFINITY;
+    }
+    let middle = |piece: &StylePiece| -> V2 {
+        piece.edges.iter().map(|edge| edge.line.points()[0]).sum::<V2>() / piece.edges.len().max(1) as f64
+    };
+    let away = |points: &[V2], line: &[V2], by: V2| {
+        let distance = |p: &V2| {
+            line.windows(2).map(|ends| segment_distance(&ends[0], &ends[1], &(p + by))).fold(f64::INFINITY, f64::min)
+        };
+        points.iter().map(distance).fold(0.0, f64::max)
+    };
+    let apart = |(piece, other): (&StylePiece, &StylePiece)| {
+        let by = middle(other) - middle(piece);
+        let edges = piece.edges.iter().zip(&other.edges).map(|(edge, of_other)| {
+            let (line, other) = (edge.line.points(), of_other.line.points());
+            away(line, other, by).max(away(other, line, -by))
+        });
+        edges.fold(0.0, f64::max)
+    };
+    style.pieces.iter().zip(&other.pieces).map(apart).fold(0.0, f64::max)
 }
 
 /// Bytes of a seam file with changed `corners_at` of some pieces. The rest of its text stays.
@@ -132,17 +193,24 @@ impl Pose {
 }
 
 /// Displacement of a drawn piece by the fields of all handles in turn.
-struct Carrier<'a> {
+struct Carrier {
     pose: Pose,
-    fields: Vec<&'a Field>,
+    fields: Vec<Field>,
+    /// Fold at which the piece was unfolded.
+    fold: Option<Fold>,
 }
 
-impl Carrier<'_> {
+impl Carrier {
     fn carried(&self, p: V2) -> V2 {
         if self.fields.is_empty() {
             return p;
         }
-        self.pose.drawn(self.fields.iter().fold(self.pose.worn(p), |p, field| field.carried(p)))
+        let whole = |p: V2| self.pose.drawn(self.fields.iter().fold(self.pose.worn(p), |p, field| field.carried(p)));
+        match &self.fold {
+            // The mean of the change and of its mirror image. A band that stretches from one end stretches from the fold.
+            Some(fold) => whole(p).lerp(&fold.reflected(whole(fold.reflected(p))), 0.5),
+            None => whole(p),
+        }
     }
 
     /// Displaces a line, dividing its segments where the field bends them.

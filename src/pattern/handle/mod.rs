@@ -27,7 +27,7 @@ mod tests;
 mod upper;
 mod waist;
 
-pub use self::drawn::{Redrawn, redrawn};
+pub use self::drawn::{Redrawn, outlines_apart_m};
 pub use self::error::HandleError;
 pub use self::kind::Handle;
 

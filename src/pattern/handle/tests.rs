@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use super::{Handle, HandleError, redrawn};
+use super::{Handle, HandleError, Redrawn};
 use crate::draft::Model;
 use crate::dxf::{self, Unit};
 use crate::piece::Piece;
@@ -414,7 +414,7 @@ fn what_cannot_be_done_is_refused_with_its_reason() {
 fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     let check = |model: Model, handles: &[(Handle, f64)]| {
         let draft = model.drafts().swap_remove(0);
-        let pieces = redrawn(&draft.pieces, model.seams(), "seams", handles).expect("it has them").pieces;
+        let pieces = Redrawn::of(&draft.pieces, model.seams(), "seams", handles).expect("it has them").pieces();
         let bytes = dxf::write_pieces(&pieces, &[], dxf::Standard::Aama);
         let read = source::read(&bytes, "changed.dxf", None).expect("our own file").to_sew(None).expect("one size");
         let back = Style::read(&read, model.seams(), "seams").expect("the seams hold");
@@ -449,11 +449,13 @@ fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
     let style = Style::read(&draft.pieces, seams.as_bytes(), "tee").expect("it is sewn");
     for handles in [[(Handle::Chest, 0.025), (Handle::BodyLength, -0.1)], [(Handle::Hem, 0.06), (Handle::Bicep, -0.02)]]
     {
-        let changed = redrawn(&draft.pieces, seams.as_bytes(), "tee", &handles).expect("it has them");
-        let back = Style::read(&changed.pieces, &changed.seams, "tee").expect("its seam file holds");
+        let changed = Redrawn::of(&draft.pieces, seams.as_bytes(), "tee", &handles).expect("it has them");
+        let pieces = changed.pieces();
+        let reseamed = changed.seams(&pieces, seams.as_bytes(), "tee").expect("its own seams");
+        let back = Style::read(&pieces, &reseamed, "tee").expect("its seam file holds");
         let moved = style.moved(&handles).expect("it has them");
         assert!(styles_apart_mm(&back, &moved) < 0.05, "{handles:?}");
-        assert!(changed.seams != seams.as_bytes(), "{handles:?}");
+        assert!(reseamed != seams.as_bytes(), "{handles:?}");
     }
 }
 
@@ -487,9 +489,9 @@ fn what_lies_inside_goes_along() {
     let front = draft.pieces.iter_mut().find(|piece| piece.block == "FRONT").expect("it is drafted");
     front.drill_holes = vec![V2::new(0.0, 0.05), V2::new(0.1, 0.2)];
     front.internal_lines = vec![vec![V2::new(-0.1, 0.05), V2::new(0.1, 0.05)]];
-    let pieces = redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)])
+    let pieces = Redrawn::of(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)])
         .expect("it has it")
-        .pieces;
+        .pieces();
     let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
     let by: Vec<V2> =
         moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();

@@ -51,7 +51,7 @@ impl Cutting {
 pub fn is_half(piece: &Piece, shape: &Shape) -> bool {
     let Cutting { times, on_fold } = Cutting::of(piece);
     let is_lopsided = || (0..2).all(|turns| shape.framed(turns).0.mirror().is_none());
-    !piece.beside.is_unfolded && (on_fold || (times == Some(2) && is_lopsided()))
+    piece.beside.fold.is_none() && (on_fold || (times == Some(2) && is_lopsided()))
 }
 
 /// Number of copies that a text gives: `cut 2`, `cut 1 pair`. `None` for another text.

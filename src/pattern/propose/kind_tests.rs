@@ -139,7 +139,7 @@ fn a_piece_on_the_fold_is_half_unless_it_was_unfolded() {
     let on_fold = |piece: Piece, is_unfolded: bool| {
         let mut piece = piece;
         piece.texts.push((String::new(), "Cut 1 on fold".to_owned()));
-        piece.beside.is_unfolded = is_unfolded;
+        piece.beside.fold = is_unfolded.then_some([V2::zeros(), V2::y()]);
         piece
     };
     let tee = &Model::Tshirt.drafts()[1].pieces;

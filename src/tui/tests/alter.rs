@@ -73,6 +73,7 @@ pub fn found(request: &AlterRequest) -> Alteration {
             most_kpa: Some(0.12),
             drag_lines: 2,
         }),
+        keeps_source: true,
         files: vec![("tshirt-S-i.dxf".into(), b"dxf".to_vec()), ("tshirt-S-i.svg".into(), b"svg".to_vec())],
     }
 }

@@ -1,10 +1,14 @@
 //! Drawing of all pieces of a style, seen from outside, as SVG in millimetres. It has numbered corners and edges, grain
-//! lines, notches and numbered measurements.
+//! lines, notches and numbered measurements. `changed` draws a style before and after a change.
+
+mod changed;
+
+pub use self::changed::changed_svg;
 
 use std::fmt::Write as _;
 
 use super::MeasurementKind;
-use super::arrange::{arrange, arranged, hung};
+use super::arrange::{arranged, hung};
 use super::pom::PointOfMeasure;
 use super::style::{PathPart, Style, StyleMeasurement, StylePiece};
 use geom::V2;
@@ -29,6 +33,9 @@ text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .piece{fill:#f6f3ec;stroke:#3a3a3a;stroke-width:1.4;stroke-linejoin:round}\
 .free{fill:none;stroke:#3a3a3a;stroke-width:1.4;stroke-dasharray:7 4}\
 .before{fill:none;stroke:#c0392b;stroke-width:1.2;stroke-dasharray:5 4}\
+.way{fill:none;stroke:#c0392b;stroke-width:1.6;stroke-linecap:round;stroke-linejoin:round}\
+.under{fill:#fff;fill-opacity:.85}\
+.by{font-size:14px;font-weight:bold;fill:#c0392b;text-anchor:middle}\
 .thin{fill:none;stroke:#8a8a8a;stroke-width:1}\
 .measured{fill:none;stroke:#0a6a8a;stroke-width:2.6;stroke-linecap:round;opacity:.75}\
 .across{fill:none;stroke:#0a6a8a;stroke-width:1.4;stroke-dasharray:9 5}\
@@ -59,6 +66,7 @@ fn drawn(style: &Style) -> String {
     );
     for (index, piece) in style.pieces.iter().enumerate() {
         pen.piece(&mut out, &style.size, piece);
+        pen.numbers(&mut out, piece);
         pen.measurements(&mut out, style, index);
     }
     legend(&mut out, style, sheet, rows);
@@ -80,21 +88,6 @@ pub fn points_svg(style: &Style) -> String {
         is_free_edge: false,
     };
     drawn(&hung(&Style { measurements: points.map(measurement).collect(), ..style.clone() }))
-}
-
-/// Draws a changed style as [`svg`] does, with the outlines before the change dashed.
-#[must_use]
-pub fn changed_svg(before: &Style, after: &Style) -> String {
-    let placed = arrange(after);
-    let now = arranged(after);
-    let all: Vec<V2> = now.pieces.iter().flat_map(StylePiece::outline).collect();
-    let (low, high) = bounds_mm(&all);
-    let pen = Pen { origin: V2::new(MARGIN_MM - low.x, MARGIN_MM + TITLE_MM + high.y) };
-    let mut old = String::new();
-    for (piece, place) in before.pieces.iter().zip(&placed) {
-        pen.path(&mut old, "before", piece.outline().into_iter().map(|p| place.at(p)), true);
-    }
-    svg(after).replace("</svg>", &format!("{old}</svg>"))
 }
 
 fn bounds_mm(points: &[V2]) -> (V2, V2) {
@@ -122,6 +115,7 @@ impl Pen {
         out.push_str(if is_closed { "Z\"/>\n" } else { "\"/>\n" });
     }
 
+    /// Draws outline, notches and grain line of a piece, with its name and size.
     fn piece(&self, out: &mut String, size: &str, piece: &StylePiece) {
         let outline = piece.outline();
         self.path(out, "piece", outline.iter().copied(), true);
@@ -131,11 +125,20 @@ impl Pen {
             self.path(out, "free", [notch.at, inner], false);
         }
         self.grain(out, piece, &outline);
-        let (low, high) = bounds_mm(&outline);
-        let title = V2::new(self.origin.x + low.x, self.origin.y - high.y - 14.0);
-        let id = escaped(&piece.id.replace('_', " "));
-        let size = escaped(size);
-        let _ = writeln!(out, "<text class=\"title\" x=\"{:.1}\" y=\"{:.1}\">{id} {size}</text>", title.x, title.y);
+        let at = self.title_at(&outline);
+        let title = escaped(&title(piece, size));
+        let _ = writeln!(out, "<text class=\"title\" x=\"{:.1}\" y=\"{:.1}\">{title}</text>", at.x, at.y);
+    }
+
+    /// Lower left corner of the title of a piece on the sheet.
+    fn title_at(&self, outline: &[V2]) -> V2 {
+        let (low, high) = bounds_mm(outline);
+        V2::new(self.origin.x + low.x, self.origin.y - high.y - 14.0)
+    }
+
+    /// Writes the numbers of corners and edges.
+    fn numbers(&self, out: &mut String, piece: &StylePiece) {
+        let outline = piece.outline();
         for (number, &corner) in piece.corners.iter().enumerate() {
             let p = self.at(corner) + outwards(&outline, corner) * (0.7 * LABEL_MM) + V2::new(0.0, 4.0);
             let _ = writeln!(out, "<text class=\"corner\" x=\"{:.1}\" y=\"{:.1}\">{number}</text>", p.x, p.y);
@@ -193,6 +196,11 @@ impl Pen {
         }
         labels.into_iter().for_each(|(place, no)| numbered_disc(out, place, no));
     }
+}
+
+/// Title of a piece: its name and its size.
+fn title(piece: &StylePiece, size: &str) -> String {
+    format!("{} {size}", piece.id.replace('_', " "))
 }
 
 /// Direction on the sheet away from the piece at a corner of its outline, longer at a reflex corner, where the gap is

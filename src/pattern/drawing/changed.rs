@@ -1,0 +1,266 @@
+//! Drawing of a changed style: outlines before and after over each other, with the way that each edge has moved, in
+//! millimetres.
+
+use std::fmt::Write as _;
+
+use super::{CSS, MARGIN_MM, Pen, TITLE_MM, bounds_mm, escaped, title};
+use crate::arrange::{Placed, arrange, arranged};
+use crate::handle::Handle;
+use crate::style::{Style, StylePiece};
+use geom::V2;
+use geom::polyline::Polyline;
+use geom::units::mm;
+
+/// Way of an edge, mm, from which it has an arrow.
+const MOVED_MM: f64 = 1.0;
+/// Difference of two ways of neighbouring edges, mm, up to which one arrow shows both.
+const SAME_MM: f64 = 0.5;
+/// Number of parts of an edge at whose ends its way is measured.
+const PARTS: u32 = 40;
+/// Preference for the middle of an edge, as a share of the way: an edge that has moved as a whole has its arrow there.
+const TO_MIDDLE: f64 = 0.05;
+/// Height of a line of text, mm.
+const LINE_MM: f64 = 24.0;
+/// Height of a label, and width of one of its signs, mm.
+const LABEL_MM: V2 = V2::new(8.2, 16.0);
+/// Distances of a label from the tip of its arrow that are tried, mm.
+const DISTANCES_MM: [f64; 6] = [18.0, 27.0, 38.0, 52.0, 70.0, 95.0];
+/// Number of directions that are tried at each distance.
+const DIRECTIONS: u32 = 16;
+/// Change of a measurement, mm, from which it is listed.
+const LISTED_MM: f64 = 0.05;
+
+/// Way of a point of an edge on the sheet, mm.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    from: V2,
+    to: V2,
+    /// Length, mm.
+    length_mm: f64,
+    /// Position along the edge, from 0 to 1.
+    share: f64,
+}
+
+/// Draws a style that some handles have changed by their amounts, m: the pieces, and their outlines before the change
+/// dashed. An arrow shows how far each edge has moved where it has moved most, unless that is less than a millimetre.
+/// Below stand the handles, and the measurements that change.
+#[must_use]
+pub fn changed_svg(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> String {
+    let (places, now) = (arrange(after), arranged(after));
+    let laid = |(piece, place): (&StylePiece, &Placed)| -> Vec<Polyline> {
+        piece.edges.iter().map(|edge| edge.line.mapped(|p| place.at(p))).collect()
+    };
+    let then: Vec<Vec<Polyline>> = before.pieces.iter().zip(&places).map(laid).collect();
+    let points = then.iter().flatten().flat_map(|line| line.points().iter().copied());
+    let all: Vec<V2> = now.pieces.iter().flat_map(StylePiece::outline).chain(points).collect();
+    let (low, high) = bounds_mm(&all);
+    let pen = Pen { origin: V2::new(MARGIN_MM - low.x, MARGIN_MM + TITLE_MM + high.y) };
+    let notes = notes(before, after, moves);
+    let widest = notes.iter().map(|note| note.chars().count()).max().unwrap_or(0) as f64 * 9.0;
+    let width = (high.x - low.x).max(widest) + 2.0 * MARGIN_MM;
+    let drawn_mm = high.y - low.y + 2.0 * MARGIN_MM + TITLE_MM;
+    let height = drawn_mm + LINE_MM * notes.len() as f64 + MARGIN_MM;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
+         <style>{CSS}</style>\n<rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"#fff\"/>\n"
+    );
+    now.pieces.iter().for_each(|piece| pen.piece(&mut out, &now.size, piece));
+    for line in &then {
+        let outline = line.iter().flat_map(|line| line.points().split_last().map_or(&[][..], |(_, others)| others));
+        pen.path(&mut out, "before", outline.copied(), true);
+    }
+    let ways: Vec<Way> = now.pieces.iter().zip(&then).flat_map(|(piece, then)| ways(&pen, piece, then)).collect();
+    let mut labels = Labels { sheet: V2::new(width, drawn_mm), taken: ways.iter().map(Way::extent).collect() };
+    labels.taken.extend(now.pieces.iter().map(|piece| title_extent(&pen, piece, &now.size)));
+    ways.iter().for_each(|way| way.draw(&mut out, labels.place(way)));
+    for (line, note) in notes.iter().enumerate() {
+        let y = drawn_mm + LINE_MM * line as f64 + 10.0;
+        let _ = writeln!(out, "<text class=\"note\" x=\"{MARGIN_MM:.1}\" y=\"{y:.1}\">{}</text>", escaped(note));
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+/// Lower and upper corner of the title of a piece on the sheet, mm.
+fn title_extent(pen: &Pen, piece: &StylePiece, size: &str) -> [V2; 2] {
+    let at = pen.title_at(&piece.outline());
+    // Letters of 19 mm are 12 mm wide.
+    [at - V2::new(0.0, 19.0), at + V2::new(12.0 * title(piece, size).chars().count() as f64, 4.0)]
+}
+
+/// Handles with their amounts, and measurements that change with their lengths before and after.
+fn notes(before: &Style, after: &Style, moves: &[(Handle, f64)]) -> Vec<String> {
+    let moved = |(handle, amount_m): &(Handle, f64)| {
+        let of = if handle.is_half_girth() { ", half of the girth" } else { "" };
+        format!("{} {:+.1} mm{of}", handle.as_str().replace('_', " "), mm(*amount_m))
+    };
+    let pairs = before.measurements.iter().zip(&after.measurements);
+    let changed = pairs.filter(|(was, is)| mm(is.l2d_m - was.l2d_m).abs() >= LISTED_MM);
+    let changed = changed.map(|(was, is)| {
+        let [was_mm, is_mm] = [was.l2d_m, is.l2d_m].map(mm);
+        format!("{}: {was_mm:.1} to {is_mm:.1} mm ({:+.1})", is.name, is_mm - was_mm)
+    });
+    let key = "dashed: before; arrows: how far the cloth moves, in mm".to_owned();
+    moves.iter().map(moved).chain(changed).chain([key]).collect()
+}
+
+/// The greatest way of each edge that moves, without those that a neighbour shows.
+fn ways(pen: &Pen, piece: &StylePiece, before: &[Polyline]) -> Vec<Way> {
+    let edges: Vec<Way> =
+        piece.edges.iter().zip(before).map(|(edge, before)| greatest(pen, before, &edge.line)).collect();
+    let n = edges.len();
+    let is_shown_beside = |k: usize| {
+        let way = edges[k];
+        let neighbour = match way.share {
+            0.0 => (k + n - 1) % n,
+            1.0 => (k + 1) % n,
+            _ => return false,
+        };
+        let other = edges[neighbour];
+        let is_same = (other.to - other.from - (way.to - way.from)).norm() < SAME_MM;
+        // Of two edges that have moved most at their common corner, the first shows it.
+        let is_at_corner = other.share == 1.0 - way.share;
+        is_same && n > 1 && (!is_at_corner || neighbour < k)
+    };
+    (0..n).filter(|&k| edges[k].length_mm >= MOVED_MM && !is_shown_beside(k)).map(|k| edges[k]).collect()
+}
+
+fn greatest(pen: &Pen, before: &Polyline, after: &Polyline) -> Way {
+    let way = |part: u32| {
+        let share = f64::from(part) / f64::from(PARTS);
+        let [from, to] = [before, after].map(|line| line.at(share * line.length()));
+        Way { from: pen.at(from), to: pen.at(to), length_mm: mm((to - from).norm()), share }
+    };
+    let worth = |way: &Way| way.length_mm * (1.0 - TO_MIDDLE * (2.0 * way.share - 1.0).abs());
+    (1..=PARTS).map(way).fold(way(0), |best, other| if worth(&other) > worth(&best) { other } else { best })
+}
+
+impl Way {
+    /// Lower and upper corner of what the arrow covers, mm.
+    fn extent(&self) -> [V2; 2] {
+        [self.from.inf(&self.to).add_scalar(-2.0), self.from.sup(&self.to).add_scalar(2.0)]
+    }
+
+    fn text(&self) -> String {
+        format!("{:.1}", self.length_mm)
+    }
+
+    /// Draws the arrow, and its label with a line that leads to it.
+    fn draw(&self, out: &mut String, label: V2) {
+        let along = (self.to - self.from) / self.length_mm;
+        let side = V2::new(-along.y, along.x);
+        let head = (0.5 * self.length_mm).min(6.0);
+        let barbs = [1.0, -1.0].map(|sign| self.to - along * head + side * (0.45 * head * sign));
+        let _ = writeln!(
+            out,
+            "<path class=\"way\" d=\"M{:.2} {:.2}L{:.2} {:.2}M{:.2} {:.2}L{:.2} {:.2}L{:.2} {:.2}\"/>",
+            self.from.x,
+            self.from.y,
+            self.to.x,
+            self.to.y,
+            barbs[0].x,
+            barbs[0].y,
+            self.to.x,
+            self.to.y,
+            barbs[1].x,
+            barbs[1].y
+        );
+        let text = self.text();
+        let size = V2::new(LABEL_MM.x * text.len() as f64, LABEL_MM.y);
+        let corner = label - size * 0.5;
+        let _ = writeln!(
+            out,
+            "<path class=\"thin\" d=\"M{:.2} {:.2}L{:.2} {:.2}\"/><rect class=\"under\" x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" \
+             height=\"{:.1}\"/><text class=\"by\" x=\"{:.1}\" y=\"{:.1}\">{text}</text>",
+            self.to.x,
+            self.to.y,
+            label.x,
+            label.y,
+            corner.x,
+            corner.y,
+            size.x,
+            size.y,
+            label.x,
+            label.y + 4.8
+        );
+    }
+}
+
+/// Places of labels on the sheet.
+struct Labels {
+    /// Width and height of the sheet, mm.
+    sheet: V2,
+    /// Lower and upper corners of what is covered.
+    taken: Vec<[V2; 2]>,
+}
+
+impl Labels {
+    /// Middle of the label of an arrow: the first free place, in the direction of the arrow first. Where none is free, the
+    /// first of all.
+    fn place(&mut self, way: &Way) -> V2 {
+        let half = V2::new(LABEL_MM.x * way.text().len() as f64, LABEL_MM.y) * 0.5;
+        let along = (way.to - way.from) / way.length_mm;
+        let turned = |k: u32| {
+            // 0, 1, -1, 2, -2 ... parts of a turn.
+            let step = f64::from(k.div_ceil(2)) * if k % 2 == 1 { 1.0 } else { -1.0 };
+            let (sine, cosine) = (step * std::f64::consts::TAU / f64::from(DIRECTIONS)).sin_cos();
+            V2::new(cosine * along.x - sine * along.y, sine * along.x + cosine * along.y)
+        };
+        let tried = DISTANCES_MM.into_iter().flat_map(|far| (0..DIRECTIONS).map(move |k| way.to + turned(k) * far));
+        let is_free = |middle: &V2| {
+            let (low, high) = (middle - half, middle + half);
+            let meets = |[a, b]: &[V2; 2]| low.x < b.x && high.x > a.x && low.y < b.y && high.y > a.y;
+            low.min() > 0.0 && high.x < self.sheet.x && high.y < self.sheet.y && !self.taken.iter().any(meets)
+        };
+        let middle = tried.clone().find(is_free).or_else(|| tried.clone().next()).unwrap_or(way.to);
+        self.taken.push([middle - half, middle + half]);
+        middle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draft::Model;
+
+    /// Positions and sizes of the labels of a sheet.
+    fn labels(sheet: &str) -> Vec<[f64; 4]> {
+        let number = |tag: &str, name: &str| -> f64 {
+            let value = tag.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
+            value.and_then(|value| value.parse().ok()).expect("a number")
+        };
+        let tags = sheet.split("<rect class=\"under\"").skip(1);
+        tags.map(|tag| ["x", "y", "width", "height"].map(|name| number(tag, name))).collect()
+    }
+
+    #[test]
+    fn every_edge_that_moves_has_one_arrow_with_its_way() {
+        let check = |model: Model, moves: &[(Handle, f64)], arrows: usize, says: &[&str]| {
+            let style = Style::read(&model.drafts().swap_remove(0).pieces, model.seams(), "a").expect("a style");
+            let sheet = changed_svg(&style, &style.moved(moves).expect("it has them"), moves);
+            assert_eq!(sheet.matches("class=\"piece\"").count(), style.pieces.len());
+            assert_eq!(sheet.matches("class=\"before\"").count(), style.pieces.len());
+            let labels = labels(&sheet);
+            assert_eq!(labels.len(), arrows, "{model:?} {moves:?}");
+            let apart = |a: &[f64; 4], b: &[f64; 4]| {
+                a[0] + a[2] <= b[0] || b[0] + b[2] <= a[0] || a[1] + a[3] <= b[1] || b[1] + b[3] <= a[1]
+            };
+            let all_apart = (0..arrows).all(|k| labels[..k].iter().all(|other| apart(other, &labels[k])));
+            assert!(all_apart, "{model:?} {moves:?}: {labels:?}");
+            for words in says {
+                assert!(sheet.contains(words), "{model:?}: {words} in {sheet}");
+            }
+        };
+        use Handle::*;
+        check(Model::Tshirt, &[], 0, &["dashed: before"]);
+        // The lower edges of front and back go down, and both side seams of each below the armhole, which they end at.
+        check(Model::Tshirt, &[(BodyLength, 0.02)], 2, &["body length +20.0 mm", ">20.0</text>"]);
+        check(Model::Tshirt, &[(Hem, 0.02)], 4, &["hem +20.0 mm, half of the girth", ">10.0</text>"]);
+        check(
+            Model::Dress,
+            &[(Waist, -0.01), (SkirtLength, 0.03)],
+            10,
+            &["waist -10.0 mm, half of the girth", ">30.0</text>"],
+        );
+    }
+}
