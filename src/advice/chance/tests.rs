@@ -76,7 +76,7 @@ fn eases_are_nearly_linear_in_the_dimensions() {
     let (mut squares, mut count) = (0.0, 0);
     for _ in 0..6 {
         let person = bench.person(&mut draw);
-        let linear = bench.eases_m(&bench.sizes[0], &person, &mut draw);
+        let linear = bench.linear_m(&bench.sizes[0], &person);
         let body = bodies::build_body(&person).expect("a person");
         let built = ease::on(&styles[0].1, &body);
         for (level, ease_m) in bench.sizes[0].levels.iter().zip(linear) {

@@ -24,6 +24,7 @@ mod tests;
 mod upper;
 
 pub use self::drawn::{Redrawn, redrawn};
+pub(crate) use self::solve::least_step;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
