@@ -42,7 +42,8 @@ pub fn drawn(asked: &Asked<'_>, names: &[String], knobs: &Knobs, turns: &Turns, 
     if sizes.is_empty() {
         return Err(AdviceError::EmptyNest.into());
     }
-    let Graded { pieces, table, seams } = knobs.growth.graded(&sizes, run.sample()).origin(Origin::Grade)?;
+    let Graded { pieces, table, seams, styles: grown } =
+        knobs.growth.graded(&sizes, run.sample()).origin(Origin::Grade)?;
     let imprint = asked.imprint()?;
     let texts = |size: &str| -> Vec<(String, String)> {
         let own = [("Style Name", garment.as_str()), ("Sample Size", size), ("Units", "METRIC")];
@@ -60,11 +61,10 @@ pub fn drawn(asked: &Asked<'_>, names: &[String], knobs: &Knobs, turns: &Turns, 
     ];
     let (nest, mut apart_m) = (read_again(&written, rules.as_bytes(), &whole)?, 0.0_f64);
     let mut styles = Vec::new();
-    for (name, (_, amounts)) in names.iter().zip(&sizes) {
+    for (name, grown) in names.iter().zip(&grown) {
         let pieces = nest.to_sew(Some(name)).origin(Origin::Grade)?;
         let style = Style::read(&pieces, &seams, &format!("{whole}.seams.toml")).origin(Origin::Grade)?;
-        let grown = knobs.growth.sized(amounts).origin(Origin::Grade)?;
-        apart_m = apart_m.max(apart(&grown, &style, name)?);
+        apart_m = apart_m.max(apart(grown, &style, name)?);
         let sized: Vec<Piece> = nest.pieces.iter().filter(|piece| piece.size.as_ref() == Some(name)).cloned().collect();
         files.push((
             format!("{}.dxf", parts.part(&format!("{garment}-{name}"))),

@@ -68,6 +68,18 @@ pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, Grad
 
 /// Grades one piece into one size.
 fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
+    let graded = moved_piece(piece, table, size)?;
+    if let Some(place) = self_crossing(&graded.outline) {
+        return Err(format!("the graded outline crosses itself at ({:.2}, {:.2}) mm", mm(place.x), mm(place.y)));
+    }
+    if signed_area(&graded.outline) <= 0.0 {
+        return Err("the graded outline encloses no area".to_owned());
+    }
+    Ok(graded)
+}
+
+/// Moves the points of a piece into one size, whatever its outline becomes.
+fn moved_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
     if let Some([from, to]) = piece.grade_reference {
         let along = to - from;
         if along.y.abs() > HORIZONTAL * along.x.abs() {
@@ -87,12 +99,6 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
         |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| field.line(line, false)).collect() };
     let moved_ends = |ends: Option<[V2; 2]>| ends.map(|ends| ends.map(|end| moved(&end)));
     let outline: Vec<V2> = piece.outline.iter().zip(&field.steps).map(|(point, step)| point + step).collect();
-    if let Some(place) = self_crossing(&outline) {
-        return Err(format!("the graded outline crosses itself at ({:.2}, {:.2}) mm", mm(place.x), mm(place.y)));
-    }
-    if signed_area(&outline) <= 0.0 {
-        return Err("the graded outline encloses no area".to_owned());
-    }
     Ok(Piece {
         outline,
         drawn_perimeter_m: None,

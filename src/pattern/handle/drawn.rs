@@ -87,7 +87,7 @@ pub fn redrawn(
 }
 
 /// Bytes of a seam file with changed `corners_at` of some pieces. The rest of its text stays.
-fn with_corners(
+pub(crate) fn with_corners(
     seam_bytes: &[u8],
     file: &str,
     corners: &BTreeMap<String, Vec<[f64; 2]>>,

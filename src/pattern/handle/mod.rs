@@ -23,6 +23,7 @@ mod solve;
 mod tests;
 mod upper;
 
+pub(crate) use self::drawn::with_corners;
 pub use self::drawn::{Redrawn, redrawn};
 pub(crate) use self::solve::least_step;
 

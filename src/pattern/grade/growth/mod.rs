@@ -15,7 +15,7 @@ pub use self::nest::Graded;
 use std::collections::BTreeMap;
 
 use super::cardinal::{self, Cardinal, Kind};
-use super::{Field, GradeTable, graded_piece};
+use super::{Field, GradeTable, graded_piece, moved_piece};
 use crate::dxf::Unit;
 use crate::garment::Role;
 use crate::handle::{self, Handle, HandleError, Redrawn, least_step};
@@ -101,6 +101,8 @@ pub struct Growth {
     /// Pieces of the sample size, with a grade point at every cardinal point.
     pieces: Vec<Piece>,
     points: Vec<Cardinal>,
+    /// Numbers of the points that are corners by `corners_at`, by the identifier of the piece.
+    corners: BTreeMap<String, Vec<usize>>,
     style: Style,
     /// Lengths of both sides of each seam of the sample size, m.
     lengths_m: Vec<[f64; 2]>,
@@ -149,6 +151,7 @@ impl Growth {
             loose,
             tolerance_m,
             points: Vec::new(),
+            corners: BTreeMap::new(),
             pieces,
             style,
             lengths_m,
@@ -185,9 +188,17 @@ impl Growth {
     fn try_handles(&mut self, handles: &[Handle]) -> Result<(), GrowthError> {
         let mut points: Vec<Cardinal> =
             self.pieces.iter().enumerate().flat_map(|(number, piece)| cardinal::points(number, piece)).collect();
-        let corners = self.corners_of_seams().into_iter().filter(|corner| !points.contains(corner));
-        let corners: Vec<Cardinal> = corners.collect();
-        points.extend(corners);
+        for (name, corners) in self.corners_of_seams() {
+            let numbers = corners.into_iter().map(|corner| {
+                let known = points.iter().position(|point| *point == corner);
+                known.unwrap_or_else(|| {
+                    points.push(corner);
+                    points.len() - 1
+                })
+            });
+            let numbers = numbers.collect();
+            self.corners.insert(name, numbers);
+        }
         let sides: Vec<cardinal::Side> =
             self.pieces.iter().enumerate().flat_map(|(number, piece)| cardinal::sides(number, piece)).collect();
         // Places along the sides come after the points.
@@ -240,21 +251,16 @@ impl Growth {
         Ok(())
     }
 
-    /// Corners that the edges of the seam file refer to by their places.
-    fn corners_of_seams(&self) -> Vec<Cardinal> {
-        let mut corners = Vec::new();
-        for entry in self.loose.piece.values().filter(|entry| !entry.corners_at.is_empty()) {
-            let Some(&number) = called(&self.pieces, &entry.block, self.loose.size.as_deref()).first() else {
-                continue;
-            };
-            let piece = &self.pieces[number];
-            let kind = if piece.sew_line.is_some() { Kind::SewLine } else { Kind::Outline };
-            let vertices = corners_of(piece, self.loose.size.as_deref(), &entry.corners_at).unwrap_or_default();
-            corners.extend(vertices.into_iter().map(|vertex| Cardinal {
-                piece: number,
-                at: piece.seam_outline()[vertex],
-                kind,
-            }));
+    /// Corners that the edges of the seam file refer to by their places, by the identifier of the piece.
+    fn corners_of_seams(&self) -> BTreeMap<String, Vec<Cardinal>> {
+        let mut corners = BTreeMap::new();
+        for (name, entry) in self.loose.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
+            let Some(&piece) = called(&self.pieces, &entry.block, self.loose.size.as_deref()).first() else { continue };
+            let drawn = &self.pieces[piece];
+            let kind = if drawn.sew_line.is_some() { Kind::SewLine } else { Kind::Outline };
+            let vertices = corners_of(drawn, self.loose.size.as_deref(), &entry.corners_at).unwrap_or_default();
+            let corner = |vertex: usize| Cardinal { piece, at: drawn.seam_outline()[vertex], kind };
+            corners.insert(name.clone(), vertices.into_iter().map(corner).collect());
         }
         corners
     }
@@ -289,7 +295,9 @@ impl Growth {
             if is_still {
                 return Ok(piece.clone());
             }
-            graded_piece(piece, &table, 1).map_err(|found| GrowthError::Piece { piece: piece.name.clone(), found })
+            // A trial by half a millimetre tells lengths, even where it closes a slit.
+            let moved = if only.is_some() { moved_piece(piece, &table, 1) } else { graded_piece(piece, &table, 1) };
+            moved.map_err(|found| GrowthError::Piece { piece: piece.name.clone(), found })
         };
         self.pieces.iter().enumerate().map(piece).collect()
     }
